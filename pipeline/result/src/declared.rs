@@ -262,6 +262,24 @@ impl<const N: usize> Group<Array<N>> {
     }
 }
 
+impl<const N: usize> Group<Array<N, u32>> {
+    /// Writes the `values` of its only array, without a copy.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write_counts(
+        &self,
+        writer: &mut LabelledWriter,
+        names: Names<'_>,
+        values: &[u32],
+    ) -> Result<(), LabelledError> {
+        let own = &self.quantities[0];
+        let axes: Vec<_> = own.axes.iter().map(|axis| named(axis, names)).collect();
+        let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
+        writer.array_u32(&self.path(own, names), &dims, values, &named(own.unit, names), &named(own.long_name, names))
+    }
+}
+
 impl<T> Group<T> {
     /// The group of all measures: `/urs` of `/urs/<im>`.
     pub fn root(&self) -> &'static str {
@@ -283,7 +301,7 @@ impl<T> Group<T> {
     }
 
     /// The path of the first of its arrays.
-    pub(super) fn first_path(&self, names: Names<'_>) -> String {
+    pub fn first_path(&self, names: Names<'_>) -> String {
         self.path(&self.quantities[0], names)
     }
 
@@ -342,6 +360,8 @@ const EXAMPLES: Names<'_> = &[
     ("<median>", "u50_m"),
     ("<upper>", "u95_m"),
     ("<of_repaired>", ""),
+    ("<unit_key>", "cm_s"),
+    ("<unit>", "cm/s"),
     ("<branches>", "branch_<site>_pgv or structure"),
     ("<one>", "branch or structure"),
     ("<many>", "branches or structures"),
@@ -375,6 +395,14 @@ mod tests {
     /// The paths of declared groups with the rows of their arrays.
     fn declared() -> impl Iterator<Item = (&'static str, String)> {
         rows![
+            RECORDS,
+            MOTION_KEYS,
+            INTENSITY,
+            PEAKS,
+            IMPACTS,
+            FACTORS,
+            SHARES,
+            RISK_SURFACE,
             urs::GROUP,
             regression::GROUP,
             REPAIRED_FITS,

@@ -7,31 +7,6 @@ use uplift_motion::IntensityMeasure;
 /// Version of the layout of the result file.
 pub const LAYOUT: i64 = 1;
 
-/// Arrays of each intensity measure in a group of their own: a function that gives the path of each, the group's path,
-/// and the names of all.
-macro_rules! by_measure {
-    ($(#[$doc:meta])* $module:ident: $($function:ident = $name:literal),+ $(,)?) => {
-        $(#[$doc])*
-        pub mod $module {
-            use uplift_motion::IntensityMeasure;
-            /// The group of all measures.
-            pub const ROOT: &str = concat!("/", stringify!($module));
-            /// The arrays of a measure.
-            pub const ARRAYS: &[&str] = &[$($name),+];
-            /// The group of one measure.
-            pub fn group(measure: IntensityMeasure) -> String {
-                format!("{ROOT}/{}", measure.key())
-            }
-            $(
-                #[doc = concat!("`", $name, "` of one measure.")]
-                pub fn $function(measure: IntensityMeasure) -> String {
-                    format!("{ROOT}/{}/{}", measure.key(), $name)
-                }
-            )+
-        }
-    };
-}
-
 /// Arrays with fixed paths.
 macro_rules! in_group {
     ($(#[$doc:meta])* $module:ident: $($constant:ident = $name:literal),+ $(,)?) => {
@@ -50,28 +25,10 @@ macro_rules! in_group {
 }
 
 in_group! {
-    /// The ground motions.
+    /// The structures that records shake, where these are not known exactly.
     records:
-    EVENT = "event", STATION = "station", MAGNITUDE = "magnitude", RRUP_KM = "rrup_km", VS30 = "vs30",
-    COMPONENT = "component", MOTION_SHA256 = "motion_sha256", CHECKSUM = "checksum", PGA_G = "pga_g",
-    PGV_CM_S = "pgv_cm_s", DURATION_5_75_S = "duration_5_75_s", DURATION_5_95_S = "duration_5_95_s", DT_S = "dt_s",
-    SAMPLES = "samples", STRUCTURE = "structure", STRENGTH_FACTOR = "strength_factor", RESTITUTION = "restitution",
+    STRUCTURE = "structure", STRENGTH_FACTOR = "strength_factor", RESTITUTION = "restitution",
     UPLIFT_DISPLACEMENT_M = "uplift_displacement_m", CAPACITY_M = "capacity_m",
-}
-
-/// The array of an intensity measure of the unscaled pairs: `/records/pga_g`, `/records/sa_1s_g`.
-pub fn intensity(measure: IntensityMeasure) -> String {
-    format!("{}/{}_{}", records::GROUP, measure.key(), measure.unit_key())
-}
-
-by_measure! {
-    /// Peak displacements of all runs.
-    ida: edp_m = "edp_m", impacts = "impacts", factor = "factor", share = "share",
-}
-
-by_measure! {
-    /// The risk surface.
-    risk: maf_per_year = "maf_per_year",
 }
 
 /// The sentence on how well the records know the spectra of a measure, an attribute of its group in `/urs`.
@@ -424,10 +381,8 @@ mod tests {
         let documented = |group: &str, name: &str| {
             page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
         };
-        let groups: [(&str, &[&str]); 10] = [
+        let groups: [(&str, &[&str]); 8] = [
             ("`/records/", records::ARRAYS),
-            ("`/ida/pgv/", ida::ARRAYS),
-            ("`/risk/pgv/", risk::ARRAYS),
             ("`/consistency/pgv/", consistency::ARRAYS),
             ("`/structures/<structure>/<command>/<key>/", structures::ARRAYS),
             ("`/hazard/<site>/pgv/", &["maf_per_year"]),

@@ -53,10 +53,11 @@ pub use findings::{Finding, FindingRow, Inquiry, StoredFinding};
 pub use hazard::{StoredBranch, StoredCurves, StoredHazard};
 pub use head::{Head, Overview};
 pub use influence::{DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, StoredInfluence};
+pub use peaks::{FACTORS, IMPACTS, PEAKS, RISK_SURFACE, SHARES};
 pub use peaks::{SetsOfLevels, StoredPeaks};
 pub use provenance::Origin;
 pub use provenance::Provenance;
-pub use records::StoredRecords;
+pub use records::{INTENSITY, MOTION_KEYS, RECORDS, StoredRecords, intensity_names};
 pub use shake_table::{
     DIRECTIONS, Excitation, ShakeTable, TABLE_EXCITATIONS, TABLE_TESTS, TableLevel, TableSpectra, TableTest,
 };
