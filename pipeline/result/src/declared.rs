@@ -428,6 +428,7 @@ mod tests {
             EFFICIENCY_OF_STRIPES,
             EFFICIENCY,
             TRENDS,
+            FINDINGS,
             TABLE_EXCITATIONS,
             TABLE_TESTS,
         ]

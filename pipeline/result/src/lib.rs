@@ -49,7 +49,7 @@ pub use error::ResultError;
 pub use extend::{Addition, sign};
 pub use file::{ResultFile, RiskAxes};
 pub use findings::{DOCUMENT, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST};
-pub use findings::{Finding, FindingRow, Inquiry, StoredFinding};
+pub use findings::{FINDINGS, Finding, FindingRow, Inquiry, StoredFinding};
 pub use hazard::{StoredBranch, StoredCurves, StoredHazard};
 pub use head::{Head, Overview};
 pub use influence::{DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, StoredInfluence};
