@@ -42,7 +42,6 @@ pub mod consistency {
     pub const ROOT: &str = "/consistency";
     /// The arrays of a measure but for those of the other one ([`OF_OTHER`]).
     pub const ARRAYS: &[&str] = &[
-        "rate_per_year",
         "scale_factor_05",
         "scale_factor_50",
         "scale_factor_95",
@@ -51,18 +50,15 @@ pub mod consistency {
         "exponent",
         "knot",
         "iterations",
-        "effective_records",
         "mean_ln_ratio",
         "sd_ln_ratio",
         "weight",
-        "u_m",
         "flag",
         "lower_tail_share",
         "upper_tail_share",
     ];
     /// What the names of the arrays of the other measure end with: `pga_site`.
-    pub const OF_OTHER: &[&str] =
-        &["site", "implied", "repaired", "bias", "rms", "max", "verdict", "ratio", "times_as_often"];
+    pub const OF_OTHER: &[&str] = &["rms", "times_as_often"];
 
     /// The group of the analysis by a measure.
     pub fn group(measure: IntensityMeasure) -> String {
@@ -72,11 +68,6 @@ pub mod consistency {
     /// An array of the analysis by a measure.
     pub fn array(measure: IntensityMeasure, name: &str) -> String {
         format!("{}/{name}", group(measure))
-    }
-
-    /// The other measure whose levels at the site are in the array `name`; none for any other array.
-    pub(crate) fn other_of_site(name: &str) -> Option<IntensityMeasure> {
-        name.strip_suffix("_site")?.parse().ok()
     }
 
     /// The name of an array that is about the `other` measure.

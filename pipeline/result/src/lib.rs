@@ -37,7 +37,9 @@ pub use bands::{
     BandMethod, InferredBands, MeasureBands, SiteJointBands, StoredBands, StoredDraws, StoredJointBands,
     StoredRepairedBands, StoredSpectraBands, WidestInferred, band_lengths, band_names,
 };
-pub use consistency::{REPAIRED_FITS, StoredConsistency};
+pub use consistency::{
+    CONSISTENCY, EFFECTIVE_RECORDS, REPAIRED_FITS, REPAIRED_LEVEL, REPAIRED_U_M, StoredConsistency, consistency_names,
+};
 pub use design::{BOUNDS, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
 pub use displacements::{
