@@ -1,5 +1,5 @@
 //! How stored arrays are declared. A declaration is a constant beside the plain value whose field it names; writing,
-//! reading, the tables of `docs/hdf5-layout.md` and the names in exports follow from it.
+//! reading, the tables of `docs/hdf5-layout.md` and the names in exports follow from it. Most are rows of a table, `group!`.
 
 use std::borrow::Cow;
 
@@ -52,7 +52,7 @@ pub enum Field<T: 'static> {
     Made(fn(&T, usize) -> f64),
 }
 
-/// Where the value at an index is, to read it and to change it; made by [`place`].
+/// Where the value at an index is, to read it and to change it; made by `place!`.
 pub struct Place<T, V> {
     /// The value at an index.
     pub get: fn(&T, usize) -> &V,
