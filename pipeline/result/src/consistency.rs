@@ -51,11 +51,12 @@ group! {
     /// The hazard of the `<other>` measure: the site's own, and what the records bring.
     pub const CONSISTENCY: StoredConsistency = "/consistency/<im>";
     "rate_per_year" [SITE, RATE] F64 "1/yr" "annual rate of exceedance"
-        ("rates at which the hazard of the other measure is compared ([method](method.md#18-hazard-consistency)); NaN at \
-          sites without its curve, here and below") = |of, at| of.rate_per_year[at];
+        ("rates at which the hazard of the other measure is compared ([method](method.md#18-hazard-consistency)); NaN \
+          at sites without its curve, here and below") = |of, at| of.rate_per_year[at];
     "<other>_site" [SITE, RATE] F64 "<other_unit>" "level of the site's own hazard curve, <label>"
         ("level of the site's own hazard curve of the other measure, here PGA") = |of, at| of.site_level[at];
-    "<other>_implied" [SITE, RATE] F64 "<other_unit>" "level that the records bring, <label>" = |of, at| of.implied_level[at];
+    "<other>_implied" [SITE, RATE] F64 "<other_unit>" "level that the records bring, <label>"
+        = |of, at| of.implied_level[at];
     "<other>_bias" [SITE] F64 "1" "level that the records bring over the site's, mean of the range"
         ("exp of the mean of ln(implied/site)") = |of, at| of.bias[at];
     "<other>_max" [SITE] F64 "1" "largest absolute ln(implied/site)" = |of, at| of.max[at];
@@ -67,7 +68,8 @@ group! {
 group! {
     /// Levels that weighted records bring.
     pub const REPAIRED_LEVEL: Array<2> = CONSISTENCY.path;
-    "<other>_repaired" [SITE, RATE] F64 "<other_unit>" "level that the weighted records bring, <label>" = |of, at| of[at];
+    "<other>_repaired" [SITE, RATE] F64 "<other_unit>" "level that the weighted records bring, <label>"
+        = |of, at| of[at];
 }
 
 group! {

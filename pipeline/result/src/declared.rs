@@ -1,5 +1,5 @@
 //! How stored arrays are declared. A declaration is a constant beside the plain value whose field it names; writing,
-//! reading, the tables of `docs/hdf5-layout.md` and the names in exports follow from it. Most are rows of a table, `group!`.
+//! reading, the tables of `docs/hdf5-layout.md` and the names in exports follow from it. Most are rows of a `group!`.
 
 use std::borrow::Cow;
 

@@ -90,8 +90,8 @@ group! {
     "unit" ["finding_<key>"] Text "" "unit of value, lower and upper"
         ("unit of value, lower and upper: `m`, `1/yr`, … (`1` where there is none)") = |of, at| of[at].unit;
     "band" ["finding_<key>"] Text "" "what the band is of"
-        ("what the band is of: `records`, `earthquakes`, `records and hazard`, `resampled records`, `structure, records \
-          and hazard`, `at most`, …") = |of, at| of[at].band;
+        ("what the band is of: `records`, `earthquakes`, `records and hazard`, `resampled records`, `structure, \
+          records and hazard`, `at most`, …") = |of, at| of[at].band;
     "value" ["finding_<key>"] F64 "1" "the number, in its unit"
         ("the number, in its unit; `inf` where the structure overturns") = |of, at| of[at].value;
     "lower" ["finding_<key>"] F64 "1" "lower limit of its band"

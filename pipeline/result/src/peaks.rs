@@ -34,8 +34,8 @@ group! {
     /// How much each record counts, where they do not all count alike.
     pub const SHARES: Array<2> = PEAKS.path;
     "share" ["<im>_level", RECORD] F64 "1" "how much the record counts at the level, 0 where it does not belong to it"
-        ("how much the record counts at the level, 0 where it is not of it; only where records do not all count alike at \
-          every level") = |of, at| of[at];
+        ("how much the record counts at the level, 0 where it is not of it; only where records do not all count alike \
+          at every level") = |of, at| of[at];
 }
 
 group! {

@@ -64,8 +64,8 @@ group! {
     "checksum" [RECORD] Text "" "SHA-256 of the component" ("SHA-256 of its file; of the samples if synthetic")
         = |of, at| of.checksum[at];
     "duration_5_75_s" [RECORD] F64 "s" "significant duration of the component, 5 to 75 % of the Arias intensity"
-        ("significant duration of the component, 5 to 75 % of the Arias intensity; of a percentile over azimuths of the \
-          first, h1, as the next ones are") = |of, at| of.duration_5_75_s[at];
+        ("significant duration of the component, 5 to 75 % of the Arias intensity; of a percentile over azimuths of \
+          the first, h1, as the next ones are") = |of, at| of.duration_5_75_s[at];
     "duration_5_95_s" [RECORD] F64 "s" "significant duration of the component, 5 to 95 % of the Arias intensity"
         = |of, at| of.duration_5_95_s[at];
     "dt_s" [RECORD] F64 "s" "sampling interval" = |of, at| of.dt_s[at];
@@ -76,8 +76,8 @@ group! {
     /// By which a later run knows the motions again.
     pub const MOTION_KEYS: StoredRecords = RECORDS.path;
     "motion_sha256" [RECORD] Text "" "SHA-256 of time step and samples in m/s2"
-        ("SHA-256 of the time step and the samples in m/s², of those of all azimuths and the percentile where it is one, \
-          by which a later run knows the motion again; with what of the structure is not known exactly")
+        ("SHA-256 of the time step and the samples in m/s², of those of all azimuths and the percentile where it is \
+          one, by which a later run knows the motion again; with what of the structure is not known exactly")
         = |of, at| of.motion_sha256[at];
 }
 

@@ -239,8 +239,9 @@ pub(super) struct BandOf<'a> {
     pub(super) records: u32,
     /// Lower limit, median and upper limit over the strengths, m.
     pub(super) limits_m: [&'a [f64]; 3],
-    /// Limits of the spectra of all records there could be, and of another set, as [`INFERRED_BANDS`](uplift_result::INFERRED_BANDS) names them, m; none of
-    /// repaired spectra, and in results of before.
+    /// Limits of the spectra of all records there could be, and of another set, as
+    /// [`INFERRED_BANDS`](uplift_result::INFERRED_BANDS) names them, m; none of repaired spectra, and in results of
+    /// before.
     pub(super) inferred_m: Option<[&'a [f64]; 4]>,
     /// Error of the median (Eq. 4.9), %; NaN where there is none, as of joint bands.
     pub(super) error_of_median_pct: f64,
