@@ -5,8 +5,10 @@ use uplift_bootstrap::{Interval, Unit};
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
-use super::file::{ResultFile, RiskAxes};
-use super::layout::{MULTIPLICITY, axis, band, bootstrap, joint, limit_names, repaired_band};
+use super::declared::{Names, group, of_measure};
+use super::file::ResultFile;
+use super::layout::axis::{POE, RECORD, REPLICATE, SAMPLE_SIZE, SITE, STRENGTH};
+use super::layout::limit_names;
 use crate::error::ResultError;
 
 /// The confidence bands of a result.
@@ -113,11 +115,23 @@ pub struct StoredRepairedBands {
     pub failed: Array<2>,
 }
 
-/// The joint bands of one site as the file has them, without the axis of sites.
-struct SiteJointBands {
-    limits_m: [Array<3>; 3],
-    range_of_interval: Array<2>,
-    failed: Option<Array<1>>,
+/// The joint bands of one site, as those of all have them, without the axis of sites.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SiteJointBands {
+    limits_m: [Vec<f64>; 3],
+    range_of_interval: Vec<f64>,
+    failed: Vec<f64>,
+}
+
+impl SiteJointBands {
+    /// Those of the site at a position.
+    pub fn new(bands: &StoredJointBands, site: usize) -> Self {
+        Self {
+            limits_m: bands.limits_m.each_ref().map(|limits| limits.block([site]).to_vec()),
+            range_of_interval: bands.range_of_interval.block([site]).to_vec(),
+            failed: bands.failed.iter().flat_map(|failed| failed.block([site])).copied().collect(),
+        }
+    }
 }
 
 /// How bands were made of their draws.
@@ -144,6 +158,88 @@ pub struct StoredDraws {
     pub multiplicities: Vec<u32>,
     /// What was drawn.
     pub unit: Unit,
+}
+
+group! {
+    /// Bands of spectra, and the figures of Table 4.1. The limits `<lower>`, `<median>` and `<upper>` are named after
+    /// their levels ([`limit_names`]); those of repaired spectra lie in a group of their own, `<of_repaired>`.
+    pub const BANDS: StoredSpectraBands = "/bootstrap/<im><of_repaired>";
+    "<lower>" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m" "lower limit"
+        ("lower limit, as the next ones named after its level (`u02_5_m` for a confidence of 0.95)")
+        = |of, at| of.limits_m[0][at];
+    "<median>" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m" "median of the replicates" = |of, at| of.limits_m[1][at];
+    "<upper>" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m" "upper limit" = |of, at| of.limits_m[2][at];
+    "e_median" [SITE, POE, SAMPLE_SIZE] F64 "%" "error of the median (Eq. 4.9)"
+        ("error of the median (Eq. 4.9); NaN where an ordinate is censored or 0, as the next one")
+        = |of, at| of.error_of_median[at];
+    "r_90ci" [SITE, POE, SAMPLE_SIZE] F64 "%" "range of the interval (Eq. 4.10)" = |of, at| of.range_of_interval[at];
+}
+
+group! {
+    /// Lower and upper limits of the band of whole spectra.
+    pub const SIMULTANEOUS_BANDS: [Array<4>; 2] = BANDS.path;
+    "simultaneous_lower_m" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m" "limit of the band that holds whole spectra"
+        ("limit of the band that holds whole spectra, if asked for, as the next one") = |of, at| of[0][at];
+    "simultaneous_upper_m" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m" "limit of the band that holds whole spectra"
+        = |of, at| of[1][at];
+}
+
+group! {
+    /// What the records of a set say beyond it.
+    pub const INFERRED_BANDS: InferredBands = BANDS.path;
+    "truth_lower_m" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m"
+        "limit of the spectrum of all records there could be"
+        ("limit of the spectrum of all records there could be; absent in results of before, as the next ones")
+        = |of, at| of.truth_m[0][at];
+    "truth_upper_m" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m"
+        "limit of the spectrum of all records there could be" = |of, at| of.truth_m[1][at];
+    "prediction_lower_m" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m" "limit of the spectrum of another set of records"
+        ("limit of the spectrum of another set of as many records") = |of, at| of.prediction_m[0][at];
+    "prediction_upper_m" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m" "limit of the spectrum of another set of records"
+        = |of, at| of.prediction_m[1][at];
+}
+
+group! {
+    /// Share of the samples whose weights do not bring the site's hazard.
+    pub const FAILED_SAMPLES: Array<2> = "/bootstrap/<im>/consistent";
+    "failed" [SITE, SAMPLE_SIZE] F64 "1" "share of the replicates whose weights do not bring the site's hazard"
+        = |of, at| of[at];
+}
+
+group! {
+    /// The band of a site over records and weighted hazard curves together.
+    pub const JOINT_BANDS: SiteJointBands = "/bootstrap/<im><of_repaired>/joint/<site>";
+    "<lower>" [POE, SAMPLE_SIZE, STRENGTH] F64 "m" "limit over resampled records and weighted hazard curves together"
+        = |of, at| of.limits_m[0][at];
+    "<median>" [POE, SAMPLE_SIZE, STRENGTH] F64 "m" "limit over resampled records and weighted hazard curves together"
+        ("median of them") = |of, at| of.limits_m[1][at];
+    "<upper>" [POE, SAMPLE_SIZE, STRENGTH] F64 "m" "limit over resampled records and weighted hazard curves together"
+        = |of, at| of.limits_m[2][at];
+    "r_90ci" [POE, SAMPLE_SIZE] F64 "%" "range of the joint interval (Eq. 4.10)" = |of, at| of.range_of_interval[at];
+}
+
+group! {
+    /// Share of the pairs of a sample and a curve whose weights fail, of repaired spectra.
+    pub const FAILED_PAIRS: SiteJointBands = JOINT_BANDS.path;
+    "failed" [SAMPLE_SIZE] F64 "1"
+        "share of the pairs of a replicate and a curve whose weights do not bring its hazard"
+        ("of repaired spectra alone: share of the pairs whose weights do not bring the hazard of the branch, as the \
+          branches weigh")
+        = |of, at| of.failed[at];
+}
+
+group! {
+    /// The draws.
+    pub const DRAWS: StoredDraws = "/bootstrap";
+    "multiplicity" [SAMPLE_SIZE, REPLICATE, RECORD] U32 "1" "how often each record was drawn"
+        = |of, at| of.multiplicities[at];
+}
+
+impl StoredDraws {
+    /// Lengths of the axes of its array.
+    pub fn lengths(&self) -> [(&'static str, usize); 3] {
+        [(SAMPLE_SIZE, self.sizes.len()), (REPLICATE, self.replicates), (RECORD, self.records)]
+    }
 }
 
 impl StoredBands {
@@ -186,6 +282,25 @@ impl StoredBands {
     }
 }
 
+/// Where the bands of repaired spectra lie in the group of their measure.
+pub const REPAIRED_BANDS: &str = "/consistent";
+
+/// What stands for the names of the bands of a measure, with the names of the limits; `of_repaired` is empty or
+/// [`REPAIRED_BANDS`].
+pub fn band_names<'a>(
+    measure: IntensityMeasure,
+    [lower, median, upper]: &'a [String; 3],
+    of_repaired: &'a str,
+) -> [(&'static str, &'a str); 5] {
+    let limits = [("<lower>", lower.as_str()), ("<median>", median), ("<upper>", upper)];
+    [("<im>", measure.key()), limits[0], limits[1], limits[2], ("<of_repaired>", of_repaired)]
+}
+
+/// Lengths of the axes of bands `[site, poe, size, strength]`.
+pub fn band_lengths([sites, poes, sizes, strengths]: [usize; 4]) -> [(&'static str, usize); 4] {
+    [(SITE, sites), (POE, poes), (SAMPLE_SIZE, sizes), (STRENGTH, strengths)]
+}
+
 impl ResultFile {
     /// The confidence bands of a result of uniform risk; none before `uplift bootstrap`, and none of risks that it was
     /// asked for before they are resampled.
@@ -197,101 +312,91 @@ impl ResultFile {
             return Ok(asked.bands.clone());
         }
         let axes = self.axes()?;
-        if !self.reader.exists(bootstrap::ROOT) {
+        if !self.reader.exists(BANDS.root()) {
             return Ok(None);
         }
-        let sizes = self.reader.axis_u32(axis::SAMPLE_SIZE)?;
-        let confidence = self.reader.attribute_f64(bootstrap::ROOT, "confidence")?;
-        let names = limit_names(confidence);
-        let spectra = [(axis::SITE, axes.sites.len()), (axis::POE, axes.poes.len()), (axis::SAMPLE_SIZE, sizes.len())];
-        let [site, poe, size] = spectra;
-        let strength = (axis::STRENGTH, axes.strengths.len());
+        let sizes = self.reader.axis_u32(SAMPLE_SIZE)?;
+        let confidence = self.reader.attribute_f64(BANDS.root(), "confidence")?;
+        let limits = limit_names(confidence);
+        let shape = [axes.sites.len(), axes.poes.len(), sizes.len(), axes.strengths.len()];
+        let lengths = band_lengths(shape);
+        let [sites, poes, size, _] = shape;
+        let nan = || Array::from_fn(shape, |_| f64::NAN);
+        let nan_figures = || Array::from_fn([sites, poes, size], |_| f64::NAN);
         let mut measures = Vec::new();
         for measure in self.measures() {
-            if !self.reader.exists(&bootstrap::group(measure)) {
+            if !self.reader.exists(&format!("{}/{}", BANDS.root(), measure.key())) {
                 continue;
             }
-            let arrays = |path: &dyn Fn(&str) -> String| {
-                let limit = |name: &String| self.array(&path(name), [site, poe, size, strength]);
-                let [lower, median, upper] = &names;
-                let figures = |name| self.array(&path(name), spectra);
-                Ok::<_, ResultError>(StoredSpectraBands {
-                    limits_m: [limit(lower)?, limit(median)?, limit(upper)?],
-                    error_of_median: figures(bootstrap::E_MEDIAN)?,
-                    range_of_interval: figures(bootstrap::R_90CI)?,
-                    joint: self.joint_bands(path, &names, (&axes, sizes.len()))?,
-                })
+            let bands = |of_repaired| {
+                let names = band_names(measure, &limits, of_repaired);
+                let mut bands = StoredSpectraBands {
+                    limits_m: [nan(), nan(), nan()],
+                    error_of_median: nan_figures(),
+                    range_of_interval: nan_figures(),
+                    joint: self.joint_bands(&names, &axes.sites, shape)?,
+                };
+                BANDS.read(self, &names, &lengths, &mut bands)?;
+                Ok::<_, ResultError>(bands)
             };
-            let plain = arrays(&|name| band(measure, name))?;
-            let of_repair = |name: &str| repaired_band(measure, name);
-            let failed = of_repair(bootstrap::FAILED);
-            let repaired = if self.reader.exists(&failed) {
-                Some(StoredRepairedBands { bands: arrays(&of_repair)?, failed: self.array(&failed, [site, size])? })
-            } else {
-                None
-            };
-            let limits = |names: [&str; 2]| -> Result<[Array<4>; 2], ResultError> {
-                let [lower, upper] = names.map(|name| self.array(&band(measure, name), [site, poe, size, strength]));
-                Ok([lower?, upper?])
-            };
-            let inferred = if self.reader.exists(&band(measure, bootstrap::TRUTH[0])) {
-                let (truth_m, prediction_m) = (limits(bootstrap::TRUTH)?, limits(bootstrap::PREDICTION)?);
-                Some(InferredBands { truth_m, prediction_m })
-            } else {
-                None
-            };
+            let (plain, names) = (bands("")?, band_names(measure, &limits, ""));
+            let mut repaired = None;
+            if FAILED_SAMPLES.is_in(self, &names) {
+                let failed = FAILED_SAMPLES.read_array(self, &names, [lengths[0], lengths[2]])?;
+                repaired = Some(StoredRepairedBands { bands: bands(REPAIRED_BANDS)?, failed });
+            }
+            let mut inferred = None;
+            if INFERRED_BANDS.is_in(self, &names) {
+                let found = InferredBands { truth_m: [nan(), nan()], prediction_m: [nan(), nan()] };
+                INFERRED_BANDS.read(self, &names, &lengths, inferred.insert(found))?;
+            }
             measures.push(MeasureBands { measure, plain, inferred, repaired });
         }
         Ok(Some(StoredBands { sizes, unit: self.drawn_unit()?, confidence, measures }))
     }
 
-    /// The joint bands beside those of the `path` of an array by its name; none where no site has any.
+    /// The joint bands of the bands with these `names`, over the `shape` of those; none where no site has any.
     fn joint_bands(
         &self,
-        path: &dyn Fn(&str) -> String,
-        limit_names: &[String; 3],
-        (axes, sizes): (&RiskAxes, usize),
+        names: Names<'_>,
+        sites: &[String],
+        shape: [usize; 4],
     ) -> Result<Option<StoredJointBands>, ResultError> {
-        let [poe, size] = [(axis::POE, axes.poes.len()), (axis::SAMPLE_SIZE, sizes)];
-        let strength = (axis::STRENGTH, axes.strengths.len());
-        let of_site = |site: &String| -> Result<Option<SiteJointBands>, ResultError> {
-            let path = |name: &str| path(&joint(site, name));
-            if !self.reader.exists(&path(bootstrap::R_90CI)) {
-                return Ok(None);
+        let [count, poes, sizes, strengths] = shape;
+        let nan = |length| vec![f64::NAN; length];
+        let (mut has_some, mut has_failed) = (false, false);
+        let of_site = |site: &String| {
+            let names = [names, &[("<site>", site)]].concat();
+            let limits_m = [(); 3].map(|()| nan(poes * sizes * strengths));
+            let mut own = SiteJointBands { limits_m, range_of_interval: nan(poes * sizes), failed: nan(sizes) };
+            if JOINT_BANDS.is_in(self, &names) {
+                has_some = true;
+                JOINT_BANDS.read(self, &names, &band_lengths(shape), &mut own)?;
             }
-            let failed = path(bootstrap::FAILED);
-            let has_failed = self.reader.exists(&failed);
-            let [lower, median, upper] =
-                limit_names.each_ref().map(|name| self.array(&path(name), [poe, size, strength]));
-            Ok(Some(SiteJointBands {
-                limits_m: [lower?, median?, upper?],
-                range_of_interval: self.array(&path(bootstrap::R_90CI), [poe, size])?,
-                failed: has_failed.then(|| self.array(&failed, [size])).transpose()?,
-            }))
+            if FAILED_PAIRS.is_in(self, &names) {
+                has_failed = true;
+                FAILED_PAIRS.read(self, &names, &band_lengths(shape), &mut own)?;
+            }
+            Ok(own)
         };
-        let sites = axes.sites.iter().map(of_site).collect::<Result<Vec<_>, _>>()?;
-        let own = |site: usize| sites[site].as_ref();
-        let ([(_, poe), (_, size)], (_, strength), count) = ([poe, size], strength, sites.len());
-        let has_failed = sites.iter().flatten().any(|own| own.failed.is_some());
-        Ok(sites.iter().any(Option::is_some).then(|| StoredJointBands {
-            limits_m: [0, 1, 2].map(|limit| {
-                Array::from_fn([count, poe, size, strength], |[site, poe, size, strength]| {
-                    own(site).map_or(f64::NAN, |own| own.limits_m[limit][[poe, size, strength]])
-                })
+        let sites = sites.iter().map(of_site).collect::<Result<Vec<_>, ResultError>>()?;
+        let limit = |limit: usize| {
+            Array::from_fn(shape, |[site, poe, size, strength]| {
+                sites[site].limits_m[limit][(poe * sizes + size) * strengths + strength]
+            })
+        };
+        Ok(has_some.then(|| StoredJointBands {
+            limits_m: [0, 1, 2].map(limit),
+            range_of_interval: Array::from_fn([count, poes, sizes], |[site, poe, size]| {
+                sites[site].range_of_interval[poe * sizes + size]
             }),
-            range_of_interval: Array::from_fn([count, poe, size], |[site, poe, size]| {
-                own(site).map_or(f64::NAN, |own| own.range_of_interval[[poe, size]])
-            }),
-            failed: has_failed.then(|| {
-                let failed = |site| own(site)?.failed.as_ref();
-                Array::from_fn([count, size], |[site, size]| failed(site).map_or(f64::NAN, |own| own[[size]]))
-            }),
+            failed: has_failed.then(|| Array::from_fn([count, sizes], |[site, size]| sites[site].failed[size])),
         }))
     }
 
     /// Whether there are bands of repaired spectra.
     pub fn has_repaired_bands(&self) -> bool {
-        self.measures().iter().any(|&own| self.reader.exists(&repaired_band(own, bootstrap::FAILED)))
+        self.measures().into_iter().any(|own| FAILED_SAMPLES.is_in(self, &of_measure(own)))
     }
 
     /// The draws of the bands; none before `uplift bootstrap`.
@@ -300,21 +405,22 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn draws(&self) -> Result<Option<StoredDraws>, ResultError> {
         let records = self.axes()?.records.len();
-        if !self.reader.exists(MULTIPLICITY) {
+        if !DRAWS.is_in(self, &[]) {
             return Ok(None);
         }
-        let sizes = self.reader.axis_u32(axis::SAMPLE_SIZE)?;
-        let replicates = self.reader.axis_u32(axis::REPLICATE)?.len();
-        let lengths = [(axis::SAMPLE_SIZE, sizes.len()), (axis::REPLICATE, replicates), (axis::RECORD, records)];
-        let multiplicities = self.checked(MULTIPLICITY, self.reader.array_u32(MULTIPLICITY)?, &lengths)?;
-        Ok(Some(StoredDraws { records, sizes, replicates, multiplicities, unit: self.drawn_unit()? }))
+        let sizes = self.reader.axis_u32(SAMPLE_SIZE)?;
+        let replicates = self.reader.axis_u32(REPLICATE)?.len();
+        let multiplicities = vec![0; sizes.len() * replicates * records];
+        let mut draws = StoredDraws { records, sizes, replicates, multiplicities, unit: self.drawn_unit()? };
+        DRAWS.read(self, &[], &draws.lengths(), &mut draws)?;
+        Ok(Some(draws))
     }
 
     /// What the draws are of; records in results of before.
     fn drawn_unit(&self) -> Result<Unit, ResultError> {
-        let Ok(word) = self.reader.attribute_text(bootstrap::ROOT, "unit") else { return Ok(Unit::Record) };
+        let Ok(word) = self.reader.attribute_text(BANDS.root(), "unit") else { return Ok(Unit::Record) };
         let unit = Unit::ALL.into_iter().find(|unit| unit.key() == word);
-        unit.ok_or_else(|| self.damaged(format!("{}: unit {word:?}", bootstrap::ROOT)))
+        unit.ok_or_else(|| self.damaged(format!("{}: unit {word:?}", BANDS.root())))
     }
 
     /// How the bands of the file were made of their draws.
@@ -322,12 +428,12 @@ impl ResultFile {
     /// # Errors
     /// A file without bands, or one that is damaged.
     pub fn band_method(&self) -> Result<BandMethod, ResultError> {
-        let word = self.reader.attribute_text(bootstrap::ROOT, "interval")?;
+        let word = self.reader.attribute_text(BANDS.root(), "interval")?;
         let interval = Interval::ALL.into_iter().find(|interval| interval.key() == word);
         Ok(BandMethod {
-            confidence: self.reader.attribute_f64(bootstrap::ROOT, "confidence")?,
-            interval: interval.ok_or_else(|| self.damaged(format!("{}: interval {word:?}", bootstrap::ROOT)))?,
-            strength_above: self.reader.attribute_f64(bootstrap::ROOT, "strength_above")?,
+            confidence: self.reader.attribute_f64(BANDS.root(), "confidence")?,
+            interval: interval.ok_or_else(|| self.damaged(format!("{}: interval {word:?}", BANDS.root())))?,
+            strength_above: self.reader.attribute_f64(BANDS.root(), "strength_above")?,
         })
     }
 }

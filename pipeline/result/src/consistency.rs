@@ -3,9 +3,9 @@
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
-use super::declared::{Group, Quantity};
+use super::declared::{Group, Quantity, group, of_measure};
 use super::file::ResultFile;
-use super::layout::{axis, consistency};
+use super::layout::axis::{self, POE, RATE, SITE, STRENGTH};
 use super::spectra::{Fit, Fits, regression};
 use crate::error::ResultError;
 
@@ -47,6 +47,49 @@ pub struct StoredConsistency {
     pub fits: Option<Fits>,
 }
 
+group! {
+    /// The hazard of the `<other>` measure: the site's own, and what the records bring.
+    pub const CONSISTENCY: StoredConsistency = "/consistency/<im>";
+    "rate_per_year" [SITE, RATE] F64 "1/yr" "annual rate of exceedance"
+        ("rates at which the hazard of the other measure is compared ([method](method.md#18-hazard-consistency)); NaN \
+          at sites without its curve, here and below") = |of, at| of.rate_per_year[at];
+    "<other>_site" [SITE, RATE] F64 "<other_unit>" "level of the site's own hazard curve, <label>"
+        ("level of the site's own hazard curve of the other measure, here PGA") = |of, at| of.site_level[at];
+    "<other>_implied" [SITE, RATE] F64 "<other_unit>" "level that the records bring, <label>"
+        = |of, at| of.implied_level[at];
+    "<other>_bias" [SITE] F64 "1" "level that the records bring over the site's, mean of the range"
+        ("exp of the mean of ln(implied/site)") = |of, at| of.bias[at];
+    "<other>_max" [SITE] F64 "1" "largest absolute ln(implied/site)" = |of, at| of.max[at];
+    "<other>_verdict" [SITE] Text "" "consistent, off or inconsistent; empty where unknown"
+        ("`consistent`, `off`, `inconsistent`; empty where it cannot be said") = |of, at| of.verdict[at];
+    "<other>_ratio" [SITE, POE] F64 "1" "level that the records bring over the site's" = |of, at| of.ratio[at];
+}
+
+group! {
+    /// Levels that weighted records bring.
+    pub const REPAIRED_LEVEL: Array<2> = CONSISTENCY.path;
+    "<other>_repaired" [SITE, RATE] F64 "<other_unit>" "level that the weighted records bring, <label>"
+        = |of, at| of[at];
+}
+
+group! {
+    /// Effective records under the weights.
+    pub const EFFECTIVE_RECORDS: Array<2> = CONSISTENCY.path;
+    "effective_records" [SITE, "<im>_level"] F64 "1" "effective records under the weights" = |of, at| of[at];
+}
+
+group! {
+    /// The spectra of weighted records.
+    pub const REPAIRED_U_M: Array<3> = CONSISTENCY.path;
+    "u_m" [SITE, POE, STRENGTH] F64 "m" "uniform risk displacement of the weighted records"
+        ("the spectra of the weighted records, as `/urs`; NaN where there is no repair") = |of, at| of[at];
+}
+
+/// Names of the arrays of the analysis by a measure, about another one.
+pub fn consistency_names(scaled_to: IntensityMeasure, other: IntensityMeasure) -> [(&'static str, &'static str); 4] {
+    [("<im>", scaled_to.key()), ("<other>", other.key()), ("<other_unit>", other.unit()), ("<label>", other.label())]
+}
+
 /// Coefficients of the spectra of weighted records.
 pub const REPAIRED_FITS: Group<Fits> = Group {
     path: "/consistency/<im>/regression",
@@ -84,8 +127,8 @@ impl ResultFile {
         }
         let mut found = Vec::new();
         for scaled_to in self.measures() {
-            let arrays = self.reader.children(&consistency::group(scaled_to)).unwrap_or_default();
-            for other in arrays.iter().filter_map(|name| consistency::other_of_site(name)) {
+            let arrays = self.reader.children(&CONSISTENCY.of_measure(scaled_to)).unwrap_or_default();
+            for other in arrays.iter().filter_map(|name| name.strip_suffix("_site")?.parse().ok()) {
                 found.push(self.consistency_of(scaled_to, other)?);
             }
         }
@@ -94,7 +137,7 @@ impl ResultFile {
 
     /// Whether there are spectra of weighted records.
     pub fn has_repair(&self) -> bool {
-        self.measures().iter().any(|&own| self.reader.exists(&consistency::array(own, "u_m")))
+        self.measures().into_iter().any(|own| REPAIRED_U_M.is_in(self, &of_measure(own)))
     }
 
     fn consistency_of(
@@ -104,40 +147,42 @@ impl ResultFile {
     ) -> Result<StoredConsistency, ResultError> {
         let axes = self.stored_axes()?;
         let (sites, poes, strengths) = (axes.sites.len(), axes.poes.len(), axes.strengths.len());
-        let by_poe = [(axis::SITE, sites), (axis::POE, poes)];
-        let rates = self.reader.axis_u32(axis::RATE)?.len();
+        let rates = self.reader.axis_u32(RATE)?.len();
         let level = axis::level(scaled_to);
         let levels = self.reader.axis_f64(&level)?.len();
-        let array = |name: &str| consistency::array(scaled_to, name);
-        let of_other = |name: &str| array(&consistency::of_other(other, name));
-        let by_rate = |path: &str| self.array(path, [(axis::SITE, sites), (axis::RATE, rates)]);
-        let by_site = |path: &str| self.array(path, [(axis::SITE, sites)]).map(Array::into_values);
-        let verdict = of_other("verdict");
-        let is_repaired = self.reader.exists(&array("u_m"));
-        let spectrum = [(axis::SITE, sites), (axis::POE, poes), (axis::STRENGTH, strengths)];
-        let effective = [(axis::SITE, sites), (level.as_str(), levels)];
-        let rate_per_year = by_rate(&array("rate_per_year"))?;
-        let effective_records = is_repaired.then(|| self.array(&array("effective_records"), effective)).transpose()?;
-        let least = |records| self.least_effective(scaled_to, &axes.sites, &rate_per_year, records);
-        let least_effective = effective_records.as_ref().map(least).transpose()?;
-        Ok(StoredConsistency {
+        let lengths = [(SITE, sites), (RATE, rates), (POE, poes)];
+        let by_poe = [(SITE, sites), (POE, poes)];
+        let names = consistency_names(scaled_to, other);
+        let nan = |inner| Array::from_fn([sites, inner], |_| f64::NAN);
+        let mut found = StoredConsistency {
             scaled_to,
             other,
-            rate_per_year,
-            site_level: by_rate(&of_other("site"))?,
-            implied_level: by_rate(&of_other("implied"))?,
-            repaired_level: is_repaired.then(|| by_rate(&of_other("repaired"))).transpose()?,
-            bias: by_site(&of_other("bias"))?,
-            max: by_site(&of_other("max"))?,
-            verdict: self.checked(&verdict, self.reader.array_text(&verdict)?, &[(axis::SITE, sites)])?,
+            rate_per_year: nan(rates),
+            site_level: nan(rates),
+            implied_level: nan(rates),
+            repaired_level: None,
+            bias: vec![f64::NAN; sites],
+            max: vec![f64::NAN; sites],
+            verdict: vec![String::new(); sites],
             poes: axes.poes,
             years: axes.years,
-            ratio: self.array(&of_other("ratio"), by_poe)?,
-            effective_records,
-            least_effective,
-            u_m: is_repaired.then(|| self.array(&array("u_m"), spectrum)).transpose()?,
-            fits: is_repaired.then(|| self.repaired_fits(scaled_to, by_poe)).transpose()?,
-        })
+            ratio: nan(poes),
+            effective_records: None,
+            least_effective: None,
+            u_m: None,
+            fits: None,
+        };
+        CONSISTENCY.read(self, &names, &lengths, &mut found)?;
+        if REPAIRED_U_M.is_in(self, &names) {
+            let records = EFFECTIVE_RECORDS.read_array(self, &names, [(SITE, sites), (&level, levels)])?;
+            let least = self.least_effective(scaled_to, &axes.sites, &found.rate_per_year, &records)?;
+            (found.effective_records, found.least_effective) = (Some(records), Some(least));
+            found.repaired_level = Some(REPAIRED_LEVEL.read_array(self, &names, [(SITE, sites), (RATE, rates)])?);
+            let spectrum = [(SITE, sites), (POE, poes), (STRENGTH, strengths)];
+            found.u_m = Some(REPAIRED_U_M.read_array(self, &names, spectrum)?);
+            found.fits = Some(self.repaired_fits(scaled_to, by_poe)?);
+        }
+        Ok(found)
     }
 
     /// The fewest of the effective `records` `[site, level]` at the levels whose rates are within those compared.
@@ -167,7 +212,7 @@ impl ResultFile {
     /// The coefficients of the repaired spectra.
     fn repaired_fits(&self, scaled_to: IntensityMeasure, by_poe: [(&str, usize); 2]) -> Result<Fits, ResultError> {
         let mut fits = Fits::from_fn(by_poe.map(|(_, length)| length), |_| Fit::NONE);
-        REPAIRED_FITS.read(self, Some(scaled_to), &by_poe, &mut fits)?;
+        REPAIRED_FITS.read(self, &of_measure(scaled_to), &by_poe, &mut fits)?;
         // it is nowhere below: where it is held it is exactly there
         Ok(fits.map(|fit| Fit { bound_active: fit.c2_m <= 0.0, ..*fit }))
     }

@@ -1,8 +1,9 @@
 //! How stored arrays are declared. A declaration is a constant beside the plain value whose field it names; writing,
-//! reading, the tables of `docs/hdf5-layout.md` and the names in exports follow from it.
+//! reading, the tables of `docs/hdf5-layout.md` and the names in exports follow from it. Most are rows of a `group!`.
 
 use std::borrow::Cow;
 
+use uplift_job::Array;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::OrdinateFlag;
@@ -11,8 +12,13 @@ use super::file::ResultFile;
 use super::spectra::{flag_number, flag_of};
 use crate::error::ResultError;
 
-/// What stands for the key of an intensity measure in paths and names of axes.
-const MEASURE: &str = "<im>";
+/// What stands in a result for the names in angle brackets of a declaration: `<im>`, `<site>`.
+pub type Names<'a> = &'a [(&'a str, &'a str)];
+
+/// The names of the arrays of one measure.
+pub fn of_measure(measure: IntensityMeasure) -> [(&'static str, &'static str); 1] {
+    [("<im>", measure.key())]
+}
 
 /// An array of a result, and the field of the plain value `T` that it holds.
 pub struct Quantity<T: 'static> {
@@ -42,6 +48,8 @@ pub enum Field<T: 'static> {
     Flag(Place<T, OrdinateFlag>),
     /// Texts.
     Text(Place<T, String>),
+    /// Floats made of the value as they are written; nothing reads them back.
+    Made(fn(&T, usize) -> f64),
 }
 
 /// Where the value at an index is, to read it and to change it; made by `place!`.
@@ -59,6 +67,34 @@ macro_rules! place {
     };
 }
 pub(crate) use place;
+
+/// A [`Group`] as a table: the name of each array, its axes, type, unit, long name, in brackets the note where it is
+/// another, and the field.
+macro_rules! group {
+    (
+        $(#[$doc:meta])* pub const $group:ident: $value:ty = $path:expr;
+        $($name:literal $axes:tt $kind:ident $unit:literal $long_name:literal $(($note:literal))?
+            = |$of:ident, $at:ident| $field:expr;)+
+    ) => {
+        $(#[$doc])*
+        pub const $group: $crate::declared::Group<$value> = $crate::declared::Group {
+            path: $path,
+            quantities: &[$($crate::declared::Quantity {
+                name: $name,
+                axes: &$axes,
+                unit: $unit,
+                long_name: $long_name,
+                note: concat!($($note)?),
+                field: group!(@field $kind |$of, $at| $field),
+            }),+],
+        };
+    };
+    (@field Made |$of:ident, $at:ident| $field:expr) => { $crate::declared::Field::Made(|$of, $at| $field) };
+    (@field $kind:ident |$of:ident, $at:ident| $field:expr) => {
+        $crate::declared::Field::$kind($crate::declared::place!(|$of, $at| $field))
+    };
+}
+pub(crate) use group;
 
 impl<T, V> Clone for Place<T, V> {
     fn clone(&self) -> Self {
@@ -84,7 +120,7 @@ impl<T> Clone for Quantity<T> {
 
 impl<T> Copy for Quantity<T> {}
 
-/// The arrays of a group of the file. `<im>` in its path and axes stands for a measure: a group each.
+/// The arrays of a group of the file. What stands in angle brackets is replaced by [`Names`]: a group each.
 pub struct Group<T: 'static> {
     /// Its path.
     pub path: &'static str,
@@ -99,7 +135,7 @@ impl<T> Quantity<T> {
     /// The type of its values, as `docs/hdf5-layout.md` names it.
     pub fn element(&self) -> &'static str {
         match self.field {
-            Field::F64(_) => "f64",
+            Field::F64(_) | Field::Made(_) => "f64",
             Field::U32(_) => "u32",
             Field::Bool(_) | Field::Flag(_) => "u8",
             Field::Text(_) => "text",
@@ -122,28 +158,30 @@ impl<T> Quantity<T> {
             Field::Bool(place) => Some(f64::from(u8::from(*(place.get)(value, index)))),
             Field::Flag(place) => Some(flag_number(*(place.get)(value, index)).into()),
             Field::Text(_) => None,
+            Field::Made(number) => Some(number(value, index)),
         }
     }
 
     /// Its axes with their lengths.
-    fn shape<'a>(&self, measure: Option<IntensityMeasure>, lengths: Lengths<'_>) -> Vec<(Cow<'a, str>, usize)> {
+    fn shape(&self, names: Names<'_>, lengths: Lengths<'_>) -> Vec<(Cow<'static, str>, usize)> {
         let length = |axis: &str| lengths.iter().find(|(name, _)| *name == axis).map_or(0, |(_, length)| *length);
-        self.axes.iter().map(|axis| (with_measure(axis, measure), length(axis))).collect()
+        self.axes.iter().map(|axis| named(axis, names)).map(|axis| (axis.clone(), length(&axis))).collect()
     }
 
     fn write(
         &self,
         writer: &mut LabelledWriter,
         path: &str,
-        shape: &[(Cow<'_, str>, usize)],
+        (names, lengths): (Names<'_>, Lengths<'_>),
         value: &T,
     ) -> Result<(), LabelledError> {
         fn all<T, V, W>(value: &T, place: Place<T, V>, count: usize, of: impl Fn(&V) -> W) -> Vec<W> {
             (0..count).map(|index| of((place.get)(value, index))).collect()
         }
-        let dims: Vec<&str> = shape.iter().map(|(name, _)| name.as_ref()).collect();
+        let shape = self.shape(names, lengths);
+        let dims: &[&str] = &shape.iter().map(|(name, _)| name.as_ref()).collect::<Vec<_>>();
         let count = shape.iter().map(|(_, length)| length).product();
-        let (dims, unit, long_name) = (dims.as_slice(), self.unit, self.long_name);
+        let (unit, long_name) = (&*named(self.unit, names), &*named(self.long_name, names));
         match self.field {
             Field::F64(place) => writer.array_f64(path, dims, &all(value, place, count, Clone::clone), unit, long_name),
             Field::U32(place) => writer.array_u32(path, dims, &all(value, place, count, Clone::clone), unit, long_name),
@@ -154,6 +192,10 @@ impl<T> Quantity<T> {
                 writer.array_u8(path, dims, &all(value, place, count, |&flag| flag_number(flag)), unit, long_name)
             }
             Field::Text(place) => writer.array_text(path, dims, &all(value, place, count, Clone::clone), long_name),
+            Field::Made(number) => {
+                let numbers: Vec<f64> = (0..count).map(|index| number(value, index)).collect();
+                writer.array_f64(path, dims, &numbers, unit, long_name)
+            }
         }
     }
 
@@ -186,8 +228,55 @@ impl<T> Quantity<T> {
                 }
                 fill(value, place, numbers.into_iter().filter_map(flag_of));
             }
+            Field::Made(_) => {}
         }
         Ok(())
+    }
+}
+
+impl<const N: usize> Group<Array<N>> {
+    /// Writes the `values` of its only array, without a copy.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write_array(
+        &self,
+        writer: &mut LabelledWriter,
+        names: Names<'_>,
+        values: &[f64],
+    ) -> Result<(), LabelledError> {
+        let own = &self.quantities[0];
+        let axes: Vec<_> = own.axes.iter().map(|axis| named(axis, names)).collect();
+        let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
+        writer.array_f64(&self.path(own, names), &dims, values, &named(own.unit, names), &named(own.long_name, names))
+    }
+
+    /// Reads its only array.
+    pub(super) fn read_array(
+        &self,
+        file: &ResultFile,
+        names: Names<'_>,
+        lengths: [(&str, usize); N],
+    ) -> Result<Array<N>, ResultError> {
+        file.array(&self.first_path(names), lengths)
+    }
+}
+
+impl<const N: usize> Group<Array<N, u32>> {
+    /// Writes the `values` of its only array, without a copy.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write_counts(
+        &self,
+        writer: &mut LabelledWriter,
+        names: Names<'_>,
+        values: &[u32],
+    ) -> Result<(), LabelledError> {
+        let own = &self.quantities[0];
+        let axes: Vec<_> = own.axes.iter().map(|axis| named(axis, names)).collect();
+        let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
+        writer.array_u32(&self.path(own, names), &dims, values, &named(own.unit, names), &named(own.long_name, names))
     }
 }
 
@@ -199,42 +288,54 @@ impl<T> Group<T> {
 
     /// The group of one measure.
     pub fn of_measure(&self, measure: IntensityMeasure) -> String {
-        with_measure(self.path, Some(measure)).into_owned()
+        named(self.path, &of_measure(measure)).into_owned()
     }
 
     /// The path of an array of one measure.
     pub fn path_of(&self, quantity: &Quantity<T>, measure: IntensityMeasure) -> String {
-        format!("{}/{}", self.of_measure(measure), quantity.name)
+        self.path(quantity, &of_measure(measure))
     }
 
-    /// Writes every array of `value`, which is of `measure` if its group is.
+    fn path(&self, quantity: &Quantity<T>, names: Names<'_>) -> String {
+        named(&format!("{}/{}", self.path, quantity.name), names).into_owned()
+    }
+
+    /// The path of the first of its arrays.
+    pub fn first_path(&self, names: Names<'_>) -> String {
+        self.path(&self.quantities[0], names)
+    }
+
+    /// Whether `file` has the first of its arrays.
+    pub(super) fn is_in(&self, file: &ResultFile, names: Names<'_>) -> bool {
+        file.reader.exists(&self.first_path(names))
+    }
+
+    /// Writes every array of `value`.
     ///
     /// # Errors
     /// Whatever keeps the file from being written.
     pub fn write(
         &self,
         writer: &mut LabelledWriter,
-        measure: Option<IntensityMeasure>,
+        names: Names<'_>,
         lengths: Lengths<'_>,
         value: &T,
     ) -> Result<(), LabelledError> {
-        self.quantities.iter().try_for_each(|quantity| {
-            let path = format!("{}/{}", with_measure(self.path, measure), quantity.name);
-            quantity.write(writer, &path, &quantity.shape(measure, lengths), value)
-        })
+        self.quantities
+            .iter()
+            .try_for_each(|quantity| quantity.write(writer, &self.path(quantity, names), (names, lengths), value))
     }
 
     /// Reads every array into `value`, which has a place for every value.
     pub(super) fn read(
         &self,
         file: &ResultFile,
-        measure: Option<IntensityMeasure>,
+        names: Names<'_>,
         lengths: Lengths<'_>,
         value: &mut T,
     ) -> Result<(), ResultError> {
         self.quantities.iter().try_for_each(|quantity| {
-            let path = format!("{}/{}", with_measure(self.path, measure), quantity.name);
-            quantity.read(file, &path, &quantity.shape(measure, lengths), value)
+            quantity.read(file, &self.path(quantity, names), &quantity.shape(names, lengths), value)
         })
     }
 
@@ -244,17 +345,40 @@ impl<T> Group<T> {
         let row = |quantity: &Quantity<T>| {
             let Quantity { name, axes, unit, long_name, .. } = *quantity;
             let note = if quantity.note.is_empty() { long_name } else { quantity.note };
-            let (path, axes) = [self.path.to_owned(), axes.join(", ")].map(|text| text.replace(MEASURE, "pgv")).into();
             let unit = if quantity.element() == "text" { String::new() } else { format!(" {unit}") };
-            format!("| `{path}/{name}` | {axes} | {} |{unit} | {note} |\n", quantity.element())
+            let (path, axes, element) = (self.path, axes.join(", "), quantity.element());
+            named(&format!("| `{path}/{name}` | {axes} | {element} |{unit} | {note} |\n"), EXAMPLES).into_owned()
         };
         self.quantities.iter().map(row).collect()
     }
 }
 
-/// A path or name with the key of a measure for `<im>`.
-fn with_measure(text: &str, measure: Option<IntensityMeasure>) -> Cow<'static, str> {
-    measure.map_or_else(|| text.to_owned(), |measure| text.replace(MEASURE, measure.key())).into()
+/// The names that `docs/hdf5-layout.md` shows.
+#[cfg(test)]
+const EXAMPLES: Names<'_> = &[
+    ("<lower>", "u05_m"),
+    ("<median>", "u50_m"),
+    ("<upper>", "u95_m"),
+    ("<of_repaired>", ""),
+    ("<other>", "pga"),
+    ("<other_unit>", "g"),
+    ("<label>", "PGA"),
+    ("<unit_key>", "cm_s"),
+    ("<unit>", "cm/s"),
+    ("<branches>", "branch_<site>_pgv or structure"),
+    ("<one>", "branch or structure"),
+    ("<many>", "branches or structures"),
+    ("<levels>", "<im>_level"),
+    ("<with>: ", ""),
+    ("<im>", "pgv"),
+];
+
+/// A text with `names` for what stands in angle brackets.
+fn named<'a>(text: &'a str, names: Names<'_>) -> Cow<'a, str> {
+    if !text.contains('<') {
+        return text.into();
+    }
+    names.iter().fold(text.to_owned(), |text, (sign, name)| text.replace(sign, name)).into()
 }
 
 #[cfg(test)]
@@ -264,16 +388,58 @@ mod tests {
     use std::path::Path;
     use std::{env, fs};
 
-    use super::super::{REPAIRED_FITS, TABLE_EXCITATIONS, TABLE_TESTS, regression, urs};
+    use super::super::*;
+
+    /// The paths of groups, each with the rows of its arrays.
+    macro_rules! rows {
+        ($($group:expr),+ $(,)?) => { [$(($group.path, $group.rows())),+] };
+    }
 
     /// The paths of declared groups with the rows of their arrays.
-    fn declared() -> Vec<(&'static str, String)> {
-        vec![
-            (urs::GROUP.path, urs::GROUP.rows()),
-            (regression::GROUP.path, regression::GROUP.rows()),
-            (REPAIRED_FITS.path, REPAIRED_FITS.rows()),
-            (TABLE_TESTS.path, TABLE_EXCITATIONS.rows() + &TABLE_TESTS.rows()),
+    fn declared() -> impl Iterator<Item = (&'static str, String)> {
+        rows![
+            RECORDS,
+            MOTION_KEYS,
+            INTENSITY,
+            PEAKS,
+            IMPACTS,
+            FACTORS,
+            SHARES,
+            RISK_SURFACE,
+            urs::GROUP,
+            regression::GROUP,
+            REPAIRED_FITS,
+            CONSISTENCY,
+            REPAIRED_LEVEL,
+            EFFECTIVE_RECORDS,
+            REPAIRED_U_M,
+            BANDS,
+            SIMULTANEOUS_BANDS,
+            INFERRED_BANDS,
+            FAILED_SAMPLES,
+            JOINT_BANDS,
+            FAILED_PAIRS,
+            DRAWS,
+            BRANCH_WEIGHTS,
+            EPISTEMIC_SPECTRA,
+            EPISTEMIC,
+            UNCERTAINTY_SPECTRA,
+            UNCERTAINTY,
+            REPAIRED_EPISTEMIC_SPECTRA,
+            REPAIRED_EPISTEMIC,
+            INFLUENCE,
+            INFLUENCE_REPAIRED,
+            DISAGGREGATION,
+            DISAGGREGATION_REPAIRED,
+            REACHING,
+            EFFICIENCY_OF_STRIPES,
+            EFFICIENCY,
+            TRENDS,
+            FINDINGS,
+            TABLE_EXCITATIONS,
+            TABLE_TESTS,
         ]
+        .into_iter()
     }
 
     /// What stands before a table: the groups whose arrays it has.
@@ -282,7 +448,6 @@ mod tests {
     /// The page with its tables of declared groups made anew, and the groups in them.
     fn made_anew(page: &str) -> (String, Vec<&str>) {
         let (mut made, mut shown) = (String::new(), Vec::new());
-        let declared = declared();
         let mut lines = page.lines().peekable();
         while let Some(line) = lines.next() {
             writeln!(made, "{line}").unwrap();
@@ -292,8 +457,9 @@ mod tests {
             while lines.next_if(|line| line.is_empty()).is_some() {}
             made.push_str("\n| array | dimensions | type | unit | content |\n|---|---|---|---|---|\n");
             for path in paths.split(", ") {
-                let group = declared.iter().find(|(own, _)| *own == path);
-                made.push_str(&group.unwrap_or_else(|| panic!("no group {path} is declared")).1);
+                let rows: String = declared().filter(|(own, _)| *own == path).map(|(_, rows)| rows).collect();
+                assert!(!rows.is_empty(), "no group {path} is declared");
+                made.push_str(&rows);
                 shown.push(path);
             }
             if lines.peek().is_some() {

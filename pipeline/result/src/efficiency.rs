@@ -1,9 +1,12 @@
 //! Efficiency and sufficiency as `uplift measures` left them in a result.
 
+use uplift_fragility::Dispersion;
 use uplift_motion::IntensityMeasure;
+use uplift_regression::Line;
 
+use super::declared::{group, of_measure};
 use super::file::ResultFile;
-use super::layout::{axis, efficiency, sufficiency};
+use super::layout::axis::STRENGTH;
 use crate::error::ResultError;
 
 /// How efficient and sufficient a measure is, over the strengths; NaN where that is not known.
@@ -22,6 +25,8 @@ pub struct StoredEfficiency {
     pub undefined: Vec<f64>,
     /// Deviation of the logarithm of the level at first uplift.
     pub initiation: Vec<f64>,
+    /// Records whose level at first uplift is known.
+    pub initiation_records: Vec<u32>,
     /// Trends of the residuals with what a record is.
     pub trends: Vec<StoredTrend>,
 }
@@ -33,8 +38,71 @@ pub struct StoredTrend {
     pub covariate: String,
     /// Change of the mean logarithmic residual with it.
     pub slope: Vec<f64>,
+    /// Standard error of the slope.
+    pub slope_error: Vec<f64>,
     /// Probability of such a slope if there were none.
     pub p_value: Vec<f64>,
+    /// Share of the variance explained.
+    pub r_squared: Vec<f64>,
+}
+
+group! {
+    /// Scatter of the demand; `<levels>` are those of the measure, or common ones where records are scaled to another.
+    pub const EFFICIENCY_OF_STRIPES: Vec<Dispersion> = EFFICIENCY.path;
+    "median_m" [STRENGTH, "<levels>"] Made "m" "median demand"
+        ("median demand; of a measure that records were not scaled to the second axis is `<measure>_common_level`, and \
+          the attribute `scaled_to` names the one that they were") = |of, at| of[at].median_m;
+    "dispersion" [STRENGTH, "<levels>"] Made "1" "half the logarithm of the 84th over the 16th percentile"
+        ("by percentiles; NaN where zeros or overturning forbid it, as the next one") = |of, at| of[at].by_percentiles;
+    "ln_deviation" [STRENGTH, "<levels>"] Made "1" "standard deviation of the logarithm of the demand"
+        = |of, at| of[at].of_logarithm;
+    "zeros" [STRENGTH, "<levels>"] Made "1" "demands of zero" = |of, at| of[at].zeros as f64;
+    "overturned" [STRENGTH, "<levels>"] Made "1" "overturned runs" = |of, at| of[at].overturned as f64;
+}
+
+group! {
+    /// What ranks measures; absent in results of versions that did not ask.
+    pub const REACHING: StoredEfficiency = EFFICIENCY.path;
+    "reaching" [STRENGTH] F64 "1"
+        "deviation of the logarithm of the level at which a displacement is reached, median over displacements"
+        = |of, at| of.reaching[at];
+}
+
+group! {
+    /// How efficient a measure is.
+    pub const EFFICIENCY: StoredEfficiency = "/efficiency/<im>";
+    "rocking" [STRENGTH] F64 "1" "median dispersion of the stripes whose median rocks" = |of, at| of.rocking[at];
+    "undefined" [STRENGTH] F64 "1" "share of these stripes that have none, for zeros or overturning"
+        = |of, at| of.undefined[at];
+    "initiation" [STRENGTH] F64 "1" "deviation of the logarithm of the level at first uplift"
+        = |of, at| of.initiation[at];
+    "initiation_records" [STRENGTH] U32 "1" "records whose level at first uplift is known"
+        = |of, at| of.initiation_records[at];
+}
+
+group! {
+    /// Trends of the residuals with a covariate: `<covariate>`, in words `<with>`.
+    pub const TRENDS: StoredTrend = "/sufficiency/<im>/<covariate>";
+    "slope" [STRENGTH] F64 "1" "<with>: change of the mean logarithmic residual with it"
+        ("change of the mean logarithmic residual with the covariate: `magnitude`, `ln_rrup`, `ln_duration`")
+        = |of, at| of.slope[at];
+    "slope_error" [STRENGTH] F64 "1" "<with>: standard error of the slope" = |of, at| of.slope_error[at];
+    "p_value" [STRENGTH] F64 "1" "<with>: probability of such a slope if there were none" = |of, at| of.p_value[at];
+    "r_squared" [STRENGTH] F64 "1" "<with>: share of the variance explained" = |of, at| of.r_squared[at];
+}
+
+impl StoredTrend {
+    /// The trends of the `lines` with a covariate, a line a strength.
+    pub fn new(covariate: &str, lines: &[Option<Line>]) -> Self {
+        let of = |value: fn(&Line) -> f64| lines.iter().map(|line| line.as_ref().map_or(f64::NAN, value)).collect();
+        Self {
+            covariate: covariate.to_owned(),
+            slope: of(|line| line.slope),
+            slope_error: of(|line| line.slope_error),
+            p_value: of(|line| line.p_value),
+            r_squared: of(|line| line.r_squared),
+        }
+    }
 }
 
 impl ResultFile {
@@ -43,33 +111,36 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn efficiency(&self) -> Result<Vec<StoredEfficiency>, ResultError> {
-        let strengths = (axis::STRENGTH, self.axes()?.strengths.len());
-        let over_strengths = |path: &str| self.checked(path, self.reader.array_f64(path)?, &[strengths]);
+        let strengths = self.axes()?.strengths.len();
+        let lengths = &[(STRENGTH, strengths)];
         let of = |measure: IntensityMeasure| {
-            let group = format!("{}/{}", sufficiency::ROOT, measure.key());
-            let covariates = if self.reader.exists(&group) { self.reader.children(&group)? } else { Vec::new() };
+            let names = of_measure(measure);
             let trend = |covariate: String| {
-                let array = |name| over_strengths(&sufficiency::array(measure, &covariate, name));
-                Ok(StoredTrend { slope: array("slope")?, p_value: array("p_value")?, covariate })
+                let mut trend = StoredTrend::new(&covariate, &vec![None; strengths]);
+                TRENDS.read(self, &[names[0], ("<covariate>", &covariate)], lengths, &mut trend)?;
+                Ok(trend)
             };
+            let group = format!("{}/{}", TRENDS.root(), measure.key());
+            let covariates = if self.reader.exists(&group) { self.reader.children(&group)? } else { Vec::new() };
             // results of earlier versions have no others
-            let said = self.reader.attribute_text(&efficiency::group(measure), "scaled_to").ok();
-            let scaled_to = said.and_then(|key| key.parse().ok()).unwrap_or(measure);
-            let reaching = efficiency::reaching(measure);
-            Ok(StoredEfficiency {
+            let said = self.reader.attribute_text(&EFFICIENCY.of_measure(measure), "scaled_to").ok();
+            let nan = vec![f64::NAN; strengths];
+            let mut found = StoredEfficiency {
                 measure,
-                scaled_to,
-                reaching: if self.reader.exists(&reaching) {
-                    over_strengths(&reaching)?
-                } else {
-                    vec![f64::NAN; strengths.1]
-                },
-                rocking: over_strengths(&efficiency::rocking(measure))?,
-                undefined: over_strengths(&efficiency::undefined(measure))?,
-                initiation: over_strengths(&efficiency::initiation(measure))?,
+                scaled_to: said.and_then(|key| key.parse().ok()).unwrap_or(measure),
+                reaching: nan.clone(),
+                rocking: nan.clone(),
+                undefined: nan.clone(),
+                initiation: nan,
+                initiation_records: vec![0; strengths],
                 trends: covariates.into_iter().map(trend).collect::<Result<_, ResultError>>()?,
-            })
+            };
+            if REACHING.is_in(self, &names) {
+                REACHING.read(self, &names, lengths, &mut found)?;
+            }
+            EFFICIENCY.read(self, &names, lengths, &mut found)?;
+            Ok(found)
         };
-        self.measures_in(efficiency::ROOT).into_iter().map(of).collect()
+        self.measures_in(EFFICIENCY.root()).into_iter().map(of).collect()
     }
 }

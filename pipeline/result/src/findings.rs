@@ -2,7 +2,9 @@
 
 use uplift_job::checksum::checksum;
 use uplift_job::text::{risk_in_words, rounded, short};
+use uplift_labelled::{LabelledError, LabelledWriter};
 
+use super::declared::group;
 use super::file::ResultFile;
 use super::layout::{axis, structures};
 use crate::error::ResultError;
@@ -61,7 +63,7 @@ pub struct Finding {
 }
 
 /// A number of an answer.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct FindingRow {
     /// What it is: `demand on the structure`.
     pub quantity: String,
@@ -77,6 +79,26 @@ pub struct FindingRow {
     pub unit: String,
     /// What the band is of: `records`, `earthquakes`, …; empty where there is none.
     pub band: String,
+}
+
+group! {
+    /// The numbers of an answer.
+    pub const FINDINGS: Vec<FindingRow> = "/structures/<structure>/<command>/<key>";
+    "quantity" ["finding_<key>"] Text "" "what the number is" = |of, at| of[at].quantity;
+    "site" ["finding_<key>"] Text "" "site; empty where it is of none" = |of, at| of[at].site;
+    "im" ["finding_<key>"] Text "" "intensity measure; empty where it is of none" = |of, at| of[at].im;
+    "unit" ["finding_<key>"] Text "" "unit of value, lower and upper"
+        ("unit of value, lower and upper: `m`, `1/yr`, … (`1` where there is none)") = |of, at| of[at].unit;
+    "band" ["finding_<key>"] Text "" "what the band is of"
+        ("what the band is of: `records`, `earthquakes`, `records and hazard`, `resampled records`, `structure, \
+          records and hazard`, `at most`, …") = |of, at| of[at].band;
+    "value" ["finding_<key>"] F64 "1" "the number, in its unit"
+        ("the number, in its unit; `inf` where the structure overturns") = |of, at| of[at].value;
+    "lower" ["finding_<key>"] F64 "1" "lower limit of its band"
+        ("lower limit of its band, in its unit; NaN where there is none") = |of, at| of[at].limits[0];
+    "upper" ["finding_<key>"] F64 "1" "upper limit of its band; alone where no run shows what it bounds"
+        ("upper limit of its band; alone where no run shows what it bounds: what it is at most")
+        = |of, at| of[at].limits[1];
 }
 
 /// An answer as a result keeps it.
@@ -115,6 +137,18 @@ impl Finding {
     /// What to know before using it, the worst first, as it was told.
     pub fn alarms(&self) -> Vec<serde_json::Value> {
         self.printed()["alarms"].as_array().cloned().unwrap_or_default()
+    }
+
+    /// Writes its numbers with their axis.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write_rows(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
+        let (key, count) = (self.key(), self.rows.len());
+        let (axis, numbers) = (axis::finding(&key), (1..).take(count).collect::<Vec<u32>>());
+        writer.axis_u32(&axis, &numbers, "1", "number of an answer")?;
+        let names = [("<command>", self.inquiry.key()), ("<key>", &key), ("<structure>", &self.structure)];
+        FINDINGS.write(writer, &names, &[(&axis, count)], &self.rows)
     }
 
     /// The group that it stands in.
@@ -238,6 +272,10 @@ impl ResultFile {
         let text = |name: &str| self.reader.attribute_text(&group, name);
         let request: serde_json::Map<String, serde_json::Value> = serde_json::from_str(&text(REQUEST)?)
             .map_err(|error| self.damaged(format!("attribute {REQUEST} of {group}: {error}")))?;
+        let axis = axis::finding(key);
+        let mut rows = vec![FindingRow::default(); self.reader.axis_u32(&axis)?.len()];
+        let names = [("<command>", inquiry.key()), ("<key>", key), ("<structure>", structure)];
+        FINDINGS.read(self, &names, &[(&axis, rows.len())], &mut rows)?;
         let value = |of: serde_json::Value| of.as_str().map_or_else(|| of.to_string(), str::to_owned);
         Ok(StoredFinding {
             finding: Finding {
@@ -247,7 +285,7 @@ impl ResultFile {
                 inquiry,
                 request: request.into_iter().map(|(name, of)| (name, value(of))).collect(),
                 study_digest: text(STUDY_DIGEST)?,
-                rows: self.finding_rows(&group, &axis::finding(key))?,
+                rows,
                 document: text(DOCUMENT)?,
             },
             created: text("created")?,
@@ -255,32 +293,6 @@ impl ResultFile {
             commit: text("commit")?,
             is_of_earlier_file: false,
         })
-    }
-
-    fn finding_rows(&self, group: &str, rows: &str) -> Result<Vec<FindingRow>, ResultError> {
-        let axes = [(rows, self.reader.axis_u32(rows)?.len())];
-        let texts = |name: &str| {
-            let path = format!("{group}/{name}");
-            self.checked(&path, self.reader.array_text(&path)?, &axes)
-        };
-        let numbers = |name: &str| {
-            let path = format!("{group}/{name}");
-            self.checked(&path, self.reader.array_f64(&path)?, &axes)
-        };
-        let [quantity, site, im, unit, band] = ["quantity", "site", "im", "unit", "band"].map(texts);
-        let [value, lower, upper] = ["value", "lower", "upper"].map(numbers);
-        let texts = quantity?.into_iter().zip(site?).zip(im?).zip(unit?).zip(band?);
-        let numbers = value?.into_iter().zip(lower?).zip(upper?);
-        let row = |((((quantity, site), im), unit), band), ((value, lower), upper)| FindingRow {
-            quantity,
-            site,
-            im,
-            value,
-            limits: [lower, upper],
-            unit,
-            band,
-        };
-        Ok(texts.zip(numbers).map(|(texts, numbers)| row(texts, numbers)).collect())
     }
 }
 

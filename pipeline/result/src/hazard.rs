@@ -3,8 +3,10 @@
 use uplift_hazard::HazardCurve;
 use uplift_motion::IntensityMeasure;
 
+use super::declared::of_measure;
 use super::file::ResultFile;
-use super::layout::{axis, hazard, ida};
+use super::layout::{axis, hazard};
+use super::peaks::PEAKS;
 use crate::error::ResultError;
 
 /// The hazard of one measure.
@@ -65,8 +67,8 @@ impl ResultFile {
 
     /// The measures with stripes, PGV first.
     pub fn measures(&self) -> Vec<IntensityMeasure> {
-        let is_there = |measure: &IntensityMeasure| self.reader.exists(&ida::edp_m(*measure));
-        self.measures_in(ida::ROOT).into_iter().filter(is_there).collect()
+        let is_there = |measure: &IntensityMeasure| PEAKS.is_in(self, &of_measure(*measure));
+        self.measures_in(PEAKS.root()).into_iter().filter(is_there).collect()
     }
 
     /// The measures with a group of their own in `group`, PGV first; none where there is no such group.

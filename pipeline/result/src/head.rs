@@ -8,7 +8,8 @@ use uplift_study::Kind;
 
 use super::digest::UNSAID_NUMERICS;
 use super::file::ResultFile;
-use super::layout::{axis, bootstrap, design, efficiency, ida, influence, set, shake_table, spectra, structures};
+use super::layout::{axis, design, set, shake_table, spectra, structures};
+use super::{BANDS, EFFICIENCY, INFLUENCE, PEAKS};
 use crate::error::ResultError;
 
 /// Where the numbers of a result come from: what results of every kind say at their root.
@@ -159,16 +160,16 @@ impl ResultFile {
         }
         let mut analyses = Vec::new();
         // by their keys, as a listing of the file has them
-        let mut measures = self.measures_in(ida::ROOT);
+        let mut measures = self.measures_in(PEAKS.root());
         measures.sort_by_key(|measure| measure.key());
         for measure in measures {
-            analyses.push((measure.label(), reader.attribute_u64(&ida::group(measure), "analyses")?));
+            analyses.push((measure.label(), reader.attribute_u64(&PEAKS.of_measure(measure), "analyses")?));
         }
         let sites = reader.exists(&axis::path(axis::SITE)).then(|| reader.axis_text(axis::SITE)).transpose()?;
         let added = [
-            (bootstrap::ROOT, "bootstrap"),
-            (influence::ROOT, "influence"),
-            (efficiency::ROOT, "measures"),
+            (BANDS.root(), "bootstrap"),
+            (INFLUENCE.root(), "influence"),
+            (EFFICIENCY.root(), "measures"),
             (structures::ROOT, "structures"),
         ];
         Ok(Overview::UniformRisk {

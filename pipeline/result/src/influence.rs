@@ -3,8 +3,9 @@
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
+use super::declared::{group, of_measure};
 use super::file::ResultFile;
-use super::layout::{axis, disaggregation, influence};
+use super::layout::axis::{self, POE, RECORD, SITE, STRENGTH};
 use crate::error::ResultError;
 
 /// Influence on the spectra of one measure.
@@ -20,10 +21,40 @@ pub struct StoredInfluence {
     pub shares: Array<4>,
 }
 
+group! {
+    /// Ordinates without each record; `<left_out>` is the record, or its pair where both are left out.
+    pub const INFLUENCE: Array<4> = "/influence/<im>";
+    "u_without_m" [SITE, POE, RECORD, STRENGTH] F64 "m" "uniform risk displacement without the <left_out>"
+        ("the spectra without each record; absent for a single record; where azimuths or structures of a pair are \
+          records, without all of the pair") = |of, at| of[at];
+}
+
+group! {
+    /// The same of the repaired spectra.
+    pub const INFLUENCE_REPAIRED: Array<4> = "/influence/<im>/consistent";
+    "u_without_m" [SITE, POE, RECORD, STRENGTH] F64 "m" "uniform risk displacement without the <left_out>"
+        ("the repaired spectra without each record, their weights solved anew; NaN at sites without repair")
+        = |of, at| of[at];
+}
+
+group! {
+    /// Shares of the risk at each ordinate.
+    pub const DISAGGREGATION: Array<4> = "/disaggregation/<im>";
+    "share" [SITE, POE, STRENGTH, "<im>_bin"] F64 "1" "share of the risk at the ordinate"
+        ("share of the risk at the ordinate; NaN where that is 0 or censored") = |of, at| of[at];
+}
+
+group! {
+    /// The same of the repaired spectra.
+    pub const DISAGGREGATION_REPAIRED: Array<4> = "/disaggregation/<im>/consistent";
+    "share" [SITE, POE, STRENGTH, "<im>_bin"] F64 "1" "share of the risk at the ordinate"
+        ("the same at the repaired ordinates; NaN at sites without repair") = |of, at| of[at];
+}
+
 impl ResultFile {
     /// Whether `uplift influence` left something, of the probabilities of the study.
     pub fn has_influence(&self) -> bool {
-        self.measures().iter().any(|measure| self.reader.exists(&disaggregation::share(*measure)))
+        self.measures().iter().any(|&measure| DISAGGREGATION.is_in(self, &of_measure(measure)))
     }
 
     /// The influence on the spectra of each measure of a result of uniform risk; none before `uplift influence`.
@@ -32,18 +63,20 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn influence(&self) -> Result<Vec<StoredInfluence>, ResultError> {
         let axes = self.axes()?;
-        let (site, poe) = ((axis::SITE, axes.sites.len()), (axis::POE, axes.poes.len()));
-        let (record, strength) = ((axis::RECORD, axes.records.len()), (axis::STRENGTH, axes.strengths.len()));
+        let (site, poe) = ((SITE, axes.sites.len()), (POE, axes.poes.len()));
+        let (record, strength) = ((RECORD, axes.records.len()), (STRENGTH, axes.strengths.len()));
         let of = |measure: IntensityMeasure| {
             let bin = axis::bin(measure);
             let bins = self.reader.axis_f64(&bin)?;
-            let shares = self.array(&disaggregation::share(measure), [site, poe, strength, (&bin, bins.len())])?;
-            let path = influence::u_without_m(measure);
-            let without_m =
-                self.reader.exists(&path).then(|| self.array(&path, [site, poe, record, strength])).transpose()?;
+            let names = of_measure(measure);
+            let shares = DISAGGREGATION.read_array(self, &names, [site, poe, strength, (&bin, bins.len())])?;
+            let without_m = INFLUENCE
+                .is_in(self, &names)
+                .then(|| INFLUENCE.read_array(self, &names, [site, poe, record, strength]))
+                .transpose()?;
             Ok(StoredInfluence { measure, without_m, bins, shares })
         };
-        let has = |measure: &IntensityMeasure| self.reader.exists(&disaggregation::share(*measure));
+        let has = |measure: &IntensityMeasure| DISAGGREGATION.is_in(self, &of_measure(*measure));
         self.measures().into_iter().filter(has).map(of).collect()
     }
 }

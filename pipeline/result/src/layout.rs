@@ -7,31 +7,6 @@ use uplift_motion::IntensityMeasure;
 /// Version of the layout of the result file.
 pub const LAYOUT: i64 = 1;
 
-/// Arrays of each intensity measure in a group of their own: a function that gives the path of each, the group's path,
-/// and the names of all.
-macro_rules! by_measure {
-    ($(#[$doc:meta])* $module:ident: $($function:ident = $name:literal),+ $(,)?) => {
-        $(#[$doc])*
-        pub mod $module {
-            use uplift_motion::IntensityMeasure;
-            /// The group of all measures.
-            pub const ROOT: &str = concat!("/", stringify!($module));
-            /// The arrays of a measure.
-            pub const ARRAYS: &[&str] = &[$($name),+];
-            /// The group of one measure.
-            pub fn group(measure: IntensityMeasure) -> String {
-                format!("{ROOT}/{}", measure.key())
-            }
-            $(
-                #[doc = concat!("`", $name, "` of one measure.")]
-                pub fn $function(measure: IntensityMeasure) -> String {
-                    format!("{ROOT}/{}/{}", measure.key(), $name)
-                }
-            )+
-        }
-    };
-}
-
 /// Arrays with fixed paths.
 macro_rules! in_group {
     ($(#[$doc:meta])* $module:ident: $($constant:ident = $name:literal),+ $(,)?) => {
@@ -50,70 +25,14 @@ macro_rules! in_group {
 }
 
 in_group! {
-    /// The ground motions.
+    /// The structures that records shake, where these are not known exactly.
     records:
-    EVENT = "event", STATION = "station", MAGNITUDE = "magnitude", RRUP_KM = "rrup_km", VS30 = "vs30",
-    COMPONENT = "component", MOTION_SHA256 = "motion_sha256", CHECKSUM = "checksum", PGA_G = "pga_g",
-    PGV_CM_S = "pgv_cm_s", DURATION_5_75_S = "duration_5_75_s", DURATION_5_95_S = "duration_5_95_s", DT_S = "dt_s",
-    SAMPLES = "samples", STRUCTURE = "structure", STRENGTH_FACTOR = "strength_factor", RESTITUTION = "restitution",
+    STRUCTURE = "structure", STRENGTH_FACTOR = "strength_factor", RESTITUTION = "restitution",
     UPLIFT_DISPLACEMENT_M = "uplift_displacement_m", CAPACITY_M = "capacity_m",
-}
-
-/// The array of an intensity measure of the unscaled pairs: `/records/pga_g`, `/records/sa_1s_g`.
-pub fn intensity(measure: IntensityMeasure) -> String {
-    format!("{}/{}_{}", records::GROUP, measure.key(), measure.unit_key())
-}
-
-by_measure! {
-    /// Peak displacements of all runs.
-    ida: edp_m = "edp_m", impacts = "impacts", factor = "factor", share = "share",
-}
-
-by_measure! {
-    /// The risk surface.
-    risk: maf_per_year = "maf_per_year",
 }
 
 /// The sentence on how well the records know the spectra of a measure, an attribute of its group in `/urs`.
 pub const URS_PRECISION: &str = "precision";
-
-/// Confidence bands; their limits are named after their levels ([`limit_names`]).
-pub mod bootstrap {
-    use uplift_motion::IntensityMeasure;
-
-    /// The group of all measures.
-    pub const ROOT: &str = "/bootstrap";
-    /// Limits of the band of whole spectra.
-    pub const SIMULTANEOUS: [&str; 2] = ["simultaneous_lower_m", "simultaneous_upper_m"];
-    /// Limits of the band of the spectrum of all records there could be.
-    pub const TRUTH: [&str; 2] = ["truth_lower_m", "truth_upper_m"];
-    /// Limits of the band of the spectrum of another set of as many records.
-    pub const PREDICTION: [&str; 2] = ["prediction_lower_m", "prediction_upper_m"];
-    /// Error of the median (Eq. 4.9).
-    pub const E_MEDIAN: &str = "e_median";
-    /// Range of the interval (Eq. 4.10).
-    pub const R_90CI: &str = "r_90ci";
-    /// Share of the replicates whose weights fail, of repaired spectra.
-    pub const FAILED: &str = "failed";
-    /// The arrays of a measure but for the limits.
-    pub const ARRAYS: &[&str] =
-        &[SIMULTANEOUS[0], SIMULTANEOUS[1], TRUTH[0], TRUTH[1], PREDICTION[0], PREDICTION[1], E_MEDIAN, R_90CI, FAILED];
-
-    /// The group of a measure.
-    pub fn group(measure: IntensityMeasure) -> String {
-        format!("{ROOT}/{}", measure.key())
-    }
-}
-
-by_measure! {
-    /// The spectra without each record.
-    influence: u_without_m = "u_without_m", repaired = "consistent/u_without_m",
-}
-
-by_measure! {
-    /// The intensities that the risk comes from.
-    disaggregation: share = "share", repaired = "consistent/share",
-}
 
 /// Whether the records bring the hazard of the other measure.
 pub mod consistency {
@@ -123,7 +42,6 @@ pub mod consistency {
     pub const ROOT: &str = "/consistency";
     /// The arrays of a measure but for those of the other one ([`OF_OTHER`]).
     pub const ARRAYS: &[&str] = &[
-        "rate_per_year",
         "scale_factor_05",
         "scale_factor_50",
         "scale_factor_95",
@@ -132,18 +50,15 @@ pub mod consistency {
         "exponent",
         "knot",
         "iterations",
-        "effective_records",
         "mean_ln_ratio",
         "sd_ln_ratio",
         "weight",
-        "u_m",
         "flag",
         "lower_tail_share",
         "upper_tail_share",
     ];
     /// What the names of the arrays of the other measure end with: `pga_site`.
-    pub const OF_OTHER: &[&str] =
-        &["site", "implied", "repaired", "bias", "rms", "max", "verdict", "ratio", "times_as_often"];
+    pub const OF_OTHER: &[&str] = &["rms", "times_as_often"];
 
     /// The group of the analysis by a measure.
     pub fn group(measure: IntensityMeasure) -> String {
@@ -155,43 +70,9 @@ pub mod consistency {
         format!("{}/{name}", group(measure))
     }
 
-    /// An array of the repaired spectra of the weighted hazard curves of a site.
-    pub fn branches(measure: IntensityMeasure, site: &str, name: &str) -> String {
-        format!("{}/branches/{site}/{name}", group(measure))
-    }
-
-    /// The other measure whose levels at the site are in the array `name`; none for any other array.
-    pub(crate) fn other_of_site(name: &str) -> Option<IntensityMeasure> {
-        name.strip_suffix("_site")?.parse().ok()
-    }
-
     /// The name of an array that is about the `other` measure.
     pub fn of_other(other: IntensityMeasure, name: &str) -> String {
         format!("{}_{name}", other.key())
-    }
-}
-
-by_measure! {
-    /// Scatter of the demand.
-    efficiency:
-    median_m = "median_m", dispersion = "dispersion", ln_deviation = "ln_deviation", zeros = "zeros",
-    overturned = "overturned", reaching = "reaching", rocking = "rocking", undefined = "undefined",
-    initiation = "initiation",
-    initiation_records = "initiation_records",
-}
-
-/// Trends of the residuals with what a record is.
-pub mod sufficiency {
-    use uplift_motion::IntensityMeasure;
-
-    /// The group of all measures.
-    pub const ROOT: &str = "/sufficiency";
-    /// The arrays of a measure and covariate.
-    pub const ARRAYS: &[&str] = &["slope", "slope_error", "p_value", "r_squared"];
-
-    /// An array of a measure and covariate.
-    pub fn array(measure: IntensityMeasure, covariate: &str, name: &str) -> String {
-        format!("{ROOT}/{}/{covariate}/{name}", measure.key())
     }
 }
 
@@ -199,8 +80,6 @@ pub mod sufficiency {
 pub mod structures {
     /// The group of all structures.
     pub const ROOT: &str = "/structures";
-    /// The arrays of an answer.
-    pub const ARRAYS: &[&str] = &["quantity", "site", "im", "value", "lower", "upper", "unit", "band"];
 
     /// The answers on a structure.
     pub fn group(structure: &str) -> String {
@@ -231,53 +110,6 @@ pub mod hazard {
     pub fn maf_per_year(group: &str) -> String {
         format!("{group}/maf_per_year")
     }
-}
-
-/// Spectra of the weighted hazard curves of a site.
-pub mod epistemic {
-    use uplift_motion::IntensityMeasure;
-
-    /// Arrays of a site but for the fractiles, which are named as percentiles
-    /// ([`percentile_name`](super::percentile_name)).
-    pub const ARRAYS: &[&str] = &["weight", "u_m", "mean_m"];
-
-    /// An array of a measure and site.
-    pub fn array(measure: IntensityMeasure, site: &str, name: &str) -> String {
-        format!("/epistemic/{}/{site}/{name}", measure.key())
-    }
-}
-
-/// Spectra of the structures that may be.
-pub mod uncertainty {
-    use uplift_motion::IntensityMeasure;
-
-    /// Arrays of a site but for the fractiles, which are named as percentiles
-    /// ([`percentile_name`](super::percentile_name)).
-    pub const ARRAYS: &[&str] = &["u_m", "mean_m"];
-
-    /// An array of a measure and site.
-    pub fn array(measure: IntensityMeasure, site: &str, name: &str) -> String {
-        format!("/uncertainty/{}/{site}/{name}", measure.key())
-    }
-}
-
-/// How often each record was drawn.
-pub const MULTIPLICITY: &str = "/bootstrap/multiplicity";
-
-/// A limit or median of the bands of a measure, by its name.
-pub fn band(measure: IntensityMeasure, limit: &str) -> String {
-    format!("{}/{limit}", bootstrap::group(measure))
-}
-
-/// An array of the bands of the repaired spectra of a measure, by its name.
-pub fn repaired_band(measure: IntensityMeasure, name: &str) -> String {
-    format!("{}/consistent/{name}", bootstrap::group(measure))
-}
-
-/// An array of the bands of a site over records and weighted hazard curves together, by its name: the name of an array
-/// for [`band`] and [`repaired_band`].
-pub fn joint(site: &str, name: &str) -> String {
-    format!("joint/{site}/{name}")
 }
 
 in_group! {
@@ -538,20 +370,9 @@ mod tests {
         let documented = |group: &str, name: &str| {
             page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
         };
-        let groups: [(&str, &[&str]); 18] = [
+        let groups: [(&str, &[&str]); 7] = [
             ("`/records/", records::ARRAYS),
-            ("`/ida/pgv/", ida::ARRAYS),
-            ("`/risk/pgv/", risk::ARRAYS),
-            ("`/bootstrap/pgv/", bootstrap::ARRAYS),
-            ("`/influence/pgv/", influence::ARRAYS),
-            ("`/disaggregation/pgv/", disaggregation::ARRAYS),
-            ("`/efficiency/pgv/", efficiency::ARRAYS),
             ("`/consistency/pgv/", consistency::ARRAYS),
-            ("`/sufficiency/pgv/<covariate>/", sufficiency::ARRAYS),
-            ("`/epistemic/pgv/<site>/", epistemic::ARRAYS),
-            ("`/uncertainty/pgv/<site>/", uncertainty::ARRAYS),
-            ("`/consistency/pgv/branches/<site>/", &epistemic::ARRAYS[1..]),
-            ("`/structures/<structure>/<command>/<key>/", structures::ARRAYS),
             ("`/hazard/<site>/pgv/", &["maf_per_year"]),
             ("`/spectra/", spectra::ARRAYS),
             ("`/sets/<set>/", set::ARRAYS),
@@ -566,6 +387,5 @@ mod tests {
         for name in axis::ALL {
             assert!(page.contains(&format!("| `{name}` |")), "docs/hdf5-layout.md has no axis {name}");
         }
-        assert!(page.contains(&format!("`{MULTIPLICITY}`")));
     }
 }

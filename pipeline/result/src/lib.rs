@@ -30,36 +30,46 @@ mod study;
 mod target;
 
 pub use asked_spectra::AskedSpectra;
-pub use bands::BandMethod;
 pub use bands::{
-    InferredBands, MeasureBands, StoredBands, StoredDraws, StoredJointBands, StoredRepairedBands, StoredSpectraBands,
-    WidestInferred,
+    BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, REPAIRED_BANDS, SIMULTANEOUS_BANDS,
 };
-pub use consistency::{REPAIRED_FITS, StoredConsistency};
+pub use bands::{
+    BandMethod, InferredBands, MeasureBands, SiteJointBands, StoredBands, StoredDraws, StoredJointBands,
+    StoredRepairedBands, StoredSpectraBands, WidestInferred, band_lengths, band_names,
+};
+pub use consistency::{
+    CONSISTENCY, EFFECTIVE_RECORDS, REPAIRED_FITS, REPAIRED_LEVEL, REPAIRED_U_M, StoredConsistency, consistency_names,
+};
 pub use design::{BOUNDS, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
 pub use displacements::{
     SpectrumPlace, StoredDisplacements, StoredMotions, StoredRounding, StoredSet, StoredStructures,
 };
+pub use efficiency::{EFFICIENCY, EFFICIENCY_OF_STRIPES, REACHING, TRENDS};
 pub use efficiency::{StoredEfficiency, StoredTrend};
 pub use error::ResultError;
 pub use extend::{Addition, sign};
 pub use file::{ResultFile, RiskAxes};
 pub use findings::{DOCUMENT, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST};
-pub use findings::{Finding, FindingRow, Inquiry, StoredFinding};
+pub use findings::{FINDINGS, Finding, FindingRow, Inquiry, StoredFinding};
 pub use hazard::{StoredBranch, StoredCurves, StoredHazard};
 pub use head::{Head, Overview};
-pub use influence::StoredInfluence;
+pub use influence::{DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, StoredInfluence};
+pub use peaks::{FACTORS, IMPACTS, PEAKS, RISK_SURFACE, SHARES};
 pub use peaks::{SetsOfLevels, StoredPeaks};
 pub use provenance::Origin;
 pub use provenance::Provenance;
-pub use records::StoredRecords;
+pub use records::{INTENSITY, MOTION_KEYS, RECORDS, StoredRecords, intensity_names};
 pub use shake_table::{
     DIRECTIONS, Excitation, ShakeTable, TABLE_EXCITATIONS, TABLE_TESTS, TableLevel, TableSpectra, TableTest,
 };
 pub use spectra::{Fit, Fits, MeasureSpectra, Spectrum, StoredSpectra, regression, urs};
 pub use spectra::{flag_number, flag_word};
-pub use spread::{FRACTILES, SpreadOver, StoredSpread};
+pub use spread::{
+    BRANCH_WEIGHTS, EPISTEMIC, EPISTEMIC_SPECTRA, REPAIRED_EPISTEMIC, REPAIRED_EPISTEMIC_SPECTRA, UNCERTAINTY,
+    UNCERTAINTY_SPECTRA,
+};
+pub use spread::{FRACTILES, Spread, SpreadOver, StoredSpread};
 pub use target::{check_place, replaces_another};
 pub use target::{check_target, is_hdf5};
 pub use uplift_study::Kind;

@@ -4,9 +4,46 @@ use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
 use super::RiskAxes;
+use super::declared::{group, of_measure};
 use super::file::ResultFile;
-use super::layout::{axis, ida};
+use super::layout::axis::{self, RECORD, SITE, STRENGTH, THRESHOLD};
 use crate::error::ResultError;
+
+group! {
+    /// Peak displacements of all runs; `<not_of_level>` says what is NaN, where something is.
+    pub const PEAKS: Array<3> = "/ida/<im>";
+    "edp_m" [RECORD, STRENGTH, "<im>_level"] F64 "m" "peak displacement, infinite where overturned<not_of_level>"
+        ("peak displacement; `inf` = overturned, NaN = the record is not of the level (`records.at_level`)")
+        = |of, at| of[at];
+}
+
+group! {
+    /// Impacts of the same runs.
+    pub const IMPACTS: Array<3, u32> = PEAKS.path;
+    "impacts" [RECORD, STRENGTH, "<im>_level"] U32 "1" "number of impacts" = |of, at| of[at];
+}
+
+group! {
+    /// Scale factors, where levels have records of their own.
+    pub const FACTORS: Array<2> = PEAKS.path;
+    "factor" [RECORD, "<im>_level"] F64 "1" "scale factor of the record, NaN where it does not belong to the level"
+        ("scale factor, NaN where the record is not of the level; only with `records.at_level`") = |of, at| of[at];
+}
+
+group! {
+    /// How much each record counts, where they do not all count alike.
+    pub const SHARES: Array<2> = PEAKS.path;
+    "share" ["<im>_level", RECORD] F64 "1" "how much the record counts at the level, 0 where it does not belong to it"
+        ("how much the record counts at the level, 0 where it is not of it; only where records do not all count alike \
+          at every level") = |of, at| of[at];
+}
+
+group! {
+    /// The risk surface.
+    pub const RISK_SURFACE: Array<3> = "/risk/<im>";
+    "maf_per_year" [SITE, STRENGTH, THRESHOLD] F64 "1/yr" "mean annual frequency of exceeding the threshold"
+        ("the risk surface (Figure 4.4a)") = |of, at| of[at];
+}
 
 /// The peak displacements of one measure.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,12 +72,8 @@ impl ResultFile {
     pub fn peaks(&self, axes: &RiskAxes, measure: IntensityMeasure) -> Result<StoredPeaks, ResultError> {
         let level = axis::level(measure);
         let levels = self.reader.axis_f64(&level)?;
-        let lengths = [
-            (axis::RECORD, axes.records.len()),
-            (axis::STRENGTH, axes.strengths.len()),
-            (level.as_str(), levels.len()),
-        ];
-        let edp_m = self.array(&ida::edp_m(measure), lengths)?;
+        let lengths = [(RECORD, axes.records.len()), (STRENGTH, axes.strengths.len()), (level.as_str(), levels.len())];
+        let edp_m = PEAKS.read_array(self, &of_measure(measure), lengths)?;
         let shares = self.shares_of_levels(axes.records.len(), measure, levels.len())?;
         Ok(StoredPeaks { levels, edp_m, shares })
     }
@@ -55,11 +88,11 @@ impl ResultFile {
         measure: IntensityMeasure,
         levels: usize,
     ) -> Result<Option<SetsOfLevels>, ResultError> {
-        let (path, level) = (ida::factor(measure), axis::level(measure));
-        if !self.reader.exists(&path) {
+        let (names, level) = (of_measure(measure), axis::level(measure));
+        if !FACTORS.is_in(self, &names) {
             return Ok(None);
         }
-        let factors = self.array(&path, [(axis::RECORD, records), (level.as_str(), levels)])?.into_values();
+        let factors = FACTORS.read_array(self, &names, [(RECORD, records), (level.as_str(), levels)])?.into_values();
         Ok(Some(SetsOfLevels { factors, shares: self.shares_of_levels(records, measure, levels)? }))
     }
 
@@ -70,8 +103,8 @@ impl ResultFile {
         measure: IntensityMeasure,
         levels: usize,
     ) -> Result<Option<Vec<f64>>, ResultError> {
-        let (path, level) = (ida::share(measure), axis::level(measure));
-        let lengths = [(level.as_str(), levels), (axis::RECORD, records)];
-        self.reader.exists(&path).then(|| Ok(self.array(&path, lengths)?.into_values())).transpose()
+        let (names, level) = (of_measure(measure), axis::level(measure));
+        let lengths = [(level.as_str(), levels), (RECORD, records)];
+        SHARES.is_in(self, &names).then(|| Ok(SHARES.read_array(self, &names, lengths)?.into_values())).transpose()
     }
 }

@@ -4,9 +4,10 @@ use serde::Serialize;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_study::Kind;
 
-use super::declared::{Field, Group, Place, Quantity, place};
+use super::declared::group;
 use super::file::ResultFile;
-use super::layout::{axis, shake_table as layout};
+use super::layout::axis::{self, EXCITATION, LEVEL};
+use super::layout::shake_table as layout;
 use crate::error::ResultError;
 
 /// Every test of a shaking table.
@@ -107,98 +108,40 @@ pub struct TableTest {
     pub deck_acceleration_m_s2: f64,
 }
 
-/// What is played, at which levels.
-pub const TABLE_EXCITATIONS: Group<ShakeTable> = Group {
-    path: layout::GROUP,
-    quantities: &[
-        Quantity {
-            name: "pgv_srss_m_s",
-            axes: &[axis::LEVEL],
-            unit: "m/s",
-            long_name: "SRSS of both PGV on the table",
-            note: "root of the sum of squares of both PGV on the table (Eq. 6.9)",
-            field: Field::F64(place!(|of, at| of.levels[at].pgv_srss_m_s)),
-        },
-        text("class", "class of the excitation", "", place!(|of, at| of.excitations[at].class)),
-        text("record", "record", "identifier of the record", place!(|of, at| of.excitations[at].record)),
-        text(
-            "rsn",
-            "record sequence number",
-            "its sequence number; empty if not known",
-            place!(|of, at| of.excitations[at].rsn),
-        ),
-        Quantity {
-            name: "recorded_pgv_m_s",
-            axes: &[axis::EXCITATION],
-            unit: "m/s",
-            long_name: "SRSS of both PGV as recorded",
-            note: "root of the sum of squares of both PGV as recorded",
-            field: Field::F64(place!(|of, at| of.excitations[at].recorded_pgv_m_s)),
-        },
-    ],
-};
-
-/// What the frame does in each test; places of [`ShakeTable::tests`] are `[level, excitation]`.
-pub const TABLE_TESTS: Group<ShakeTable> = Group {
-    path: layout::GROUP,
-    quantities: &[
-        of_test("factor", "1", "factor on the accelerations of the record", place!(|of, at| of.tests[at].factor)),
-        of_test("pga_srss_m_s2", "m/s2", "SRSS of both PGA on the table", place!(|of, at| of.tests[at].pga_srss_m_s2)),
-        of_test(
-            "u_m",
-            "m",
-            "peak displacement of the deck, infinite where overturned",
-            place!(|of, at| of.tests[at].u_m),
-        ),
-        of_test("u_x_m", "m", "peak displacement along the first component", place!(|of, at| of.tests[at].u_x_m)),
-        of_test("u_y_m", "m", "peak displacement along the second component", place!(|of, at| of.tests[at].u_y_m)),
-        of_test("drift", "1", "peak displacement over the height of the columns", place!(|of, at| of.tests[at].drift)),
-        of_test("tendon_n", "N", "peak force of a restrainer, NaN without", place!(|of, at| of.tests[at].tendon_n)),
-        of_test(
-            "spring_m",
-            "m",
-            "peak deformation of its springs, NaN without",
-            place!(|of, at| of.tests[at].spring_m),
-        ),
-        of_test(
-            "base_shear_n",
-            "N",
-            "peak base shear of the deck (Eq. 6.10)",
-            place!(|of, at| of.tests[at].base_shear_n),
-        ),
-        of_test(
-            "base_reaction_n",
-            "N",
-            "peak horizontal reaction, columns counted",
-            place!(|of, at| of.tests[at].base_reaction_n),
-        ),
-        of_test(
-            "deck_acceleration_m_s2",
-            "m/s2",
-            "peak total acceleration of the deck",
-            place!(|of, at| of.tests[at].deck_acceleration_m_s2),
-        ),
-    ],
-};
-
-/// A text about each excitation.
-const fn text(
-    name: &'static str,
-    long_name: &'static str,
-    note: &'static str,
-    place: Place<ShakeTable, String>,
-) -> Quantity<ShakeTable> {
-    Quantity { name, axes: &[axis::EXCITATION], unit: "", long_name, note, field: Field::Text(place) }
+group! {
+    /// What is played, at which levels.
+    pub const TABLE_EXCITATIONS: ShakeTable = layout::GROUP;
+    "pgv_srss_m_s" [LEVEL] F64 "m/s" "SRSS of both PGV on the table"
+        ("root of the sum of squares of both PGV on the table (Eq. 6.9)") = |of, at| of.levels[at].pgv_srss_m_s;
+    "class" [EXCITATION] Text "" "class of the excitation" = |of, at| of.excitations[at].class;
+    "record" [EXCITATION] Text "" "record" ("identifier of the record") = |of, at| of.excitations[at].record;
+    "rsn" [EXCITATION] Text "" "record sequence number" ("its sequence number; empty if not known")
+        = |of, at| of.excitations[at].rsn;
+    "recorded_pgv_m_s" [EXCITATION] F64 "m/s" "SRSS of both PGV as recorded"
+        ("root of the sum of squares of both PGV as recorded") = |of, at| of.excitations[at].recorded_pgv_m_s;
 }
 
-/// A number of each test.
-const fn of_test(
-    name: &'static str,
-    unit: &'static str,
-    long_name: &'static str,
-    place: Place<ShakeTable, f64>,
-) -> Quantity<ShakeTable> {
-    Quantity { name, axes: &[axis::LEVEL, axis::EXCITATION], unit, long_name, note: "", field: Field::F64(place) }
+group! {
+    /// What the frame does in each test; places of [`ShakeTable::tests`] are `[level, excitation]`.
+    pub const TABLE_TESTS: ShakeTable = layout::GROUP;
+    "factor" [LEVEL, EXCITATION] F64 "1" "factor on the accelerations of the record" = |of, at| of.tests[at].factor;
+    "pga_srss_m_s2" [LEVEL, EXCITATION] F64 "m/s2" "SRSS of both PGA on the table"
+        = |of, at| of.tests[at].pga_srss_m_s2;
+    "u_m" [LEVEL, EXCITATION] F64 "m" "peak displacement of the deck, infinite where overturned"
+        = |of, at| of.tests[at].u_m;
+    "u_x_m" [LEVEL, EXCITATION] F64 "m" "peak displacement along the first component" = |of, at| of.tests[at].u_x_m;
+    "u_y_m" [LEVEL, EXCITATION] F64 "m" "peak displacement along the second component" = |of, at| of.tests[at].u_y_m;
+    "drift" [LEVEL, EXCITATION] F64 "1" "peak displacement over the height of the columns"
+        = |of, at| of.tests[at].drift;
+    "tendon_n" [LEVEL, EXCITATION] F64 "N" "peak force of a restrainer, NaN without" = |of, at| of.tests[at].tendon_n;
+    "spring_m" [LEVEL, EXCITATION] F64 "m" "peak deformation of its springs, NaN without"
+        = |of, at| of.tests[at].spring_m;
+    "base_shear_n" [LEVEL, EXCITATION] F64 "N" "peak base shear of the deck (Eq. 6.10)"
+        = |of, at| of.tests[at].base_shear_n;
+    "base_reaction_n" [LEVEL, EXCITATION] F64 "N" "peak horizontal reaction, columns counted"
+        = |of, at| of.tests[at].base_reaction_n;
+    "deck_acceleration_m_s2" [LEVEL, EXCITATION] F64 "m/s2" "peak total acceleration of the deck"
+        = |of, at| of.tests[at].deck_acceleration_m_s2;
 }
 
 impl ShakeTable {
@@ -207,9 +150,9 @@ impl ShakeTable {
     /// # Errors
     /// Whatever keeps the file from being written.
     pub fn write(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
-        let lengths = &[(axis::LEVEL, self.levels.len()), (axis::EXCITATION, self.excitations.len())];
-        TABLE_EXCITATIONS.write(writer, None, lengths, self)?;
-        TABLE_TESTS.write(writer, None, lengths, self)
+        let lengths = &[(LEVEL, self.levels.len()), (EXCITATION, self.excitations.len())];
+        TABLE_EXCITATIONS.write(writer, &[], lengths, self)?;
+        TABLE_TESTS.write(writer, &[], lengths, self)
     }
 
     /// The tests of a level with their excitations.
@@ -250,8 +193,8 @@ impl ResultFile {
     pub fn shake_table(&self) -> Result<ShakeTable, ResultError> {
         self.require(Kind::ShakeTable)?;
         let reader = &self.reader;
-        let (names, ids) = (reader.axis_text(axis::LEVEL)?, reader.axis_text(axis::EXCITATION)?);
-        let (level, excitation) = ((axis::LEVEL, names.len()), (axis::EXCITATION, ids.len()));
+        let (names, ids) = (reader.axis_text(LEVEL)?, reader.axis_text(EXCITATION)?);
+        let (level, excitation) = ((LEVEL, names.len()), (EXCITATION, ids.len()));
         if names.is_empty() || ids.is_empty() {
             return Err(self.damaged("an axis of its tests is empty"));
         }
@@ -265,8 +208,8 @@ impl ResultFile {
             excitations: ids.into_iter().map(|exc_id| Excitation { exc_id, ..Excitation::default() }).collect(),
             spectra: None,
         };
-        TABLE_EXCITATIONS.read(self, None, &[level, excitation], &mut table)?;
-        TABLE_TESTS.read(self, None, &[level, excitation], &mut table)?;
+        TABLE_EXCITATIONS.read(self, &[], &[level, excitation], &mut table)?;
+        TABLE_TESTS.read(self, &[], &[level, excitation], &mut table)?;
         table.spectra = self.table_spectra(excitation)?;
         Ok(table)
     }

@@ -6,7 +6,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_regression::{Exponential, ExponentialFit};
 use uplift_risk::OrdinateFlag;
 
-use super::declared::{Field, Group, Place, Quantity, place};
+use super::declared::{Field, Group, Place, Quantity, of_measure, place};
 use super::file::ResultFile;
 use super::layout::{URS_PRECISION, axis};
 use crate::error::ResultError;
@@ -263,7 +263,7 @@ impl MeasureSpectra {
     /// # Errors
     /// Whatever keeps the file from being written.
     pub fn write_spectra(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
-        urs::GROUP.write(writer, Some(self.measure), &self.lengths(), self)
+        urs::GROUP.write(writer, &of_measure(self.measure), &self.lengths(), self)
     }
 
     /// Writes their coefficients into the group of their measure.
@@ -271,7 +271,7 @@ impl MeasureSpectra {
     /// # Errors
     /// Whatever keeps the file from being written.
     pub fn write_coefficients(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
-        regression::GROUP.write(writer, Some(self.measure), &self.lengths(), &self.fits)
+        regression::GROUP.write(writer, &of_measure(self.measure), &self.lengths(), &self.fits)
     }
 }
 
@@ -299,8 +299,8 @@ impl ResultFile {
         for measure in self.measures_in(urs::GROUP.root()) {
             let mut spectra = MeasureSpectra::of_none(measure, shape);
             let lengths = spectra.lengths();
-            regression::GROUP.read(self, Some(measure), &lengths, &mut spectra.fits)?;
-            urs::GROUP.read(self, Some(measure), &lengths, &mut spectra)?;
+            regression::GROUP.read(self, &of_measure(measure), &lengths, &mut spectra.fits)?;
+            urs::GROUP.read(self, &of_measure(measure), &lengths, &mut spectra)?;
             measures.push(spectra);
         }
         let super::RiskAxes { strengths, poes, years, sites, .. } = axes;

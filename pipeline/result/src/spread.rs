@@ -5,8 +5,9 @@ use uplift_motion::IntensityMeasure;
 /// Fractiles of the spectra over the branches.
 pub const FRACTILES: [f64; 5] = [0.05, 0.16, 0.5, 0.84, 0.95];
 
+use super::declared::{Group, group, of_measure};
 use super::file::ResultFile;
-use super::layout::{axis, epistemic, percentile_name, uncertainty};
+use super::layout::axis::{POE, STRENGTH};
 use crate::error::ResultError;
 use uplift_job::Array;
 
@@ -31,6 +32,14 @@ impl SpreadOver {
         }
     }
 
+    /// The group of the spreads of a measure and site.
+    pub fn group(self) -> Group<Spread> {
+        match self {
+            Self::HazardCurves => EPISTEMIC,
+            Self::Structures => UNCERTAINTY,
+        }
+    }
+
     /// In names of columns and keys.
     pub fn key(self) -> &'static str {
         match self {
@@ -49,23 +58,62 @@ pub struct StoredSpread {
     pub over: SpreadOver,
     /// Position of the site.
     pub site: usize,
-    /// Weighted mean of the ordinates `[poe, strength]`, m.
+    /// The spread.
+    pub spread: Spread,
+}
+
+/// Mean and fractiles of spectra, each `[poe, strength]`, m.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spread {
+    /// Weighted mean of the ordinates. It is not the ordinate of the mean hazard, which is the site's spectrum.
     pub mean_m: Array<2>,
-    /// Weighted [`FRACTILES`] of the ordinates, each `[poe, strength]`, m; NaN where one of them has none.
+    /// Weighted [`FRACTILES`] of the ordinates: the smallest ordinate that so much weight does not exceed; NaN where
+    /// one of the spectra has none.
     pub fractiles_m: [Array<2>; 5],
 }
 
+group! {
+    /// Spread over the weighted hazard curves of a site; `<one>` of them and `<many>` in words.
+    pub const EPISTEMIC: Spread = "/epistemic/<im>/<site>";
+    "mean_m" [POE, STRENGTH] F64 "m" "weighted mean over the <many>" = |of, at| of.mean_m[at];
+    "u05_m" [POE, STRENGTH] F64 "m" "5 % fractile over the <many>" = |of, at| of.fractiles_m[0][at];
+    "u16_m" [POE, STRENGTH] F64 "m" "16 % fractile over the <many>" = |of, at| of.fractiles_m[1][at];
+    "u50_m" [POE, STRENGTH] F64 "m" "50 % fractile over the <many>" = |of, at| of.fractiles_m[2][at];
+    "u84_m" [POE, STRENGTH] F64 "m" "84 % fractile over the <many>" = |of, at| of.fractiles_m[3][at];
+    "u95_m" [POE, STRENGTH] F64 "m" "95 % fractile over the <many>" = |of, at| of.fractiles_m[4][at];
+}
+
+group! {
+    /// The spectra themselves, along the axis `<branches>`.
+    pub const EPISTEMIC_SPECTRA: Array<3> = EPISTEMIC.path;
+    "u_m" ["<branches>", POE, STRENGTH] F64 "m" "uniform risk displacement by the <one>" = |of, at| of[at];
+}
+
+group! {
+    /// Weights of the curves.
+    pub const BRANCH_WEIGHTS: Array<1> = EPISTEMIC.path;
+    "weight" ["<branches>"] F64 "1" "weight of the branch" = |of, at| of[at];
+}
+
+/// Spread over the structures that may be.
+pub const UNCERTAINTY: Group<Spread> = Group { path: "/uncertainty/<im>/<site>", ..EPISTEMIC };
+/// The spectra of these structures.
+pub const UNCERTAINTY_SPECTRA: Group<Array<3>> = Group { path: UNCERTAINTY.path, ..EPISTEMIC_SPECTRA };
+/// Spread of the repaired spectra of the weighted hazard curves.
+pub const REPAIRED_EPISTEMIC: Group<Spread> = Group { path: "/consistency/<im>/branches/<site>", ..EPISTEMIC };
+/// The repaired spectra of these curves.
+pub const REPAIRED_EPISTEMIC_SPECTRA: Group<Array<3>> = Group { path: REPAIRED_EPISTEMIC.path, ..EPISTEMIC_SPECTRA };
+
 impl StoredSpread {
     /// Names of the mean and of the fractiles, in the order of [`limits_m`](Self::limits_m): `mean`, `u05`, ….
-    pub fn names() -> [String; 6] {
-        let fractile = |of: usize| percentile_name(100.0 * FRACTILES[of]).trim_end_matches("_m").to_owned();
-        ["mean".to_owned(), fractile(0), fractile(1), fractile(2), fractile(3), fractile(4)]
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        EPISTEMIC.quantities.iter().map(|quantity| quantity.name.trim_end_matches("_m"))
     }
 
     /// Mean and fractiles of the spectrum of a probability, by its position, over the strengths, m.
     pub fn limits_m(&self, poe: usize) -> [&[f64]; 6] {
-        let [a, b, c, d, e] = &self.fractiles_m;
-        [&self.mean_m, a, b, c, d, e].map(|values| values.block([poe]))
+        let [a, b, c, d, e] = &self.spread.fractiles_m;
+        [&self.spread.mean_m, a, b, c, d, e].map(|values| values.block([poe]))
     }
 }
 
@@ -82,13 +130,14 @@ impl ResultFile {
         site: &str,
         poe: usize,
     ) -> Result<Vec<(f64, Vec<f64>)>, ResultError> {
-        let path = epistemic::array(measure, site, "u_m");
-        if self.is_asked() || !self.reader.exists(&path) {
+        let names = [of_measure(measure)[0], ("<site>", site)];
+        if self.is_asked() || !EPISTEMIC_SPECTRA.is_in(self, &names) {
             return Ok(Vec::new());
         }
         let axes = self.axes_with_sites()?;
         let (poes, strengths) = (axes.poes.len(), axes.strengths.len());
-        let weights = self.reader.array_f64(&epistemic::array(measure, site, "weight"))?.values;
+        let weights = self.reader.array_f64(&BRANCH_WEIGHTS.first_path(&names))?.values;
+        let path = EPISTEMIC_SPECTRA.first_path(&names);
         let spectra_m = self.reader.array_f64(&path)?.values;
         if spectra_m.len() != weights.len() * poes * strengths {
             return Err(self.damaged(format!("{path}: {} ordinates", spectra_m.len())));
@@ -110,26 +159,18 @@ impl ResultFile {
             return Ok(Vec::new());
         }
         let axes = self.axes_with_sites()?;
-        let lengths = [(axis::POE, axes.poes.len()), (axis::STRENGTH, axes.strengths.len())];
+        let (poes, strengths) = (axes.poes.len(), axes.strengths.len());
+        let nan = || Array::from_fn([poes, strengths], |_| f64::NAN);
         let mut spreads = Vec::new();
         for measure in self.measures() {
             for over in SpreadOver::ALL {
                 for (site, name) in axes.sites.iter().enumerate() {
-                    let path = |array: &str| match over {
-                        SpreadOver::HazardCurves => epistemic::array(measure, name, array),
-                        SpreadOver::Structures => uncertainty::array(measure, name, array),
-                    };
-                    if !self.reader.exists(&path("mean_m")) {
-                        continue;
+                    let names = [of_measure(measure)[0], ("<site>", name)];
+                    if over.group().is_in(self, &names) {
+                        let mut spread = Spread { mean_m: nan(), fractiles_m: FRACTILES.map(|_| nan()) };
+                        over.group().read(self, &names, &[(POE, poes), (STRENGTH, strengths)], &mut spread)?;
+                        spreads.push(StoredSpread { measure, over, site, spread });
                     }
-                    let fractile = |of: usize| self.array(&path(&percentile_name(100.0 * FRACTILES[of])), lengths);
-                    spreads.push(StoredSpread {
-                        measure,
-                        over,
-                        site,
-                        mean_m: self.array(&path("mean_m"), lengths)?,
-                        fractiles_m: [fractile(0)?, fractile(1)?, fractile(2)?, fractile(3)?, fractile(4)?],
-                    });
                 }
             }
         }

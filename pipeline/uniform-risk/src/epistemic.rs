@@ -5,8 +5,9 @@ use uplift_bootstrap::weighted_quantile;
 use uplift_inputs::BranchHazard;
 use uplift_job::Array;
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_result::FRACTILES;
-use uplift_result::layout::{axis, percentile_name};
+use uplift_result::declared::{Group, Names};
+use uplift_result::layout::axis;
+use uplift_result::{FRACTILES, Spread};
 
 /// The spectra of the branches of one site and measure.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,12 +20,8 @@ pub struct BranchSpectra {
     pub weights: Vec<f64>,
     /// Ordinates `[branch, poe, strength]`, m.
     pub spectra_m: Array<3>,
-    /// Weighted mean of the ordinates `[poe, strength]`, m. It is not the ordinate of the mean hazard, which is the
-    /// site's spectrum.
-    pub mean_m: Array<2>,
-    /// Weighted [`FRACTILES`] of the ordinates, each `[poe, strength]`, m: the smallest ordinate that so much weight
-    /// does not exceed.
-    pub fractiles_m: [Array<2>; 5],
+    /// Their weighted mean and fractiles.
+    pub spread: Spread,
 }
 
 impl BranchSpectra {
@@ -53,34 +50,25 @@ impl BranchSpectra {
             if is_whole { weighted_quantile(pairs, probability) } else { f64::NAN }
         };
         let fractiles_m = FRACTILES.map(|probability| sorted.map(|pairs| fractile(pairs, probability)));
-        Self { site, names, weights, spectra_m, mean_m, fractiles_m }
+        Self { site, names, weights, spectra_m, spread: Spread { mean_m, fractiles_m } }
     }
 }
 
-/// What weighted hazard curves are called.
-pub const BRANCHES: [&str; 2] = ["branch", "branches"];
+/// What weighted hazard curves are called, one and many.
+pub const BRANCHES: [(&str, &str); 2] = [("<one>", "branch"), ("<many>", "branches")];
 
-/// Write spectra of branches along `branch_axis`, their mean and their fractiles, each at the `path` of its name; a
-/// branch and several are called `one` and `many`.
+/// Write spectra, their mean and their fractiles into groups whose `names` say the axis of the spectra, and what one
+/// and many of those are called that they are over.
 ///
 /// # Errors
 /// A file that cannot be written.
 pub fn write_branch_spectra(
     writer: &mut LabelledWriter,
     branches: &BranchSpectra,
-    (branch_axis, [one, many]): (&str, [&str; 2]),
-    path: impl Fn(&str) -> String,
+    (spectra, spread): (&Group<Array<3>>, &Group<Spread>),
+    names: Names<'_>,
 ) -> Result<(), LabelledError> {
-    let dims = [branch_axis, axis::POE, axis::STRENGTH];
-    let long_name = format!("uniform risk displacement by the {one}");
-    writer.array_f64(&path("u_m"), &dims, branches.spectra_m.values(), "m", &long_name)?;
-    let dims = [axis::POE, axis::STRENGTH];
-    let long_name = format!("weighted mean over the {many}");
-    writer.array_f64(&path("mean_m"), &dims, branches.mean_m.values(), "m", &long_name)?;
-    for (fractile, values) in FRACTILES.iter().zip(&branches.fractiles_m) {
-        let percent = (100.0 * fractile).round();
-        let long_name = format!("{percent} % fractile over the {many}");
-        writer.array_f64(&path(&percentile_name(percent)), &dims, values.values(), "m", &long_name)?;
-    }
-    Ok(())
+    spectra.write_array(writer, names, branches.spectra_m.values())?;
+    let [poes, strengths] = branches.spread.mean_m.shape();
+    spread.write(writer, names, &[(axis::POE, poes), (axis::STRENGTH, strengths)], &branches.spread)
 }

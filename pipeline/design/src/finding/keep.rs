@@ -8,7 +8,7 @@ use uplift_job::events::Events;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::{axis, structures};
 use uplift_result::{
-    Addition, DOCUMENT, Finding, FindingRow, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST,
+    Addition, DOCUMENT, Finding, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST,
     StoredFinding, sign,
 };
 
@@ -46,7 +46,7 @@ fn write(finding: &Finding, result: &Path, events: &dyn Events) -> Result<(), De
     let earlier = file.findings()?;
     let (key, group) = (finding.key(), finding.group());
     let replaced = [group.clone(), axis::path(&axis::finding(&key))];
-    addition.write(&replaced, |writer| add(writer, finding, &group, &axis::finding(&key)))?;
+    addition.write(&replaced, |writer| add(writer, finding, &group))?;
     tell_of_another_file(finding, &earlier, events);
     Ok(())
 }
@@ -74,11 +74,7 @@ fn tell_of_another_file(finding: &Finding, earlier: &[StoredFinding], events: &d
     }
 }
 
-/// Cells of a row.
-type Text = fn(&FindingRow) -> &String;
-type Number = fn(&FindingRow) -> f64;
-
-fn add(writer: &mut LabelledWriter, finding: &Finding, group: &str, rows: &str) -> Result<(), LabelledError> {
+fn add(writer: &mut LabelledWriter, finding: &Finding, group: &str) -> Result<(), LabelledError> {
     sign(writer, group)?;
     let sha256 = finding.structure_sha256();
     writer.attribute(&structures::group(&finding.structure), STRUCTURE_SHA256, sha256.as_str())?;
@@ -94,28 +90,5 @@ fn add(writer: &mut LabelledWriter, finding: &Finding, group: &str, rows: &str) 
     ] {
         writer.attribute(group, name, text)?;
     }
-    let numbers: Vec<u32> = (1..).take(finding.rows.len()).collect();
-    writer.axis_u32(rows, &numbers, "1", "number of an answer")?;
-    let texts: [(&str, Text, &str); 5] = [
-        ("quantity", |row| &row.quantity, "what the number is"),
-        ("site", |row| &row.site, "site; empty where it is of none"),
-        ("im", |row| &row.im, "intensity measure; empty where it is of none"),
-        ("unit", |row| &row.unit, "unit of value, lower and upper"),
-        ("band", |row| &row.band, "what the band is of"),
-    ];
-    for (name, text, long_name) in texts {
-        let texts: Vec<String> = finding.rows.iter().map(|row| text(row).clone()).collect();
-        writer.array_text(&format!("{group}/{name}"), &[rows], &texts, long_name)?;
-    }
-    let numbers: [(&str, Number, &str); 3] = [
-        ("value", |row| row.value, "the number, in its unit"),
-        ("lower", |row| row.limits[0], "lower limit of its band"),
-        ("upper", |row| row.limits[1], "upper limit of its band; alone where no run shows what it bounds"),
-    ];
-    for (name, number, long_name) in numbers {
-        let numbers: Vec<f64> = finding.rows.iter().map(number).collect();
-        // of each row its own, in the array beside it
-        writer.array_f64(&format!("{group}/{name}"), &[rows], &numbers, "1", long_name)?;
-    }
-    Ok(())
+    finding.write_rows(writer)
 }

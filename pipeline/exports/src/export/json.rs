@@ -4,12 +4,14 @@ use serde_json::{Value, json};
 use uplift_job::text::finite;
 use uplift_questions::influence::RecordInfluence;
 use uplift_result::declared::{Field, Quantity};
-use uplift_result::{Fit, Fits, StoredEfficiency, StoredSpread, StoredTrend, flag_word, regression, urs};
+use uplift_result::{
+    Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, flag_word, regression, urs,
+};
 
 use super::Export;
 use super::added::Influence;
 use super::consistency::ConsistencyOf;
-use super::source::{BandOf, INFERRED, Row};
+use super::source::{BandOf, Row};
 
 impl Export {
     /// Everything as one JSON object; what is not finite is null.
@@ -69,7 +71,7 @@ impl Export {
         }
         for over in self.spread_over() {
             let Some(limits_m) = self.spread_of(row, over) else { continue };
-            let named = StoredSpread::names().into_iter().zip(limits_m);
+            let named = StoredSpread::names().zip(limits_m);
             let named = named.map(|(name, values_m)| (format!("{name}_m"), numbers(values_m).into()));
             spectrum[format!("spread_over_{}", over.key())] = Value::Object(named.collect());
         }
@@ -116,6 +118,7 @@ fn coefficients(fit: &Fit) -> Value {
 fn cell<T>(quantity: &Quantity<T>, of: &T, at: usize) -> Value {
     match quantity.field {
         Field::F64(place) => finite(*(place.get)(of, at)).into(),
+        Field::Made(number) => finite(number(of, at)).into(),
         Field::U32(place) => (*(place.get)(of, at)).into(),
         Field::Bool(place) => (*(place.get)(of, at)).into(),
         Field::Flag(place) => flag_word(*(place.get)(of, at)).into(),
@@ -170,8 +173,8 @@ fn band(band: &BandOf<'_>) -> Value {
         "e_median_pct": finite(band.error_of_median_pct),
         "r_90ci_pct": finite(band.range_of_interval_pct),
     });
-    for (name, limits_m) in INFERRED.iter().zip(band.inferred_m.iter().flatten()) {
-        said[format!("{name}_m")] = numbers(limits_m).into();
+    for (quantity, limits_m) in INFERRED_BANDS.quantities.iter().zip(band.inferred_m.iter().flatten()) {
+        said[quantity.name] = numbers(limits_m).into();
     }
     if let Some(share) = band.failed_share {
         said["failed_share"] = finite(share).into();

@@ -5,11 +5,10 @@ pub(super) mod level_5;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_result::declared::Quantity;
-use uplift_result::{InferredBands, StoredSpectra, StoredSpectraBands, StoredSpread, regression, urs};
+use uplift_result::{INFERRED_BANDS, StoredSpectra, StoredSpectraBands, StoredSpread, regression, urs};
 
 use super::Export;
 use super::added::Influence;
-use super::source::INFERRED;
 use crate::error::ExportsError;
 use level_5::{MatFile, Shape};
 
@@ -81,7 +80,7 @@ impl Export {
         for over in self.spread_over() {
             for of in measures {
                 let none = vec![f64::NAN; strengths.len()];
-                for (place, name) in StoredSpread::names().iter().enumerate() {
+                for (place, name) in StoredSpread::names().enumerate() {
                     let rows = self.rows().filter(|row| row.spectrum.measure == of.measure);
                     let values = rows.flat_map(|row| match self.spread_of(&row, over) {
                         Some(limits_m) => limits_m[place].to_vec(),
@@ -163,8 +162,8 @@ impl Export {
                 add(&key, &own.bands);
                 file.numbers(&format!("failed_{key}"), &of_sizes, own.failed.values());
             }
-            for (name, limits) in INFERRED.iter().zip(of.inferred.iter().flat_map(InferredBands::limits_m)) {
-                file.numbers(&format!("{name}_{key}_m"), &spectra, limits.values());
+            if let Some(inferred) = &of.inferred {
+                self::add(file, INFERRED_BANDS.quantities, key, &spectra, inferred);
             }
         }
     }

@@ -233,17 +233,15 @@ pub(super) fn provenance_of(head: &Head, file: &str) -> String {
     .replace(['\n', '\r'], " ")
 }
 
-/// Names of the limits beyond the set in columns and keys.
-pub(super) const INFERRED: [&str; 4] = ["truth_lower", "truth_upper", "prediction_lower", "prediction_upper"];
-
 /// The band of a spectrum for one size of the sample.
 pub(super) struct BandOf<'a> {
     /// Records in a sample.
     pub(super) records: u32,
     /// Lower limit, median and upper limit over the strengths, m.
     pub(super) limits_m: [&'a [f64]; 3],
-    /// Limits of the spectra of all records there could be, and of another set, as [`INFERRED`] names them, m; none of
-    /// repaired spectra, and in results of before.
+    /// Limits of the spectra of all records there could be, and of another set, as
+    /// [`INFERRED_BANDS`](uplift_result::INFERRED_BANDS) names them, m; none of repaired spectra, and in results of
+    /// before.
     pub(super) inferred_m: Option<[&'a [f64]; 4]>,
     /// Error of the median (Eq. 4.9), %; NaN where there is none, as of joint bands.
     pub(super) error_of_median_pct: f64,

@@ -4,12 +4,12 @@ use std::iter::repeat_n;
 
 use polars::prelude::Column;
 use uplift_job::text::finite;
-use uplift_result::{SpreadOver, StoredSpread, urs};
+use uplift_result::{INFERRED_BANDS, SpreadOver, StoredSpread, urs};
 use uplift_studies::uniform_risk::spectra_table;
 
 use super::Export;
 use super::added::SHARES;
-use super::source::{BandOf, INFERRED, Row};
+use super::source::{BandOf, Row};
 
 impl Export {
     /// A row for each ordinate: its fit beside it, its return period and flag, and the limits of its bands for each
@@ -67,7 +67,7 @@ impl Export {
         let inferred = inferred_names.into_iter().zip(inferred_limits);
         columns.extend(inferred.map(|(name, values)| Column::new(name.into(), values)));
         for (over, values) in spreads {
-            let named = StoredSpread::names().into_iter().zip(values);
+            let named = StoredSpread::names().zip(values);
             columns.extend(named.map(|(name, values)| Column::new(format!("{name}_{}_m", over.key()).into(), values)));
         }
         columns
@@ -108,7 +108,9 @@ impl Export {
     /// The same of the bands beyond the set, `truth_lower_n20_m`.
     fn inferred_names(&self) -> Vec<String> {
         let sizes = self.bands.iter().filter(|_| self.has_inferred_bands()).flat_map(|bands| &bands.sizes);
-        sizes.flat_map(|size| INFERRED.map(|limit| format!("{limit}_n{size}_m"))).collect()
+        sizes
+            .flat_map(|size| INFERRED_BANDS.quantities.iter().map(move |limit| limit.name_with(&format!("n{size}"))))
+            .collect()
     }
 }
 

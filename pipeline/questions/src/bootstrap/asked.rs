@@ -2,16 +2,12 @@
 
 use uplift_bootstrap::{ResamplingPlan, Unit};
 use uplift_job::events::Events;
-use uplift_result::{
-    BandMethod, MeasureBands, ResultFile, StoredBands, StoredDraws, StoredJointBands, StoredRepairedBands,
-    StoredSpectraBands,
-};
+use uplift_result::{BandMethod, ResultFile, StoredBands, StoredDraws};
 use uplift_uniform_risk::StoredStripes;
 use uplift_uniform_risk::consistency::{Question, Reweighing};
 
-use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
+use super::bands::BandSettings;
 use super::compute::{Source, compute};
-use super::write::percent;
 use crate::error::QuestionsError;
 
 /// The result `file` with bands at the risks that it was asked for ([`at`](uplift_uniform_risk::at)), made of the draws
@@ -38,7 +34,7 @@ pub fn resampled(file: ResultFile, events: &dyn Events) -> Result<ResultFile, Qu
     let reweighing = if file.has_repaired_bands() { Reweighing::from_result(&file)? } else { None };
     let (reweighing, pair_of) = (reweighing.as_ref(), &Question::from_result(&file)?.pair_of());
     let source = Source { stored: &stored, reweighing, plan: &plan, pair_of, settings: &settings };
-    let measures = compute(&source, None, events)?.into_iter().map(stored_bands).collect();
+    let measures = compute(&source, None, events)?.into_iter().map(|bands| bands.stored()).collect();
     let (sizes, unit) = (plan.sizes().to_vec(), plan.unit());
     Ok(file.with_bands(StoredBands { sizes, unit, confidence, measures }))
 }
@@ -60,21 +56,4 @@ pub fn resampling_plan(file: &ResultFile) -> Result<Option<ResamplingPlan>, Ques
     ResamplingPlan::from_multiplicities(records, &sizes, replicates, &multiplicities, group_of)
         .map(Some)
         .map_err(|error| file.fail(error).into())
-}
-
-/// Bands as a result has them.
-fn stored_bands(bands: Bands) -> MeasureBands {
-    let stored = |bands: SpectraBands| StoredSpectraBands {
-        error_of_median: percent(&bands.error_of_median),
-        range_of_interval: percent(&bands.range_of_interval),
-        limits_m: [bands.lower_m, bands.median_m, bands.upper_m],
-        joint: bands.joint.map(|joint| StoredJointBands {
-            range_of_interval: percent(&joint.range_of_interval),
-            limits_m: joint.limits_m,
-            failed: joint.failed,
-        }),
-    };
-    let repaired =
-        bands.repaired.map(|RepairedBands { bands, failed }| StoredRepairedBands { bands: stored(bands), failed });
-    MeasureBands { measure: bands.measure, plain: stored(bands.plain), inferred: Some(bands.inferred), repaired }
 }

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use uplift_bootstrap::{Band, Interval, Replicates, ResamplingPlan, acceleration, simultaneous_bands, without_each};
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
-use uplift_result::InferredBands;
+use uplift_result::{InferredBands, MeasureBands, StoredJointBands, StoredRepairedBands, StoredSpectraBands};
 use uplift_risk::StripeWeights;
 use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
@@ -106,6 +106,22 @@ pub struct RepairedBands {
     pub failed: Array<2>,
 }
 
+impl Bands {
+    /// The same as a result has them.
+    pub(super) fn stored(&self) -> MeasureBands {
+        let repaired = |RepairedBands { bands, failed }: &RepairedBands| StoredRepairedBands {
+            bands: bands.stored(),
+            failed: failed.clone(),
+        };
+        MeasureBands {
+            measure: self.measure,
+            plain: self.plain.stored(),
+            inferred: Some(self.inferred.clone()),
+            repaired: self.repaired.as_ref().map(repaired),
+        }
+    }
+}
+
 /// The bands of the strength at `index`.
 ///
 /// # Errors
@@ -189,7 +205,27 @@ pub(super) fn gather_bands(
     Bands { measure: measure.measure, plain, inferred, repaired: None }
 }
 
+/// Shares in per cent; NaN for none.
+fn percent<const N: usize>(values: &Array<N, Option<f64>>) -> Array<N> {
+    values.map(|value| value.map_or(f64::NAN, |value| 100.0 * value))
+}
+
 impl SpectraBands {
+    /// The same as a result has them.
+    pub(super) fn stored(&self) -> StoredSpectraBands {
+        let joint = |joint: &JointBands| StoredJointBands {
+            limits_m: joint.limits_m.clone(),
+            range_of_interval: percent(&joint.range_of_interval),
+            failed: joint.failed.clone(),
+        };
+        StoredSpectraBands {
+            limits_m: [&self.lower_m, &self.median_m, &self.upper_m].map(Clone::clone),
+            error_of_median: percent(&self.error_of_median),
+            range_of_interval: percent(&self.range_of_interval),
+            joint: self.joint.as_ref().map(joint),
+        }
+    }
+
     /// Bands `[site, poe, size, strength]` of spectra `[site, poe, strength]`, m, with the figures of Table 4.1 over
     /// the strengths from the position `first` on.
     pub(super) fn from_bands(bands: &Array<4, Band>, spectra_m: &Array<3>, first: usize) -> Self {

@@ -4,21 +4,23 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_bootstrap::ResamplingPlan;
-use uplift_job::Array;
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::write_table;
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_result::layout::{MULTIPLICITY, axis, band, bootstrap, joint, limit_names, repaired_band};
-use uplift_result::{Addition, sign};
+use uplift_result::declared::Names;
+use uplift_result::layout::{axis, limit_names};
+use uplift_result::{
+    Addition, BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, REPAIRED_BANDS,
+    SIMULTANEOUS_BANDS, SiteJointBands, StoredDraws, band_lengths, band_names, sign,
+};
 use uplift_uniform_risk::StoredStripes;
 
 use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
-use super::joint::JointBands;
 use crate::error::QuestionsError;
 
 /// Groups and axes of the file that bands replace.
 fn replaced() -> [String; 3] {
-    [bootstrap::ROOT.to_owned(), axis::path(axis::SAMPLE_SIZE), axis::path(axis::REPLICATE)]
+    [BANDS.root().to_owned(), axis::path(axis::SAMPLE_SIZE), axis::path(axis::REPLICATE)]
 }
 
 /// All that is written of a bootstrap.
@@ -71,98 +73,59 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
     writer.axis_u32(axis::SAMPLE_SIZE, plan.sizes(), "1", "records drawn in a replicate")?;
     let numbers: Vec<u32> = (0..).take(plan.replicates()).collect();
     writer.axis_u32(axis::REPLICATE, &numbers, "1", "number of the replicate")?;
-    let root = bootstrap::ROOT;
+    let root = BANDS.root();
     sign(writer, root)?;
     writer.attribute(root, "plan", file.plan_source)?;
     writer.attribute(root, "unit", plan.unit().key())?;
     writer.attribute(root, "confidence", settings.confidence)?;
     writer.attribute(root, "interval", settings.interval.key())?;
     writer.attribute(root, "strength_above", settings.strength_above)?;
-    let long_name = "how often each record was drawn";
-    let dims = [axis::SAMPLE_SIZE, axis::REPLICATE, axis::RECORD];
-    writer.array_u32(MULTIPLICITY, &dims, &plan.multiplicities(), "1", long_name)?;
+    let draws = StoredDraws {
+        records: stored.records.len(),
+        sizes: plan.sizes().to_vec(),
+        replicates: plan.replicates(),
+        multiplicities: plan.multiplicities(),
+        unit: plan.unit(),
+    };
+    DRAWS.write(writer, &[], &draws.lengths(), &draws)?;
+    let limits = limit_names(settings.confidence);
     for bands in file.bands {
-        let measure = bands.measure;
-        let path = |name: &str| band(measure, name);
-        add_spectra_bands(writer, &path, &bands.plain, (&stored.sites, settings.confidence))?;
-        for (name, values, of) in [
-            (bootstrap::TRUTH, &bands.inferred.truth_m, "limit of the spectrum of all records there could be"),
-            (bootstrap::PREDICTION, &bands.inferred.prediction_m, "limit of the spectrum of another set of records"),
-        ] {
-            let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
-            for (name, values) in name.into_iter().zip(values) {
-                writer.array_f64(&path(name), &dims, values.values(), "m", of)?;
-            }
-        }
+        let names = |of_repaired| band_names(bands.measure, &limits, of_repaired);
+        add_spectra_bands(writer, &names(""), &bands.plain, &stored.sites)?;
+        let lengths = band_lengths(bands.plain.lower_m.shape());
+        INFERRED_BANDS.write(writer, &names(""), &lengths, &bands.inferred)?;
         if let Some(repaired) = &bands.repaired {
-            let path = |name: &str| repaired_band(measure, name);
-            add_spectra_bands(writer, &path, &repaired.bands, (&stored.sites, settings.confidence))?;
-            let dims = [axis::SITE, axis::SAMPLE_SIZE];
-            let long_name = "share of the replicates whose weights do not bring the site's hazard";
-            writer.array_f64(&path(bootstrap::FAILED), &dims, repaired.failed.values(), "1", long_name)?;
+            let names = names(REPAIRED_BANDS);
+            add_spectra_bands(writer, &names, &repaired.bands, &stored.sites)?;
+            FAILED_SAMPLES.write_array(writer, &names, repaired.failed.values())?;
         }
     }
     Ok(())
 }
 
-/// Adds the bands of the spectra of all sites; `path` says where an array lies, by its name.
+/// Adds the bands of the spectra of all sites, with a group for each site that has weighted hazard curves.
 fn add_spectra_bands(
     writer: &mut LabelledWriter,
-    path: &dyn Fn(&str) -> String,
+    names: Names<'_>,
     bands: &SpectraBands,
-    (sites, confidence): (&[String], f64),
+    sites: &[String],
 ) -> Result<(), LabelledError> {
-    let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
-    let [lower, median, upper] = limit_names(confidence);
-    for (name, values, what) in [
-        (&lower, &bands.lower_m, "lower limit"),
-        (&median, &bands.median_m, "median of the replicates"),
-        (&upper, &bands.upper_m, "upper limit"),
-    ] {
-        writer.array_f64(&path(name), &dims, values.values(), "m", what)?;
+    let (stored, lengths) = (bands.stored(), band_lengths(bands.lower_m.shape()));
+    BANDS.write(writer, names, &lengths, &stored)?;
+    if let Some(limits_m) = &bands.simultaneous_m {
+        SIMULTANEOUS_BANDS.write(writer, names, &lengths, limits_m)?;
     }
-    for (name, values) in bootstrap::SIMULTANEOUS.iter().zip(bands.simultaneous_m.iter().flatten()) {
-        let long_name = "limit of the band that holds whole spectra";
-        writer.array_f64(&path(name), &dims, values.values(), "m", long_name)?;
-    }
-    let dims = [axis::SITE, axis::POE, axis::SAMPLE_SIZE];
-    for (name, values, what) in [
-        (bootstrap::E_MEDIAN, &bands.error_of_median, "error of the median (Eq. 4.9)"),
-        (bootstrap::R_90CI, &bands.range_of_interval, "range of the interval (Eq. 4.10)"),
-    ] {
-        writer.array_f64(&path(name), &dims, percent(values).values(), "%", what)?;
-    }
-    if let Some(joint) = &bands.joint { add_joint_bands(writer, path, joint, (sites, confidence)) } else { Ok(()) }
-}
-
-/// Adds the bands over records and weighted hazard curves together, a group for each site that has such curves.
-fn add_joint_bands(
-    writer: &mut LabelledWriter,
-    path: &dyn Fn(&str) -> String,
-    bands: &JointBands,
-    (sites, confidence): (&[String], f64),
-) -> Result<(), LabelledError> {
-    for &site in &bands.sites {
-        let path = |name: &str| path(&joint(&sites[site], name));
-        for (name, limits) in limit_names(confidence).iter().zip(&bands.limits_m) {
-            let dims = [axis::POE, axis::SAMPLE_SIZE, axis::STRENGTH];
-            let long_name = "limit over resampled records and weighted hazard curves together";
-            writer.array_f64(&path(name), &dims, limits.block([site]), "m", long_name)?;
-        }
-        let (dims, ranges) = ([axis::POE, axis::SAMPLE_SIZE], percent(&bands.range_of_interval));
-        let long_name = "range of the joint interval (Eq. 4.10)";
-        writer.array_f64(&path(bootstrap::R_90CI), &dims, ranges.block([site]), "%", long_name)?;
-        if let Some(failed) = &bands.failed {
-            let long_name = "share of the pairs of a replicate and a curve whose weights do not bring its hazard";
-            writer.array_f64(&path(bootstrap::FAILED), &[axis::SAMPLE_SIZE], failed.block([site]), "1", long_name)?;
+    let Some((joint, places)) = stored.joint.as_ref().zip(bands.joint.as_ref().map(|joint| &joint.sites)) else {
+        return Ok(());
+    };
+    for &site in places {
+        let (names, own) = ([names, &[("<site>", &sites[site])]].concat(), SiteJointBands::new(joint, site));
+        JOINT_BANDS.write(writer, &names, &lengths, &own)?;
+        if joint.failed.is_some() {
+            FAILED_PAIRS.write(writer, &names, &lengths, &own)?;
         }
     }
     Ok(())
-}
-
-/// Shares in per cent; NaN for none.
-pub(super) fn percent<const N: usize>(values: &Array<N, Option<f64>>) -> Array<N> {
-    values.map(|value| value.map_or(f64::NAN, |value| 100.0 * value))
 }
 
 fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
@@ -219,16 +182,12 @@ fn joint_columns(suffix: &str, bands: &[&SpectraBands], confidence: f64) -> Vec<
 
 /// The limits beyond the set of all measures.
 fn inferred_columns(bands: &[Bands]) -> impl Iterator<Item = Column> {
-    let limits: [fn(&Bands) -> &Array<4>; 4] = [
-        |bands| &bands.inferred.truth_m[0],
-        |bands| &bands.inferred.truth_m[1],
-        |bands| &bands.inferred.prediction_m[0],
-        |bands| &bands.inferred.prediction_m[1],
-    ];
-    let names = bootstrap::TRUTH.into_iter().chain(bootstrap::PREDICTION);
-    names.zip(limits).map(|(name, limit)| {
-        let values: Vec<f64> = bands.iter().flat_map(|bands| limit(bands).values()).copied().collect();
-        Column::new(name.into(), values)
+    INFERRED_BANDS.quantities.iter().map(|quantity| {
+        let of_measure = |of: &Bands| {
+            let places = 0..of.plain.lower_m.values().len();
+            places.filter_map(|at| quantity.number(&of.inferred, at)).collect::<Vec<f64>>()
+        };
+        Column::new(quantity.name.into(), bands.iter().flat_map(of_measure).collect::<Vec<f64>>())
     })
 }
 
@@ -247,7 +206,7 @@ fn limit_columns(suffix: &str, bands: &[&SpectraBands], confidence: f64) -> Vec<
         }
     }
     let names = limit_names(confidence);
-    let names = names.iter().map(String::as_str).chain(bootstrap::SIMULTANEOUS);
+    let names = names.iter().map(String::as_str).chain(SIMULTANEOUS_BANDS.quantities.iter().map(|own| own.name));
     names
         .zip(limits)
         .map(|(name, values)| Column::new(format!("{}{suffix}_m", name.trim_end_matches("_m")).into(), values))

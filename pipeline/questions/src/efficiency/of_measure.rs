@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use uplift_fragility::{Dispersion, mean_residuals, standard_deviation, uplift_levels};
 use uplift_motion::IntensityMeasure;
 use uplift_regression::{Line, fit_line};
+use uplift_result::{StoredEfficiency, StoredTrend};
 use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 use super::restated::Restated;
@@ -47,6 +48,23 @@ pub struct MeasureEfficiency {
     /// The line of the mean residuals over each covariate, `[covariate][strength]`; none where there are too few
     /// records or stripes.
     pub lines: Vec<Vec<Option<Line>>>,
+}
+
+impl MeasureEfficiency {
+    /// The same as a result has it, with the trends over `covariates`.
+    pub(super) fn stored(&self, covariates: &[Covariate]) -> StoredEfficiency {
+        let trend = |(covariate, lines): (&Covariate, &Vec<_>)| StoredTrend::new(covariate.key, lines);
+        StoredEfficiency {
+            measure: self.measure,
+            scaled_to: self.scaled_to,
+            reaching: self.reaching.clone(),
+            rocking: self.rocking.clone(),
+            undefined: self.undefined.clone(),
+            initiation: self.initiation.clone(),
+            initiation_records: self.initiation_records.clone(),
+            trends: covariates.iter().zip(&self.lines).map(trend).collect(),
+        }
+    }
 }
 
 /// One strength: scatter of each level, levels at first uplift, a line for each covariate.

@@ -8,8 +8,8 @@ use uplift_job::outputs::beside;
 use uplift_job::table::write_table;
 use uplift_job::text::spectrum_words;
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_result::layout::{axis, disaggregation, influence};
-use uplift_result::{Addition, sign};
+use uplift_result::layout::axis;
+use uplift_result::{Addition, DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, sign};
 use uplift_uniform_risk::StoredStripes;
 
 use super::change::{Influence, RecordInfluence};
@@ -18,7 +18,7 @@ use crate::error::QuestionsError;
 /// The groups that a new look replaces.
 fn replaced(stored: &StoredStripes) -> Vec<String> {
     let bins = stored.measures.iter().map(|own| axis::path(&axis::bin(own.measure)));
-    [influence::ROOT, disaggregation::ROOT].map(str::to_owned).into_iter().chain(bins).collect()
+    [INFLUENCE.root(), DISAGGREGATION.root()].map(str::to_owned).into_iter().chain(bins).collect()
 }
 
 /// The table beside the result file.
@@ -47,34 +47,24 @@ pub(super) fn write_influence(
 }
 
 fn add(writer: &mut LabelledWriter, stored: &StoredStripes, influences: &[Influence]) -> Result<(), LabelledError> {
-    sign(writer, influence::ROOT)?;
-    sign(writer, disaggregation::ROOT)?;
+    sign(writer, INFLUENCE.root())?;
+    sign(writer, DISAGGREGATION.root())?;
+    let left_out = if stored.units.are_records() { "record" } else { "pair of the record" };
     for found in influences {
         let Some(measure) = stored.measures.iter().find(|own| own.measure == found.measure) else { continue };
-        let [without_path, share_path] = if found.repaired {
-            [influence::repaired(found.measure), disaggregation::repaired(found.measure)]
-        } else {
-            [influence::u_without_m(found.measure), disaggregation::share(found.measure)]
-        };
+        let (influence, disaggregation) =
+            if found.repaired { (INFLUENCE_REPAIRED, DISAGGREGATION_REPAIRED) } else { (INFLUENCE, DISAGGREGATION) };
+        let names = [("<im>", found.measure.key()), ("<left_out>", left_out)];
         if let Some(without_m) = &found.without_m {
-            let dims = [axis::SITE, axis::POE, axis::RECORD, axis::STRENGTH];
-            let long_name = if stored.units.are_records() {
-                "uniform risk displacement without the record"
-            } else {
-                "uniform risk displacement without the pair of the record"
-            };
-            writer.array_f64(&without_path, &dims, without_m.values(), "m", long_name)?;
+            influence.write_array(writer, &names, without_m.values())?;
         }
-        let bin = axis::bin(found.measure);
         if !found.repaired {
             let from: Vec<f64> = std::iter::once(0.0).chain(measure.levels.iter().copied()).collect();
             let long_name =
                 format!("{} from which a bin reaches up to the next, the last without end", found.measure.label());
-            writer.axis_f64(&bin, &from, found.measure.unit(), &long_name)?;
+            writer.axis_f64(&axis::bin(found.measure), &from, found.measure.unit(), &long_name)?;
         }
-        let dims = [axis::SITE, axis::POE, axis::STRENGTH, &bin];
-        let long_name = "share of the risk at the ordinate";
-        writer.array_f64(&share_path, &dims, found.shares.values(), "1", long_name)?;
+        disaggregation.write_array(writer, &names, found.shares.values())?;
     }
     Ok(())
 }

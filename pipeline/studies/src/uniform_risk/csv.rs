@@ -105,6 +105,9 @@ fn column<'a, T: 'a>(
     match quantity.field {
         // zero has no sign in a table
         Field::F64(place) => Column::new(name, cells(place, places, is_there, |value| value + 0.0)),
+        Field::Made(number) => {
+            Column::new(name, places.map(|(of, at)| is_there(of, at).then(|| number(of, at))).collect::<Vec<_>>())
+        }
         Field::U32(place) => Column::new(name, cells(place, places, is_there, |&count| count)),
         Field::Bool(place) => Column::new(name, cells(place, places, is_there, |&is| is)),
         Field::Flag(place) => Column::new(name, cells(place, places, is_there, |&flag| flag_word(flag))),

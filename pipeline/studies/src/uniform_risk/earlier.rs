@@ -7,7 +7,9 @@ use uplift_engine::checkpoint::oscillator_key;
 use uplift_ida::{Axes, Cells};
 use uplift_inputs::RecordSet;
 use uplift_labelled::{LabelledError, LabelledReader};
-use uplift_result::layout::{axis, ida, intensity, records};
+use uplift_result::declared::of_measure;
+use uplift_result::layout::axis;
+use uplift_result::{FACTORS, IMPACTS, INTENSITY, MOTION_KEYS, PEAKS, intensity_names};
 use uplift_study::{MeasurePlan, UniformRiskStudy};
 
 /// An earlier result at the place of the one to come.
@@ -44,22 +46,22 @@ impl EarlierStripes {
         cells: &mut Cells,
     ) -> Result<(), LabelledError> {
         let reader = &self.reader;
-        let group = ida::group(measure.measure);
+        let (group, names) = (PEAKS.of_measure(measure.measure), of_measure(measure.measure));
         if !reader.exists(&group) || reader.attribute_text(&group, "oscillator_key")? != oscillator_key(study) {
             return Ok(());
         }
-        if reader.exists(&ida::factor(measure.measure)) {
+        if reader.exists(&FACTORS.first_path(&names)) {
             return Ok(()); // its factors are not those of the levels
         }
-        let stored_motions = reader.array_text(records::MOTION_SHA256)?.values;
-        let intensities = reader.array_f64(&intensity(measure.measure))?.values;
+        let stored_motions = reader.array_text(&MOTION_KEYS.first_path(&[]))?.values;
+        let intensities = reader.array_f64(&INTENSITY.first_path(&intensity_names(measure.measure)))?.values;
         let positions = |values: &[f64]| -> HashMap<u64, usize> {
             values.iter().enumerate().map(|(index, value)| (value.to_bits(), index)).collect()
         };
         let strengths = reader.axis_f64(axis::STRENGTH)?;
         let levels = reader.axis_f64(&axis::level(measure.measure))?;
-        let edp_m = reader.array_f64(&ida::edp_m(measure.measure))?;
-        let impacts = reader.array_u32(&ida::impacts(measure.measure))?;
+        let edp_m = reader.array_f64(&PEAKS.first_path(&names))?;
+        let impacts = reader.array_u32(&IMPACTS.first_path(&names))?;
         let stored = Axes { motions: stored_motions.len(), systems: strengths.len(), scales: levels.len() };
         let shape = [stored.motions, stored.systems, stored.scales];
         if edp_m.shape != shape || impacts.shape != shape || intensities.len() != stored.motions {

@@ -167,14 +167,14 @@ fn branches(outcome: &Outcome<'_>, of: fn(&Spectra) -> &[BranchSpectra]) -> Vec<
         for branches in of(spectra) {
             for poe in 0..outcome.study.risk.poe.len() {
                 let of_poe = |values: &Array<2>| values.block([poe]).to_vec();
-                let [low, .., high] = &branches.fractiles_m;
+                let [low, .., high] = &branches.spread.fractiles_m;
                 reports.push(BranchReport {
                     site: outcome.study.sites[branches.site].name.clone(),
                     im: spectra.measure.label(),
                     poe,
                     probability: outcome.study.risk.poe[poe],
                     low_m: of_poe(low),
-                    mean_m: of_poe(&branches.mean_m),
+                    mean_m: of_poe(&branches.spread.mean_m),
                     high_m: of_poe(high),
                 });
             }

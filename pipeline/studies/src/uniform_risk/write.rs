@@ -6,9 +6,13 @@ use uplift_engine::checkpoint::oscillator_key;
 use uplift_inputs::at_level::AtLevel;
 use uplift_inputs::{DrawnStructure, Record, motion_keys};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_motion::Combination;
-use uplift_result::layout::{URS_PRECISION, axis, ida, intensity, records as layout, risk};
-use uplift_result::{MeasureSpectra, Origin, urs};
+use uplift_motion::{Combination, IntensityMeasure};
+use uplift_result::declared::of_measure;
+use uplift_result::layout::{URS_PRECISION, axis, records as layout};
+use uplift_result::{
+    FACTORS, IMPACTS, INTENSITY, MOTION_KEYS, MeasureSpectra, Origin, PEAKS, RECORDS, RISK_SURFACE, SHARES,
+    StoredRecords, intensity_names, urs,
+};
 use uplift_structure::UncertainQuantity;
 use uplift_uniform_risk::consistency::Keep;
 
@@ -84,64 +88,46 @@ fn write_records(
     records: &[Record],
     combination: Combination,
 ) -> Result<(), LabelledError> {
-    let dims = &[axis::RECORD];
-    let number = |key: &str| -> Vec<f64> { records.iter().map(|record| record.number(key)).collect() };
-    let text = |key: &str| -> Vec<String> {
-        records.iter().map(|record| record.metadata.get(key).cloned().unwrap_or_default()).collect()
-    };
-    writer.array_text(layout::EVENT, dims, &text("event"), "earthquake")?;
-    writer.array_text(layout::STATION, dims, &text("station"), "recording station")?;
-    writer.array_f64(layout::MAGNITUDE, dims, &number("magnitude"), "1", "moment magnitude")?;
-    writer.array_f64(layout::RRUP_KM, dims, &number("rrup_km"), "km", "closest distance to the rupture")?;
-    writer.array_f64(layout::VS30, dims, &number("vs30"), "m/s", "mean shear-wave velocity of the upper 30 m")?;
-    let component: Vec<String> = records.iter().map(|record| record.direction.to_string()).collect();
-    writer.array_text(layout::COMPONENT, dims, &component, "horizontal component analysed")?;
-    writer.array_text(
-        layout::MOTION_SHA256,
-        dims,
-        &motion_keys(records),
-        "SHA-256 of time step and samples in m/s2",
-    )?;
-    let checksum: Vec<String> = records.iter().map(|record| record.checksum.clone()).collect();
-    writer.array_text(layout::CHECKSUM, dims, &checksum, "SHA-256 of the component")?;
-    let pga: Vec<f64> = records.iter().map(|record| record.pga_g).collect();
-    writer.array_f64(
-        layout::PGA_G,
-        dims,
-        &pga,
-        "g",
-        &format!("PGA of the unscaled pair, {}", combination.long_name()),
-    )?;
-    let pgv: Vec<f64> = records.iter().map(|record| record.pgv_cm_s).collect();
-    writer.array_f64(
-        layout::PGV_CM_S,
-        dims,
-        &pgv,
-        "cm/s",
-        &format!("PGV of the unscaled pair, {}", combination.long_name()),
-    )?;
-    let further = records.first().map_or_else(Vec::new, |record| record.further.keys().copied().collect());
-    for measure in further {
-        let values: Vec<f64> = records.iter().map(|record| record.intensity(measure)).collect();
-        let long_name = format!("{} of the unscaled pair, {}", measure.long_name(), combination.long_name());
-        writer.array_f64(&intensity(measure), dims, &values, measure.unit(), &long_name)?;
+    let stored = stored_records(records);
+    let lengths = [(axis::RECORD, records.len())];
+    RECORDS.write(writer, &[], &lengths, &stored)?;
+    MOTION_KEYS.write(writer, &[], &lengths, &stored)?;
+    for measure in IntensityMeasure::OF_CHAPTER_4.into_iter().chain(stored.further.keys().copied()) {
+        let words = if measure.is_of_chapter_4() { measure.label() } else { measure.long_name() };
+        let more = [("<measure>", words), ("<combination>", combination.long_name())];
+        let names = [&intensity_names(measure)[..], &more].concat();
+        INTENSITY.write_array(writer, &names, stored.intensities(measure).unwrap_or_default())?;
     }
-    for (path, from, to) in [(layout::DURATION_5_75_S, 0.05, 0.75), (layout::DURATION_5_95_S, 0.05, 0.95)] {
-        let durations: Vec<f64> =
-            records.iter().map(|record| record.accelerogram.significant_duration_s(from, to)).collect();
-        let long_name = format!(
-            "significant duration of the component, {} to {} % of the Arias intensity",
-            100.0 * from,
-            100.0 * to
-        );
-        writer.array_f64(path, dims, &durations, "s", &long_name)?;
+    write_drawn_structures(writer, records)
+}
+
+/// What a result holds of the records.
+fn stored_records(records: &[Record]) -> StoredRecords {
+    fn of<V>(records: &[Record], value: impl Fn(&Record) -> V) -> Vec<V> {
+        records.iter().map(value).collect()
     }
-    write_drawn_structures(writer, records)?;
-    let dt: Vec<f64> = records.iter().map(|record| record.accelerogram.dt_s()).collect();
-    writer.array_f64(layout::DT_S, dims, &dt, "s", "sampling interval")?;
-    let samples: Vec<u32> =
-        records.iter().map(|record| u32::try_from(record.accelerogram.len()).unwrap_or(u32::MAX)).collect();
-    writer.array_u32(layout::SAMPLES, dims, &samples, "1", "number of samples")
+    let number = |key| of(records, |record| record.number(key));
+    let text = |key| of(records, |record| record.metadata.get(key).cloned().unwrap_or_default());
+    let duration = |from, to| of(records, |record| record.accelerogram.significant_duration_s(from, to));
+    let further = records.first().into_iter().flat_map(|record| record.further.keys().copied());
+    StoredRecords {
+        ids: of(records, |record| record.id.clone()),
+        event: text("event"),
+        station: text("station"),
+        magnitude: number("magnitude"),
+        rrup_km: number("rrup_km"),
+        vs30: number("vs30"),
+        component: of(records, |record| record.direction.to_string()),
+        motion_sha256: motion_keys(records),
+        checksum: of(records, |record| record.checksum.clone()),
+        pga_g: of(records, |record| record.pga_g),
+        pgv_cm_s: of(records, |record| record.pgv_cm_s),
+        further: further.map(|own| (own, of(records, |record| record.intensity(own)))).collect(),
+        duration_5_75_s: duration(0.05, 0.75),
+        duration_5_95_s: duration(0.05, 0.95),
+        dt_s: of(records, |record| record.accelerogram.dt_s()),
+        samples: of(records, |record| u32::try_from(record.accelerogram.len()).unwrap_or(u32::MAX)),
+    }
 }
 
 /// The structure that each record shakes, where these are not known exactly.
@@ -173,22 +159,16 @@ fn write_measure(
     stored: &MeasureSpectra,
 ) -> Result<(), LabelledError> {
     let (stripes, measure) = (&outcome.stripes[index], stored.measure);
-    let (group, dims) = (ida::group(measure), [axis::RECORD, axis::STRENGTH, &axis::level(measure)]);
-    let long_name = if stripes.at_level.is_some() {
-        "peak displacement, infinite where overturned, NaN where the record does not belong to the level"
-    } else {
-        "peak displacement, infinite where overturned"
-    };
-    writer.array_f64(&ida::edp_m(measure), &dims, stripes.peaks.displacement_m(), "m", long_name)?;
-    writer.array_u32(&ida::impacts(measure), &dims, stripes.peaks.impacts(), "1", "number of impacts")?;
+    let group = PEAKS.of_measure(measure);
+    let not_of_level =
+        if stripes.at_level.is_some() { ", NaN where the record does not belong to the level" } else { "" };
+    let names = [of_measure(measure)[0], ("<not_of_level>", not_of_level)];
+    PEAKS.write_array(writer, &names, stripes.peaks.displacement_m())?;
+    IMPACTS.write_counts(writer, &names, stripes.peaks.impacts())?;
     if let Some(AtLevel { factors, shares, .. }) = &stripes.at_level {
-        let level = axis::level(measure);
-        let dims = [axis::RECORD, &level];
-        let long_name = "scale factor of the record, NaN where it does not belong to the level";
-        writer.array_f64(&ida::factor(measure), &dims, factors, "1", long_name)?;
+        FACTORS.write_array(writer, &names, factors)?;
         if let Some(shares) = shares {
-            let long_name = "how much the record counts at the level, 0 where it does not belong to it";
-            writer.array_f64(&ida::share(measure), &[&level, axis::RECORD], shares, "1", long_name)?;
+            SHARES.write_array(writer, &names, shares)?;
         }
     }
     writer.attribute(&group, "oscillator_key", oscillator_key(outcome.study).as_str())?;
@@ -200,9 +180,7 @@ fn write_measure(
         return Ok(()); // a study without sites ends with the stripes
     }
     if let Some(surface) = &spectra.maf_per_year {
-        let dims = [axis::SITE, axis::STRENGTH, axis::THRESHOLD];
-        let long_name = "mean annual frequency of exceeding the threshold";
-        writer.array_f64(&risk::maf_per_year(measure), &dims, surface.values(), "1/yr", long_name)?;
+        RISK_SURFACE.write_array(writer, &names, surface.values())?;
     }
     stored.write_spectra(writer)?;
     if let Some(precision) = outcome.precision.iter().find(|own| own.im == measure.label()) {

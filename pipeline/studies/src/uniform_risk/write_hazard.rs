@@ -6,7 +6,9 @@ use std::path::Path;
 use uplift_hazard::HazardCurve;
 use uplift_inputs::{HazardInput, OtherHazard, SiteHazard};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_result::layout::{axis, epistemic, hazard as layout, uncertainty};
+use uplift_result::declared::of_measure;
+use uplift_result::layout::{axis, hazard as layout};
+use uplift_result::{BRANCH_WEIGHTS, EPISTEMIC, EPISTEMIC_SPECTRA, UNCERTAINTY, UNCERTAINTY_SPECTRA};
 use uplift_uniform_risk::{BRANCHES, Spectra, write_branch_spectra};
 
 use super::Outcome;
@@ -71,9 +73,10 @@ pub(super) fn write_branches(
         let site = &outcome.study.sites[branches.site].name;
         let axis = axis::branch(site, spectra.measure, &mut axes);
         writer.axis_text(&axis, &branches.names, "branch of the hazard")?;
-        let path = |name: &str| epistemic::array(spectra.measure, site, name);
-        writer.array_f64(&path("weight"), &[&axis], &branches.weights, "1", "weight of the branch")?;
-        write_branch_spectra(writer, branches, (&axis, BRANCHES), path)?;
+        let own = [of_measure(spectra.measure)[0], ("<site>", site), ("<branches>", &axis)];
+        BRANCH_WEIGHTS.write_array(writer, &own, &branches.weights)?;
+        let groups = (&EPISTEMIC_SPECTRA, &EPISTEMIC);
+        write_branch_spectra(writer, branches, groups, &[&own[..], &BRANCHES].concat())?;
     }
     Ok(())
 }
@@ -86,9 +89,10 @@ pub(super) fn write_structures(
 ) -> Result<(), LabelledError> {
     for structures in &spectra.structures {
         let site = &outcome.study.sites[structures.site].name;
-        write_branch_spectra(writer, structures, (axis::STRUCTURE, ["structure", "structures"]), |name| {
-            uncertainty::array(spectra.measure, site, name)
-        })?;
+        let words = [("<one>", "structure"), ("<many>", "structures")];
+        let own = [of_measure(spectra.measure)[0], ("<site>", site), ("<branches>", axis::STRUCTURE)];
+        let groups = (&UNCERTAINTY_SPECTRA, &UNCERTAINTY);
+        write_branch_spectra(writer, structures, groups, &[own.as_slice(), &words].concat())?;
     }
     Ok(())
 }

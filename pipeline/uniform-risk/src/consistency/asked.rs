@@ -29,25 +29,24 @@ pub fn consistency_of_asked(file: &ResultFile) -> Result<Vec<StoredConsistency>,
         let own: Vec<&Finding> = findings.iter().filter(|finding| finding.scaled_to == *scaled_to).collect();
         if let Some(first) = own.first() {
             let repairs = repairs.iter().find(|repairs| repairs.measure == *scaled_to);
-            let ratio = Array::from_fn([question.sites.len(), asked.poes.len()], |[site, poe]| {
-                let at = |finding: &&Finding| finding.site == site && finding.scaled_to == *scaled_to;
-                levels_asked.iter().find(at).and_then(|own| own.diagnosis.targets[poe].ratio).unwrap_or(f64::NAN)
-            });
-            found.push(stored(&asked, (*scaled_to, first.other), (levels.len(), ratio), &own, repairs));
+            let of_ratio: Vec<&Finding> = levels_asked.iter().filter(|own| own.scaled_to == *scaled_to).collect();
+            found.push(stored(&asked, (*scaled_to, first.other), levels.len(), (&own, &of_ratio), repairs));
         }
     }
     Ok(found)
 }
 
-fn stored(
+/// What a result holds of the `findings` on one measure, with the ratios of `of_ratio`.
+pub(super) fn stored(
     question: &Question,
     (scaled_to, other): (IntensityMeasure, IntensityMeasure),
-    (levels, ratio): (usize, Array<2>),
-    findings: &[&Finding],
+    levels: usize,
+    (findings, of_ratio): (&[&Finding], &[&Finding]),
     repairs: Option<&Repairs>,
 ) -> StoredConsistency {
     let sites = question.sites.len();
-    let of_site = |site: usize| findings.iter().find(|finding| finding.site == site);
+    let (findings, of_ratio) = (by_site(findings, sites), by_site(of_ratio, sites));
+    let of_site = |site: usize| findings[site];
     let deviation = |site: usize| of_site(site)?.diagnosis.deviation.as_ref();
     let repaired = |site: usize| of_site(site)?.repaired();
     let rates = [sites, DEVIATION_RATES];
@@ -74,7 +73,9 @@ fn stored(
             .collect(),
         poes: question.poes.clone(),
         years: question.years,
-        ratio,
+        ratio: Array::from_fn([sites, question.poes.len()], |[site, poe]| {
+            of_ratio[site].and_then(|own| own.diagnosis.targets[poe].ratio).unwrap_or(f64::NAN)
+        }),
         effective_records: repairs.map(|_| {
             Array::from_fn([sites, levels], |[site, level]| {
                 repaired(site).map_or(f64::NAN, |own| own.diagnosis.stripes[level].effective_records)
@@ -89,4 +90,13 @@ fn stored(
             repairs.ordinates.map(|ordinate| ordinate.map_or(f64::NAN, |ordinate| ordinate.displacement_m))
         }),
     }
+}
+
+/// The finding of each site, where there is one.
+fn by_site<'a>(findings: &[&'a Finding], sites: usize) -> Vec<Option<&'a Finding>> {
+    let mut all = vec![None; sites];
+    for &finding in findings {
+        all[finding.site] = Some(finding);
+    }
+    all
 }

@@ -4,14 +4,19 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
-use uplift_consistency::{DEVIATION_RATES, Deviation, Diagnosis, KNOTS, Repaired};
+use uplift_consistency::{DEVIATION_RATES, Diagnosis, KNOTS, Repaired};
 use uplift_job::outputs::beside;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
+use uplift_result::declared::of_measure;
 use uplift_result::layout::{axis, consistency as layout};
-use uplift_result::{Fit, REPAIRED_FITS, flag_number, sign};
+use uplift_result::{
+    CONSISTENCY, EFFECTIVE_RECORDS, Fit, REPAIRED_EPISTEMIC, REPAIRED_EPISTEMIC_SPECTRA, REPAIRED_FITS, REPAIRED_LEVEL,
+    REPAIRED_U_M, StoredConsistency, consistency_names, flag_number, sign,
+};
 use uplift_risk::Ordinate;
 
+use super::asked::stored;
 use super::{ConsistencyReport, Finding, Question, Repairs};
 use crate::{BRANCHES, write_branch_spectra};
 
@@ -20,15 +25,13 @@ const NO_REPAIR: u8 = 3;
 
 /// A column: what it is of the thing that a row is about.
 type Of<T, V = f64> = fn(&T) -> V;
-/// Levels of the other measure over the rates compared, where there are some.
-type LevelsOf = fn(&Finding) -> Option<&[f64]>;
 /// The same over the levels of a repaired set.
 type OfLevels = Of<Repaired, Vec<f64>>;
 
 /// The groups and axes that a new look replaces.
 pub fn replaced() -> Vec<String> {
     let axes = [axis::RATE, axis::KNOT].map(axis::path);
-    std::iter::once(layout::ROOT.to_owned()).chain(axes).collect()
+    std::iter::once(CONSISTENCY.root().to_owned()).chain(axes).collect()
 }
 
 /// The table beside the result file.
@@ -59,9 +62,9 @@ pub fn add(
     if findings.is_empty() {
         return Ok(());
     }
-    sign(writer, layout::ROOT)?;
-    writer.attribute(layout::ROOT, "smoothness", question.settings.smoothness)?;
-    writer.attribute(layout::ROOT, "repair", if repairs.is_empty() { "none" } else { "weights" })?;
+    sign(writer, CONSISTENCY.root())?;
+    writer.attribute(CONSISTENCY.root(), "smoothness", question.settings.smoothness)?;
+    writer.attribute(CONSISTENCY.root(), "repair", if repairs.is_empty() { "none" } else { "weights" })?;
     let rates: Vec<u32> = (1..).take(DEVIATION_RATES).collect();
     writer.axis_u32(axis::RATE, &rates, "1", "annual rate at which hazards are compared, the most frequent first")?;
     let knots: Vec<u32> = (1..).take(KNOTS).collect();
@@ -86,10 +89,17 @@ struct Table<'a> {
 
 impl Table<'_> {
     fn write(mut self, repairs: Option<&Repairs>, keep: Keep) -> Result<(), LabelledError> {
-        self.deviation()?;
+        let measures = (self.measure, self.other);
+        let levels = self.question.levels(self.measure).len();
+        let stored = stored(self.question, measures, levels, (self.findings, self.findings), repairs);
+        self.deviation(&stored)?;
         self.targets()?;
         if let Some(repairs) = repairs {
             self.weights(keep)?;
+            if let Some((records, u_m)) = stored.effective_records.as_ref().zip(stored.u_m.as_ref()) {
+                EFFECTIVE_RECORDS.write_array(self.writer, &self.names(), records.values())?;
+                REPAIRED_U_M.write_array(self.writer, &self.names(), u_m.values())?;
+            }
             self.spectra(repairs)?;
             self.branches(repairs)?;
         }
@@ -108,8 +118,9 @@ impl Table<'_> {
         for branches in &repairs.branches {
             let site = &self.question.sites[branches.site];
             let Some(axis) = &axes[branches.site] else { continue };
-            let path = |name: &str| layout::branches(self.measure, site, name);
-            write_branch_spectra(self.writer, branches, (axis, BRANCHES), path)?;
+            let own = [of_measure(self.measure)[0], ("<site>", site), ("<branches>", axis)];
+            let groups = (&REPAIRED_EPISTEMIC_SPECTRA, &REPAIRED_EPISTEMIC);
+            write_branch_spectra(self.writer, branches, groups, &[&own[..], &BRANCHES].concat())?;
         }
         Ok(())
     }
@@ -136,47 +147,19 @@ impl Table<'_> {
     }
 
     /// The hazard of the other measure: the site's, what the records bring, and what weighted ones bring.
-    fn deviation(&mut self) -> Result<(), LabelledError> {
-        let (other, unit) = (self.other, self.other.unit());
-        let rates = self.by_site(DEVIATION_RATES, |finding| finding.range.rates::<DEVIATION_RATES>().to_vec());
-        self.array("rate_per_year", &[axis::SITE, axis::RATE], &rates, "1/yr", "annual rate of exceedance")?;
-        let levels: [(&str, LevelsOf, &str); 3] = [
-            (
-                "site",
-                |own| Some(&own.diagnosis.deviation.as_ref()?.site_levels),
-                "level of the site's own hazard curve",
-            ),
-            ("implied", |own| Some(&own.diagnosis.deviation.as_ref()?.implied_levels), "level that the records bring"),
-            (
-                "repaired",
-                |own| Some(&own.repaired()?.diagnosis.deviation.as_ref()?.implied_levels),
-                "level that the weighted records bring",
-            ),
-        ];
-        for (name, levels, what) in levels {
-            let values = self.by_site(DEVIATION_RATES, |finding| levels(finding).unwrap_or_default().to_vec());
-            let name = layout::of_other(other, name);
-            self.array(&name, &[axis::SITE, axis::RATE], &values, unit, &format!("{what}, {}", other.label()))?;
-        }
-        let number = |value: Of<Deviation>| {
-            move |finding: &Finding| vec![finding.diagnosis.deviation.as_ref().map_or(f64::NAN, value)]
-        };
-        let columns: [(&str, Of<Deviation>, &str); 3] = [
-            ("bias", |deviation| deviation.bias, "level that the records bring over the site's, mean of the range"),
-            ("rms", |deviation| deviation.rms, "root mean square of ln(implied/site)"),
-            ("max", |deviation| deviation.max, "largest absolute ln(implied/site)"),
-        ];
-        for (name, value, what) in columns {
-            let values = self.by_site(1, number(value));
-            self.array(&layout::of_other(other, name), &[axis::SITE], &values, "1", what)?;
-        }
-        let mut verdicts = vec![String::new(); self.question.sites.len()];
-        for finding in self.findings {
-            verdicts[finding.site] =
-                finding.diagnosis.verdict().map_or_else(String::new, |verdict| verdict.key().into());
-        }
-        let path = layout::array(self.measure, &layout::of_other(other, "verdict"));
-        self.writer.array_text(&path, &[axis::SITE], &verdicts, "consistent, off or inconsistent; empty where unknown")
+    fn deviation(&mut self, stored: &StoredConsistency) -> Result<(), LabelledError> {
+        let lengths = [(axis::SITE, stored.bias.len()), (axis::RATE, DEVIATION_RATES), (axis::POE, stored.poes.len())];
+        CONSISTENCY.write(self.writer, &self.names(), &lengths, stored)?;
+        let repaired = |own: &Finding| Some(own.repaired()?.diagnosis.deviation.as_ref()?.implied_levels.to_vec());
+        let levels = self.by_site(DEVIATION_RATES, |finding| repaired(finding).unwrap_or_default());
+        REPAIRED_LEVEL.write_array(self.writer, &self.names(), &levels)?;
+        let rms = |own: &Finding| vec![own.diagnosis.deviation.as_ref().map_or(f64::NAN, |deviation| deviation.rms)];
+        let (name, values) = (layout::of_other(self.other, "rms"), self.by_site(1, rms));
+        self.array(&name, &[axis::SITE], &values, "1", "root mean square of ln(implied/site)")
+    }
+
+    fn names(&self) -> [(&'static str, &'static str); 4] {
+        consistency_names(self.measure, self.other)
     }
 
     /// What the records bring at each probability.
@@ -184,8 +167,7 @@ impl Table<'_> {
         type OfTarget = fn(&Diagnosis, usize) -> f64;
         let poes = self.question.poes.len();
         let dims = [axis::SITE, axis::POE];
-        let columns: [(&str, OfTarget, &str); 7] = [
-            ("ratio", |d, at| d.targets[at].ratio.unwrap_or(f64::NAN), "level that the records bring over the site's"),
+        let columns: [(&str, OfTarget, &str); 6] = [
             (
                 "times_as_often",
                 |d, at| d.targets[at].times_as_often.unwrap_or(f64::NAN),
@@ -208,11 +190,7 @@ impl Table<'_> {
         for (name, value, what) in columns {
             let of = |finding: &Finding| (0..poes).map(|poe| value(&finding.diagnosis, poe)).collect();
             let values = self.by_site(poes, of);
-            let name = if matches!(name, "ratio" | "times_as_often") {
-                layout::of_other(self.other, name)
-            } else {
-                name.to_owned()
-            };
+            let name = if name == "times_as_often" { layout::of_other(self.other, name) } else { name.to_owned() };
             self.array(&name, &dims, &values, "1", what)?;
         }
         Ok(())
@@ -231,12 +209,7 @@ impl Table<'_> {
         self.array("knot", &[axis::SITE, axis::KNOT], &values, self.other.unit(), &what)?;
         let values = self.by_site(1, of_repaired(|repaired| vec![f64::from(repaired.fit.iterations)]));
         self.array("iterations", &[axis::SITE], &values, "1", "steps of the fit")?;
-        let stripes: [(&str, OfLevels, &str); 3] = [
-            (
-                "effective_records",
-                |repaired| repaired.diagnosis.stripes.iter().map(|stripe| stripe.effective_records).collect(),
-                "effective records under the weights",
-            ),
+        let stripes: [(&str, OfLevels, &str); 2] = [
             (
                 "mean_ln_ratio",
                 |repaired| repaired.diagnosis.stripes.iter().map(|stripe| stripe.mean_ln_ratio).collect(),
@@ -264,24 +237,13 @@ impl Table<'_> {
     /// The spectra of the weights, with their fits.
     fn spectra(&mut self, repairs: &Repairs) -> Result<(), LabelledError> {
         let dims = [axis::SITE, axis::POE, axis::STRENGTH];
-        let columns: [(&str, Of<Ordinate>, &str, &str); 3] = [
-            ("u_m", |ordinate| ordinate.displacement_m, "m", "uniform risk displacement of the weighted records"),
-            (
-                "lower_tail_share",
-                |ordinate| ordinate.lower_tail_share,
-                "1",
-                "share of its risk from below the first stripe",
-            ),
-            (
-                "upper_tail_share",
-                |ordinate| ordinate.upper_tail_share,
-                "1",
-                "share of its risk from above the last stripe",
-            ),
+        let columns: [(&str, Of<Ordinate>, &str); 2] = [
+            ("lower_tail_share", |own| own.lower_tail_share, "share of its risk from below the first stripe"),
+            ("upper_tail_share", |own| own.upper_tail_share, "share of its risk from above the last stripe"),
         ];
-        for (name, value, unit, what) in columns {
+        for (name, value, what) in columns {
             let values = repairs.ordinates.map(|ordinate| ordinate.as_ref().map_or(f64::NAN, value)).into_values();
-            self.array(name, &dims, &values, unit, what)?;
+            self.array(name, &dims, &values, "1", what)?;
         }
         let flag =
             |ordinate: &Option<Ordinate>| ordinate.as_ref().map_or(NO_REPAIR, |ordinate| flag_number(ordinate.flag));
@@ -290,7 +252,7 @@ impl Table<'_> {
         self.writer.array_u8(&layout::array(self.measure, "flag"), &dims, &flags, "1", what)?;
         let fits = repairs.fits.map(|fit| Fit::of(fit.as_ref().ok()));
         let [sites, poes] = fits.shape();
-        REPAIRED_FITS.write(self.writer, Some(self.measure), &[(axis::SITE, sites), (axis::POE, poes)], &fits)
+        REPAIRED_FITS.write(self.writer, &of_measure(self.measure), &[(axis::SITE, sites), (axis::POE, poes)], &fits)
     }
 }
 
