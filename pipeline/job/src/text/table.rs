@@ -50,6 +50,11 @@ impl Table {
         let values: Vec<T> = values.into_iter().collect();
         TableOf { table: Self { columns: Vec::new(), rows: vec![Vec::new(); values.len()] }, values }
     }
+
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
 }
 
 impl Display for Table {
