@@ -28,7 +28,7 @@ use uplift::bootstrap::resampled;
 use uplift::events::Events;
 use uplift::outputs;
 use uplift::result::{AskedRisk, Head, Kind, ResultFile, at};
-use uplift::text::visible;
+use uplift::text::{Table, visible};
 use uplift::{JobError, UpliftError};
 use uplift_plot::{Figure, html};
 
@@ -64,23 +64,22 @@ struct ShownPart {
     /// A sentence below the title; empty for none.
     note: String,
     /// Shown before the figures.
-    tables: Vec<Table>,
+    tables: Vec<TitledTable>,
     figures: Vec<DrawnFigure>,
     /// Shown after them.
-    details: Vec<Table>,
+    details: Vec<TitledTable>,
 }
 
-/// A table; all columns but the first `text_columns` hold numbers. Its headings have raised and lowered parts.
+/// A table and what is said of it; its headings have raised and lowered parts.
 #[derive(Debug, Serialize)]
-pub(crate) struct Table {
-    pub(crate) id: String,
-    pub(crate) title: String,
-    pub(crate) note: String,
+pub(crate) struct TitledTable {
+    id: String,
+    title: String,
+    note: String,
     /// What stands above the headings of the numbers; empty for nothing.
-    pub(crate) group: String,
-    pub(crate) header: Vec<String>,
-    pub(crate) text_columns: usize,
-    pub(crate) rows: Vec<Vec<String>>,
+    group: &'static str,
+    #[serde(flatten)]
+    table: Table,
 }
 
 /// What is said of one result.
@@ -103,9 +102,9 @@ struct Part {
     title: &'static str,
     /// A sentence below the title; empty for none.
     note: String,
-    tables: Vec<Table>,
+    tables: Vec<TitledTable>,
     figures: Vec<Figure>,
-    details: Vec<Table>,
+    details: Vec<TitledTable>,
 }
 
 /// A result that was read.
@@ -185,8 +184,19 @@ pub(crate) fn render(template: &'static str, context: Value) -> Result<String, U
         .map_err(|error| JobError::input(format!("the page cannot be made: {error}")))?)
 }
 
+impl TitledTable {
+    pub(crate) fn new(id: &str, title: impl Into<String>, note: impl Into<String>, table: impl Into<Table>) -> Self {
+        Self { id: id.to_owned(), title: title.into(), note: note.into(), group: "", table: table.into() }
+    }
+
+    /// The same, unless there is nothing to show.
+    pub(crate) fn unless_empty(self) -> Option<Self> {
+        (!self.table.is_empty()).then_some(self)
+    }
+}
+
 impl Read {
-    /// The title of the study, or the name of the file where it has none.
+    /// The title    /// The title of the study, or the name of the file where it has none.
     fn title(&self) -> &str {
         if self.head.title.is_empty() { &self.file } else { &self.head.title }
     }
@@ -214,7 +224,7 @@ fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftErro
         ("Command", head.command),
     ];
     facts.extend(content.facts);
-    let keyed = |mut tables: Vec<Table>| {
+    let keyed = |mut tables: Vec<TitledTable>| {
         for table in &mut tables {
             table.id = format!("{key}-{}", table.id);
         }

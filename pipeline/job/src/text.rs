@@ -1,10 +1,12 @@
 //! Tables and texts for the terminal.
 
 mod risk;
+mod table;
 mod visible;
 
 pub use risk::rounded;
 pub use risk::{kind_of_risks, per_cent, risk_in_words, risk_name, risks_in_words, share};
+pub use table::{Table, TableOf};
 pub use visible::{is_obeyed, one_line, visible};
 
 /// A number for a table or JSON, which have no infinity and no NaN: none for these. Zero has no sign there.
@@ -15,34 +17,6 @@ pub fn finite(value: f64) -> Option<f64> {
 /// Which spectrum, by the measure that records are scaled to: `PGV`, or `PGV, repaired`.
 pub fn spectrum_words(measure: &str, repaired: bool) -> String {
     if repaired { format!("{measure}, repaired") } else { measure.to_owned() }
-}
-
-/// Lines of a table: the first column to the left, the others to the right, a rule below the header.
-pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
-    let width = |column: usize| {
-        rows.iter()
-            .map(|row| row[column].chars().count())
-            .chain([header[column].chars().count()])
-            .max()
-            .unwrap_or_default()
-    };
-    let widths: Vec<usize> = (0..header.len()).map(width).collect();
-    let line = |cells: &[String]| {
-        let padded =
-            cells.iter().zip(&widths).enumerate().map(|(column, (cell, &width))| match cell.strip_prefix("| ") {
-                _ if column == 0 => format!("{cell:<width$}"),
-                // a bar stands below the bar above it
-                Some(value) => format!("| {value:>0$}", width - 2),
-                None => format!("{cell:>width$}"),
-            });
-        let padded: Vec<String> = padded.collect();
-        padded.join("  ").trim_end().to_owned()
-    };
-    let header: Vec<String> = header.iter().map(|&name| name.to_owned()).collect();
-    let rule = "-".repeat(widths.iter().sum::<usize>() + 2 * widths.len().saturating_sub(1));
-    let mut lines = vec![line(&header), rule];
-    lines.extend(rows.iter().map(|row| line(row)));
-    lines.join("\n")
 }
 
 /// Positions of the values nearest to those `wanted`, each once.
@@ -113,11 +87,5 @@ mod tests {
     fn each_nearest_value_once() {
         assert_eq!(nearest(&[0.0, 0.1, 0.3], &[0.11, 0.12, 0.4]), [1, 2]);
         assert!(nearest(&[], &[0.1]).is_empty());
-    }
-
-    #[test]
-    fn columns_line_up() {
-        let rows = vec![vec!["Aachen".into(), "1.0".into()], vec!["X".into(), "22.50".into()]];
-        assert_eq!(table(&["site", "u"], &rows), "site        u\n-------------\nAachen    1.0\nX       22.50");
     }
 }

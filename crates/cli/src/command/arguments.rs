@@ -1,11 +1,7 @@
 //! Arguments that several commands take.
 
 mod figures;
-mod folder;
-mod force;
 mod keep;
-mod model;
-mod number;
 mod probability;
 mod result;
 mod risk;
@@ -13,13 +9,75 @@ mod structure;
 mod study;
 
 pub(crate) use figures::FigureArguments;
-pub(crate) use folder::require_folder;
-pub(crate) use force::ForceArgument;
 pub(crate) use keep::KeepArgument;
-pub(crate) use model::model;
-pub(crate) use number::number;
 pub(crate) use probability::{number_or_per_cent, probability};
 pub(crate) use result::ResultArguments;
 pub(crate) use risk::{OneRiskArguments, RiskArguments};
 pub(crate) use structure::StructureArguments;
 pub(crate) use study::{StudyArguments, command_line, run_options, shard};
+
+use std::path::Path;
+
+use clap::Args;
+use uplift_frame::Model;
+
+use crate::error::CommandError;
+
+/// Endings of the files that the program writes.
+const FILES: [&str; 6] = ["h5", "svg", "png", "csv", "html", "json"];
+
+/// Whether files that are there give way.
+#[derive(Debug, Args)]
+pub(crate) struct ForceArgument {
+    /// Replace files that this command did not write for the same input; an input is never replaced
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// A model of a frame by its name.
+pub(crate) fn model(word: &str) -> Result<Model, String> {
+    match word {
+        "planar" => Ok(Model::Planar),
+        "wobbling" => Ok(Model::Wobbling),
+        _ => Err("it is planar or wobbling".to_owned()),
+    }
+}
+
+/// Reads `0.2` or `2e-4`; of a decimal comma it is said what to write.
+pub(crate) fn number(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    text.parse::<f64>().map_err(|_| {
+        let pointed = text.replace(',', ".");
+        match pointed.parse::<f64>() {
+            Ok(_) => format!("{text} has a decimal comma, and the decimal mark is a point: write {pointed}"),
+            Err(_) => "write a number, 0.2 or 2e-4, without a unit".to_owned(),
+        }
+    })
+}
+
+/// Refuses a `folder` for some files (`what`) whose name is that of a file, unless there is such a folder.
+pub(crate) fn require_folder(folder: &Path, what: &str) -> Result<(), CommandError> {
+    let looks_like_a_file = folder.extension().is_some_and(|ending| FILES.iter().any(|known| ending == *known));
+    if folder.is_dir() || !looks_like_a_file {
+        return Ok(());
+    }
+    Err(CommandError::Usage(format!(
+        "{}: -o names a folder for the {what}, and this is the name of a file: write -o {}",
+        folder.display(),
+        folder.with_extension("").display()
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_decimal_comma_is_named() {
+        assert_eq!(number(" 2e-4"), Ok(2e-4));
+        assert!(number("0,2").is_err_and(|error| error.ends_with("write 0.2")));
+        for text in ["1,234,567", "0.2 m", "x", ""] {
+            assert!(number(text).is_err_and(|error| error.starts_with("write a number")), "{text}");
+        }
+    }
+}

@@ -2,21 +2,19 @@
 
 mod at_level;
 mod import;
-mod list;
-mod select;
-mod show;
 mod synthesize;
 
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use uplift::inputs::FileOptions;
-use uplift::records::SetOptions;
+use uplift::records::{self, SelectOptions, SetOptions, ShowOptions};
 use uplift_motion::{AccelerationUnit, Combination, RecordFormat, STANDARD_GRAVITY_M_S2};
 use uplift_study::{CRITERIA, Criterion, Range, RecordSelection};
 
-use super::arguments::number;
+use super::arguments::{ForceArgument, number};
 use crate::error::CommandError;
+use crate::show::{print_record, print_records, print_selection};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -30,26 +28,76 @@ enum RecordsCommand {
     /// Find the records in a folder or zip archive of downloads, pair and measure them, write a manifest
     Import(import::ImportArguments),
     /// List the records of a manifest
-    List(list::ListArguments),
+    List(ListArguments),
     /// Show a record of a manifest, or what a record file holds
-    Show(show::ShowArguments),
+    Show(ShowArguments),
     /// Choose records of a manifest: the lines for a study, and a manifest of those chosen
-    Select(select::SelectArguments),
+    Select(SelectArguments),
     /// Make a table of sets at each level, for a study, of what tools of record selection write
     AtLevel(at_level::AtLevelArguments),
     /// Make synthetic records of a scenario
     Synthesize(synthesize::SynthesizeArguments),
 }
 
+#[derive(Debug, Args)]
+struct ListArguments {
+    #[command(flatten)]
+    set: SetArguments,
+}
+
+#[derive(Debug, Args)]
+struct ShowArguments {
+    /// Manifest of a record set, or a record file
+    #[arg(value_name = "SET|FILE")]
+    input: PathBuf,
+    /// Name of a record of the manifest
+    record: Option<String>,
+    #[command(flatten)]
+    files: FileArguments,
+}
+
+#[derive(Debug, Args)]
+struct SelectArguments {
+    #[command(flatten)]
+    set: SetArguments,
+    /// Write a manifest of the chosen records
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    overwriting: ForceArgument,
+}
+
 pub(super) fn records(arguments: &RecordsArguments, terminal: &Terminal) -> Result<(), CommandError> {
     match &arguments.command {
         RecordsCommand::Import(arguments) => import::import(arguments, terminal),
-        RecordsCommand::List(arguments) => list::list(arguments, terminal),
-        RecordsCommand::Show(arguments) => show::show(arguments),
-        RecordsCommand::Select(arguments) => select::select(arguments, terminal),
+        RecordsCommand::List(arguments) => list(arguments, terminal),
+        RecordsCommand::Show(arguments) => show(arguments),
+        RecordsCommand::Select(arguments) => select(arguments, terminal),
         RecordsCommand::AtLevel(arguments) => at_level::at_level(arguments, terminal),
         RecordsCommand::Synthesize(arguments) => synthesize::synthesize(arguments, terminal),
     }
+}
+
+fn list(arguments: &ListArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    print_records(&records::list(&arguments.set.options(), terminal)?)
+}
+
+fn show(arguments: &ShowArguments) -> Result<(), CommandError> {
+    let options = ShowOptions {
+        input: arguments.input.clone(),
+        record: arguments.record.clone(),
+        files: arguments.files.options(),
+    };
+    print_record(&records::show(&options)?)
+}
+
+fn select(arguments: &SelectArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let options = SelectOptions {
+        set: arguments.set.options(),
+        output: arguments.output.clone(),
+        force: arguments.overwriting.force,
+    };
+    print_selection(&records::select(&options, terminal)?, terminal)
 }
 
 /// What the files do not say.

@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use uplift::bootstrap::{Bands, BootstrapReport, BootstrapRow, Initiation, JointBands, MANY_FAILED};
-use uplift::text::{per_cent, risk_in_words, risk_name, table};
+use uplift::bootstrap::{Bands, BootstrapReport, BootstrapRow, Initiation, JointBands, MANY_FAILED, ReferenceRow};
+use uplift::text::{Table, per_cent, risk_in_words, risk_name};
 
 use super::shown_path;
 use crate::error::CommandError;
@@ -39,7 +39,6 @@ fn print_figures(
     poe: usize,
     compared: bool,
 ) -> Result<(), CommandError> {
-    let sizes = &report.sizes;
     let reference = Some(&report.reference).filter(|rows| compared && !rows.is_empty());
     writeln!(
         out,
@@ -49,37 +48,31 @@ fn print_figures(
         per_cent(report.confidence),
         if reference.is_some() { "; right of the bars the reference" } else { "" }
     )?;
-    let mut header = vec!["site".to_owned(), "records".to_owned()];
-    for bands in &report.bands {
-        let label = bands.measure.label();
-        header.extend([format!("{label} e"), "r".to_owned()]);
-        if reference.is_some() {
-            header.extend(["| e".to_owned(), "r".to_owned()]);
-        }
-    }
-    let mut rows = Vec::new();
-    for (site, name) in report.sites.iter().enumerate() {
-        for (size_index, &size) in sizes.iter().enumerate() {
-            let at = [site, poe, size_index];
-            let shown = if size_index == 0 { name.clone() } else { String::new() };
-            let mut row = vec![shown, size.to_string()];
-            for bands in &report.bands {
-                row.push(figure(bands.plain.error_of_median[at], 1));
-                row.push(figure(bands.plain.range_of_interval[at], 0));
-                if let Some(reference) = reference {
-                    let found = reference
-                        .iter()
-                        .find(|row| row.sample_size == size && row.site.to_lowercase() == name.to_lowercase())
-                        .and_then(|row| row.figures.iter().find(|(key, ..)| key == bands.measure.key()));
-                    row.push(found.map_or_else(|| "| -".to_owned(), |(_, error, _)| format!("| {error:.1}")));
-                    row.push(found.map_or_else(|| "-".to_owned(), |(.., range)| format!("{range:.0}")));
-                }
-            }
-            rows.push(row);
-        }
-    }
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    writeln!(out, "{}", table(&header, &rows))?;
+    let places = report.sites.iter().enumerate();
+    let places = places.flat_map(|site| report.sizes.iter().enumerate().map(move |size| (site, size)));
+    let table = Table::of(places)
+        .left("site", |((_, name), (index, _))| if index == 0 { name.as_str() } else { "" })
+        .right("records", |(_, (_, size))| size)
+        .each(&report.bands, |table, bands| {
+            let (label, of) = (bands.measure.label(), &bands.plain);
+            let printed = |name: &str, size: u32| {
+                let is_own =
+                    |row: &&ReferenceRow| row.sample_size == size && row.site.to_lowercase() == name.to_lowercase();
+                reference?.iter().find(is_own)?.figures.iter().find(|(key, ..)| key == bands.measure.key())
+            };
+            let error = |name: &str, size| printed(name, size).map(|(_, error, _)| format!("{error:.1}"));
+            let range = |name: &str, size| printed(name, size).map(|(.., range)| format!("{range:.0}"));
+            let dash = || "-".to_owned();
+            table
+                .right(format!("{label} e"), |((site, _), (size, _))| figure(of.error_of_median[[site, poe, size]], 1))
+                .right("r", |((site, _), (size, _))| figure(of.range_of_interval[[site, poe, size]], 0))
+                .when(reference.is_some(), |table| {
+                    table
+                        .bar("e", |((_, name), (_, &size))| error(name, size).unwrap_or_else(dash))
+                        .right("r", |((_, name), (_, &size))| range(name, size).unwrap_or_else(dash))
+                })
+        });
+    writeln!(out, "{table}")?;
     Ok(())
 }
 
@@ -115,7 +108,7 @@ fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
         per_cent(report.confidence)
     )?;
     let header = ["site", "im", "probability", "records", "plain r", "repaired e", "repaired r", "failed"];
-    writeln!(out, "{}", table(&header, &rows))?;
+    writeln!(out, "{}", Table::new(header, rows))?;
     if !failing.is_empty() {
         writeln!(out, "{}", too_many_fail("samples", &failing))?;
     }
@@ -153,7 +146,7 @@ fn print_inferred(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
         per_cent(report.confidence)
     )?;
     let header = ["site", "im", "strength", "truth from", "to", "another set from", "to"];
-    writeln!(out, "{}", table(&header, &rows))?;
+    writeln!(out, "{}", Table::new(header, rows))?;
     Ok(())
 }
 
@@ -250,7 +243,7 @@ fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), Com
         }
     )?;
     let header = ["site", "im", "probability", "records", "r", "joint r", "repaired r", "repaired joint r", "failed"];
-    writeln!(out, "{}", table(&header[..if has_repaired { 9 } else { 6 }], &rows))?;
+    writeln!(out, "{}", Table::new(header.into_iter().take(if has_repaired { 9 } else { 6 }), rows))?;
     if !failing.is_empty() {
         writeln!(out, "{}", too_many_fail("pairs of a sample and a hazard curve", &failing))?;
     }
@@ -296,7 +289,7 @@ fn print_initiation(out: &mut impl Write, report: &BootstrapReport) -> Result<()
         report.uplift_displacement_m
     )?;
     let header = ["site", "im", "lower", "median", "upper", "width of u, %"];
-    writeln!(out, "{}", table(&header, &rows))?;
+    writeln!(out, "{}", Table::new(header, rows))?;
     Ok(())
 }
 

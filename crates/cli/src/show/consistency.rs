@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use uplift::consistency::{AgreementRow, ConsistencyReport, ConsistencyRow, RepairRow};
-use uplift::text::{per_cent, risk_name, risks_in_words, table};
+use uplift::consistency::{ConsistencyReport, ConsistencyRow, RepairRow};
+use uplift::text::{Table, per_cent, risk_name, risks_in_words};
 
 use super::shown_path;
 use crate::error::CommandError;
@@ -99,35 +99,22 @@ fn print_levels(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
         probabilities(report)
     )?;
     let repaired = report.rows.iter().any(|row| row.repair.is_some());
-    let rows: Vec<Vec<String>> = report
-        .rows
-        .iter()
-        .map(|row| {
-            let mut cells = vec![
-                row.site.clone(),
-                row.scaled_to.to_owned(),
-                row.shows.to_owned(),
-                of_targets(row, |target| number(target.ratio, 2)),
-                of_targets(row, |target| number(target.times_as_often, 1)),
-                number(row.bias, 2),
-                number(row.max, 2),
-            ];
-            if repaired {
-                let of = |repair: &RepairRow| Some((repair.least_effective?, repair.least_effective_of?));
-                let least = row.repair.as_ref().and_then(of);
-                let words = |(least, records)| format!("{} of {records}", number(Some(least), 0));
-                cells.push(least.map_or_else(|| format!("- of {}", report.records), words));
-            }
-            cells.push(row.verdict.unwrap_or("-").to_owned());
-            cells
-        })
-        .collect();
-    let mut header = vec!["site", "scaled to", "shows", "brings over site's", "times as often", "bias", "max"];
-    if repaired {
-        header.push("effective, least");
-    }
-    header.push("verdict");
-    writeln!(out, "{}", table(&header, &rows))?;
+    let least = |row: &ConsistencyRow| {
+        let of = |repair: &RepairRow| Some((repair.least_effective?, repair.least_effective_of?));
+        let words = |(least, records)| format!("{} of {records}", number(Some(least), 0));
+        row.repair.as_ref().and_then(of).map_or_else(|| format!("- of {}", report.records), words)
+    };
+    let table = Table::of(&report.rows)
+        .left("site", |row| &row.site)
+        .right("scaled to", |row| row.scaled_to)
+        .right("shows", |row| row.shows)
+        .right("brings over site's", |row| of_targets(row, |target| number(target.ratio, 2)))
+        .right("times as often", |row| of_targets(row, |target| number(target.times_as_often, 1)))
+        .right("bias", |row| number(row.bias, 2))
+        .right("max", |row| number(row.max, 2))
+        .when(repaired, |table| table.right("effective, least", least))
+        .right("verdict", |row| row.verdict.unwrap_or("-"));
+    writeln!(out, "{table}")?;
     Ok(())
 }
 
@@ -137,24 +124,21 @@ fn print_earthquakes(out: &mut impl Write, report: &ConsistencyReport) -> Result
         return Ok(());
     }
     let is_repaired = report.rows.iter().any(|row| row.repair.is_some());
-    let rows = report.earthquakes.iter().map(|row| {
-        let mut cells = vec![row.site.clone(), row.scaled_to.to_owned(), risk_name(row.poe, report.years)];
-        cells.extend([number(Some(row.mean_magnitude), 2), number(row.magnitude, 2)]);
-        cells.extend(is_repaired.then(|| number(row.repaired_magnitude, 2)));
-        cells.extend([format!("| {}", number(Some(row.mean_distance_km), 0)), number(row.distance_km, 0)]);
-        cells.extend(is_repaired.then(|| number(row.repaired_distance_km, 0)));
-        cells
-    });
-    let rows: Vec<Vec<String>> = rows.collect();
-    let mut header = vec!["site", "scaled to", "risk", "M of hazard", "records"];
-    header.extend(is_repaired.then_some("weighed"));
-    header.extend(["| km of hazard", "records"]);
-    header.extend(is_repaired.then_some("weighed"));
+    let table = Table::of(&report.earthquakes)
+        .left("site", |row| &row.site)
+        .right("scaled to", |row| row.scaled_to)
+        .right("risk", |row| risk_name(row.poe, report.years))
+        .right("M of hazard", |row| number(Some(row.mean_magnitude), 2))
+        .right("records", |row| number(row.magnitude, 2))
+        .when(is_repaired, |table| table.right("weighed", |row| number(row.repaired_magnitude, 2)))
+        .bar("km of hazard", |row| number(Some(row.mean_distance_km), 0))
+        .right("records", |row| number(row.distance_km, 0))
+        .when(is_repaired, |table| table.right("weighed", |row| number(row.repaired_distance_km, 0)));
     writeln!(
         out,
         "\nEarthquakes: mean magnitude and distance of the site's hazard (disaggregation), and medians of the records"
     )?;
-    writeln!(out, "{}", table(&header, &rows))?;
+    writeln!(out, "{table}")?;
     Ok(())
 }
 
@@ -166,21 +150,15 @@ fn print_scale_factors(out: &mut impl Write, report: &ConsistencyReport) -> Resu
          effective\nearthquakes of {}",
         report.events.map_or_else(|| "unknown number".to_owned(), |events| events.to_string())
     )?;
-    let mut rows = Vec::new();
-    for row in &report.rows {
-        for (index, target) in row.targets.iter().enumerate() {
-            let shown = |text: &str| if index == 0 { text.to_owned() } else { String::new() };
-            rows.push(vec![
-                shown(&row.site),
-                shown(row.scaled_to),
-                per_cent(target.poe),
-                target.scale_factors.map(|factor| format!("{factor:.2}")).join(" / "),
-                format!("{:.0} %", (100.0 * target.outside_limits).max(0.0)),
-                number(target.effective_events, 1),
-            ]);
-        }
-    }
-    writeln!(out, "{}", table(&["site", "scaled to", "probability", "factors", "outside", "earthquakes"], &rows))?;
+    let targets = report.rows.iter().flat_map(|row| row.targets.iter().enumerate().map(move |of| (row, of)));
+    let table = Table::of(targets)
+        .left("site", |(row, (index, _))| if index == 0 { row.site.as_str() } else { "" })
+        .right("scaled to", |(row, (index, _))| if index == 0 { row.scaled_to } else { "" })
+        .right("probability", |(_, (_, target))| per_cent(target.poe))
+        .right("factors", |(_, (_, target))| target.scale_factors.map(|factor| format!("{factor:.2}")).join(" / "))
+        .right("outside", |(_, (_, target))| format!("{:.0} %", (100.0 * target.outside_limits).max(0.0)))
+        .right("earthquakes", |(_, (_, target))| number(target.effective_events, 1));
+    writeln!(out, "{table}")?;
     Ok(())
 }
 
@@ -193,12 +171,11 @@ fn print_two_sided(out: &mut impl Write, report: &ConsistencyReport) -> Result<(
         "\nBoth analyses together: where the set lies between the measures, which other records can cure, and what no\n\
          single set can avoid; factors of the level"
     )?;
-    let rows: Vec<Vec<String>> = report
-        .two_sided
-        .iter()
-        .map(|row| vec![row.site.clone(), format!("{:.2}", row.location.exp()), format!("{:.2}", row.spread.exp())])
-        .collect();
-    writeln!(out, "{}", table(&["site", "location", "spread"], &rows))?;
+    let table = Table::of(&report.two_sided)
+        .left("site", |row| &row.site)
+        .right("location", |row| format!("{:.2}", row.location.exp()))
+        .right("spread", |row| format!("{:.2}", row.spread.exp()));
+    writeln!(out, "{table}")?;
     Ok(())
 }
 
@@ -215,10 +192,10 @@ fn print_agreement(out: &mut impl Write, report: &ConsistencyReport) -> Result<(
         Some((count, mean, least, most)) => format!("{mean:.2} ({least:.2} to {most:.2}, {count} ordinates)"),
         None => "-".to_owned(),
     };
-    let row = |row: &AgreementRow| {
-        vec![row.site.clone().unwrap_or_else(|| "all sites".to_owned()), shown(&row.plain), shown(&row.repaired)]
-    };
-    let rows: Vec<Vec<String>> = report.agreement.iter().map(row).collect();
-    writeln!(out, "{}", table(&["site", "as they are", "repaired"], &rows))?;
+    let table = Table::of(&report.agreement)
+        .left("site", |row| row.site.as_deref().unwrap_or("all sites"))
+        .right("as they are", |row| shown(&row.plain))
+        .right("repaired", |row| shown(&row.repaired));
+    writeln!(out, "{table}")?;
     Ok(())
 }

@@ -3,8 +3,8 @@
 use std::io::Write;
 
 use uplift::alarms::Severity;
-use uplift::structure::{Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleOutcome};
-use uplift::text::{risk_in_words, short, table};
+use uplift::structure::{Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome};
+use uplift::text::{Table, risk_in_words, short};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
@@ -88,8 +88,8 @@ fn print_demands(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         writeln!(out, "\nThere is no demand to show.")?;
         return Ok(());
     }
-    let times = format!("times {factor:.4}, m");
-    writeln!(out, "\n{}", table(&["demand", "oscillator, m", &times], &rows))?;
+    let header = ["demand".to_owned(), "oscillator, m".to_owned(), format!("times {factor:.4}, m")];
+    writeln!(out, "\n{}", Table::new(header, rows))?;
     Ok(())
 }
 
@@ -103,27 +103,24 @@ fn print_rules(out: &mut impl Write, report: &DesignReport) -> Result<(), Comman
         return Ok(());
     }
     if let Some(ExactDemand { rounding, .. }) = &report.exact {
-        let rows: Vec<Vec<String>> = (report.rules.iter())
-            .map(|outcome| {
-                let from_spectrum = outcome
-                    .from_spectrum
-                    .as_ref()
-                    .map(|check| [metres(check.demand_m), rounding.error_of(check.demand_m).marked(relative)]);
-                let from_exact = outcome.from_exact.as_ref().map(|check| {
-                    let [demand, error] = [rounding.rule_demands_m, rounding.rule_errors]
-                        .map(|ranges| ranges.map(|ranges| ranges.of(outcome.rule)));
-                    [
-                        demand.map_or_else(|| metres(check.demand_m), |demand| demand.marked(metres)),
-                        error.map_or_else(|| "-".to_owned(), |error| error.marked(relative)),
-                    ]
-                });
-                let nothing = || ["-".to_owned(), "-".to_owned()];
-                let cells = [from_spectrum, from_exact].map(|cells| cells.unwrap_or_else(nothing)).concat();
-                [vec![outcome.rule.words().to_owned()], cells].concat()
+        let dash = || "-".to_owned();
+        let exact_demand = |of: &RuleOutcome, check: &RuleCheck| match rounding.rule_demands_m {
+            Some(demands) => demands.of(of.rule).marked(metres),
+            None => metres(check.demand_m),
+        };
+        let error = |of: &RuleOutcome| rounding.rule_errors.map(|errors| errors.of(of.rule).marked(relative));
+        let spectral = |of: &RuleOutcome, shown: &dyn Fn(f64) -> String| {
+            of.from_spectrum.as_ref().map_or_else(dash, |check| shown(check.demand_m))
+        };
+        let table = Table::of(&report.rules)
+            .left("rule", |of| of.rule.words())
+            .right("from the spectrum, m", |of| spectral(of, &metres))
+            .right("error", |of| spectral(of, &|demand_m| rounding.error_of(demand_m).marked(relative)))
+            .right("from the exact demand, m", |of| {
+                of.from_exact.as_ref().map_or_else(dash, |check| exact_demand(of, check))
             })
-            .collect();
-        let header = ["rule", "from the spectrum, m", "error", "from the exact demand, m", "error of the rule"];
-        writeln!(out, "\n{}", table(&header, &rows))?;
+            .right("error of the rule", |of| of.from_exact.as_ref().and_then(|_| error(of)).unwrap_or_else(dash));
+        writeln!(out, "\n{table}")?;
     }
     print_checks(out, report)
 }
@@ -161,7 +158,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         out,
         "\nRequired capacity with a safety factor of {} (Eq. 3.15)\n{}",
         report.required_safety_factor,
-        table(&header, &rows)
+        Table::new(header, rows)
     )?;
     if report.alarms.iter().any(|alarm| alarm.severity == Severity::Mistake) {
         writeln!(out, "These verdicts stand only if what is marked mistake? below is as it was meant.")?;
@@ -195,7 +192,7 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
     row("overturning".to_owned(), &exact.overturning, Some(&exact.rounding.overturning_per_year));
     let in_years = format!("in {} years", report.years);
     let header = ["the structure itself", "per year", &in_years, "return period, years"];
-    writeln!(out, "\n{}", table(&header, &rows))?;
+    writeln!(out, "\n{}", Table::new(header, rows))?;
     if let Some(bands) = &exact.bands {
         print_bands(out, exact, bands)?;
     }
@@ -256,7 +253,7 @@ fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], exact: &ExactDemand)
         row("overturning, per year".to_owned(), [noise.overturning_per_year, rounding.overturning_per_year], &rate);
     }
     let header = ["within 1 % of the strength", "here", "lowest", "highest"];
-    writeln!(out, "\n{}", table(&header, &rows))?;
+    writeln!(out, "\n{}", Table::new(header, rows))?;
     Ok(())
 }
 

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::displacement::{RunReport, printed};
-use uplift::text::{metres, nearest, table};
+use uplift::text::{Table, metres, nearest};
 use uplift_spectra::Noisy;
 use uplift_study::Structures;
 
@@ -25,20 +25,17 @@ pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<
         report.percentiles[middle],
         if report.head.synthetic { " (synthetic records)" } else { "" }
     )?;
-    let header: Vec<String> = ["record set", "scaling", "by"]
-        .map(str::to_owned)
-        .into_iter()
-        .chain(shown.iter().map(|&at| format!("{name} {:.3}", abscissa[at])))
-        .collect();
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    let row = |spectra: &uplift::displacement::SpectraReport| {
-        let first = (line * report.percentiles.len() + middle) * shown.len();
-        let names = [spectra.record_set.clone(), spectra.scaling.clone(), spectra.scaled_by.to_owned()];
-        names.into_iter().chain(spectra.rounding[first..first + shown.len()].iter().map(ordinate)).collect()
-    };
-    let rows: Vec<Vec<String>> = report.spectra.iter().map(row).collect();
-    writeln!(out, "{}", table(&header, &rows))?;
-    if rows.iter().flatten().any(|cell| cell.contains('*')) {
+    let table = Table::of(&report.spectra)
+        .left("record set", |spectra| &spectra.record_set)
+        .right("scaling", |spectra| &spectra.scaling)
+        .right("by", |spectra| spectra.scaled_by)
+        .each(shown.iter().enumerate(), |table, (place, &at)| {
+            let first = (line * report.percentiles.len() + middle) * shown.len();
+            table.right(format!("{name} {:.3}", abscissa[at]), |spectra| ordinate(&spectra.rounding[first + place]))
+        })
+        .to_string();
+    writeln!(out, "{table}")?;
+    if table.contains('*') {
         writeln!(out, "{ROUNDING_DECIDES};\n   in brackets the lowest and highest of these")?;
     }
     Ok(())

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::efficiency::{EfficiencyReport, EfficiencyRow, Trend};
-use uplift::text::{nearest, table};
+use uplift::text::{Table, nearest};
 
 use super::shown_path;
 use crate::error::CommandError;
@@ -45,16 +45,14 @@ fn number(value: f64, digits: usize) -> String {
 
 impl Shown<'_> {
     /// A table with a row a measure and a column a strength shown.
-    fn table(&self, cell: impl Fn(&EfficiencyRow) -> String) -> String {
-        let mut header = vec!["measure".to_owned()];
-        header.extend(self.strengths.iter().map(|&index| format!("{:.3}", self.report.strengths[index])));
-        let row = |rows: &&[EfficiencyRow]| {
-            let label = if rows[0].is_told() { format!("{} +", rows[0].im) } else { rows[0].im.to_owned() };
-            std::iter::once(label).chain(self.strengths.iter().map(|&index| cell(&rows[index]))).collect()
-        };
-        let rows: Vec<Vec<String>> = self.measures.iter().map(row).collect();
-        let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        table(&header, &rows)
+    fn table(&self, cell: impl Fn(&EfficiencyRow) -> String) -> Table {
+        let label = |row: &EfficiencyRow| if row.is_told() { format!("{} +", row.im) } else { row.im.to_owned() };
+        Table::of(&self.measures)
+            .left("measure", |rows| label(&rows[0]))
+            .each(&self.strengths, |table, &at| {
+                table.right(format!("{:.3}", self.report.strengths[at]), |rows| cell(&rows[at]))
+            })
+            .build()
     }
 
     fn print_scatter(&self, out: &mut impl Write) -> Result<(), CommandError> {

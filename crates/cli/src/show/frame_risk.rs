@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::structure::{Banded, FrameRiskReport, ModelDemand};
-use uplift::text::{risk_in_words, short, table};
+use uplift::text::{Table, risk_in_words, short};
 
 use super::alarms::print_alarms;
 use super::shown_path;
@@ -56,29 +56,22 @@ pub(crate) fn print_frame_risk(report: &FrameRiskReport) -> Result<(), CommandEr
 
 fn print_demands(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
     let is_repaired = report.demands.iter().any(|demand| demand.repaired_m.is_some());
-    let row = |demand: &ModelDemand| {
-        let mut row = vec![demand.model.to_owned(), metres(demand.demand_m.value), band(&demand.demand_m, metres)];
-        row.extend(match &demand.error {
-            Some(error) => [per_cent(error.value), band(error, per_cent)],
-            None => ["-".to_owned(), "-".to_owned()],
+    let error =
+        |demand: &ModelDemand, shown: fn(&Banded) -> String| demand.error.as_ref().map_or("-".to_owned(), shown);
+    let table = Table::of(&report.demands)
+        .left("model", |demand| demand.model)
+        .right("demand, m", |demand| metres(demand.demand_m.value))
+        .right(format!("{:.0} % band", 100.0 * report.confidence), |demand| band(&demand.demand_m, metres))
+        .right("error", |demand| error(demand, |error| per_cent(error.value)))
+        .right("its band", |demand| error(demand, |error| band(error, per_cent)))
+        .when(is_repaired, |table| {
+            table.right("repaired, m", |demand| demand.repaired_m.map_or_else(|| "-".to_owned(), metres))
         });
-        if is_repaired {
-            row.push(demand.repaired_m.map_or_else(|| "-".to_owned(), metres));
-        }
-        row
-    };
-    let rows: Vec<Vec<String>> = report.demands.iter().map(row).collect();
-    let confidence = format!("{:.0} % band", 100.0 * report.confidence);
-    let mut header = vec!["model", "demand, m", &confidence, "error", "its band"];
-    if is_repaired {
-        header.push("repaired, m");
-    }
     writeln!(
         out,
         "\nDemand in the displacement of the deck: the frame itself first, then what its proxies say and by how much \
-         they miss it;\nbands of {} resamples of the records, the same for frame and proxy\n{}",
-        report.replicates,
-        table(&header, &rows)
+         they miss it;\nbands of {} resamples of the records, the same for frame and proxy\n{table}",
+        report.replicates
     )?;
     Ok(())
 }
@@ -125,7 +118,7 @@ fn print_events(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     if is_repaired {
         header.push("repaired");
     }
-    writeln!(out, "\nHow often what happens to the frame\n{}", table(&header, &rows))?;
+    writeln!(out, "\nHow often what happens to the frame\n{}", Table::new(header, rows))?;
     if let (Some(theta), Some(beta), Some(per_year)) = (found.theta, found.beta, found.lognormal_per_year) {
         writeln!(
             out,

@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use uplift::hazard_curves::{HazardImportReport, HazardReport, ShownCurve};
-use uplift::text::{per_cent, table};
+use uplift::hazard_curves::{HazardImportReport, HazardReport};
+use uplift::text::{Table, per_cent};
 
 use crate::error::CommandError;
 use crate::terminal::output;
@@ -29,19 +29,15 @@ pub(crate) fn print_hazard_import(report: &HazardImportReport) -> Result<(), Com
 pub(crate) fn print_curves(report: &HazardReport) -> Result<(), CommandError> {
     let HazardReport { probabilities, years, curves } = report;
     let mut out = output();
-    let row = |curve: &ShownCurve| {
-        let mut row = vec![curve.name.clone(), format!("{} [{}]", curve.measure, curve.unit)];
-        let level = |level: &Option<f64>| level.map_or_else(|| "-".to_owned(), |level| format!("{level:.4}"));
-        row.extend(curve.levels.iter().map(level));
-        row.push(format!("{:.3e} - {:.3e}", curve.lowest, curve.highest));
-        row
-    };
-    let rows: Vec<Vec<String>> = curves.iter().take(SHOWN).map(row).collect();
-    let probabilities: Vec<String> = probabilities.iter().map(|&probability| per_cent(probability)).collect();
-    let mut header = vec!["curve", "measure"];
-    header.extend(probabilities.iter().map(String::as_str));
-    header.push("levels");
-    writeln!(out, "{}", table(&header, &rows))?;
+    let level = |level: Option<f64>| level.map_or_else(|| "-".to_owned(), |level| format!("{level:.4}"));
+    let table = Table::of(curves.iter().take(SHOWN))
+        .left("curve", |curve| &curve.name)
+        .right("measure", |curve| format!("{} [{}]", curve.measure, curve.unit))
+        .each(probabilities.iter().enumerate(), |table, (at, &probability)| {
+            table.right(per_cent(probability), |curve| level(curve.levels[at]))
+        })
+        .right("levels", |curve| format!("{:.3e} - {:.3e}", curve.lowest, curve.highest));
+    writeln!(out, "{table}")?;
     writeln!(
         out,
         "\nLevels exceeded with the stated probability in {years} years; a dash where the curve does not reach."

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::influence::InfluenceReport;
-use uplift::text::{metres, risk_in_words, spectrum_words, table};
+use uplift::text::{Table, metres, risk_in_words, spectrum_words};
 
 use super::shown_path;
 use crate::error::CommandError;
@@ -39,23 +39,18 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, name: &str) -> 
     )?;
     let mut above = None;
     let of_poe = report.records.iter().filter(|row| row.poe.to_bits() == report.poe.to_bits());
-    let rows: Vec<Vec<String>> = of_poe
-        .map(|row| {
-            vec![
-                shown_site(&mut above, (row.im, row.repaired), &row.site),
-                spectrum_words(row.im, row.repaired),
-                row.record.clone(),
-                format!("{:+.1}", row.mean_change_pct),
-                format!("{:+.0}", row.largest_change_pct),
-                format!("{:.3}", row.at_strength),
-            ]
-        })
-        .collect();
-    if rows.is_empty() {
+    let table = Table::of(of_poe)
+        .left("site", |row| shown_site(&mut above, (row.im, row.repaired), &row.site))
+        .right("im", |row| spectrum_words(row.im, row.repaired))
+        .right("record", |row| &row.record)
+        .right("average", |row| format!("{:+.1}", row.mean_change_pct))
+        .right("at most", |row| format!("{:+.0}", row.largest_change_pct))
+        .right("at strength", |row| format!("{:.3}", row.at_strength));
+    if table.is_empty() {
         writeln!(out, "none: the set has one record, or nothing rocks")?;
         return Ok(());
     }
-    writeln!(out, "{}", table(&["site", "im", "record", "average", "at most", "at strength"], &rows))?;
+    writeln!(out, "{table}")?;
     Ok(())
 }
 
@@ -68,24 +63,16 @@ fn print_intensities(out: &mut impl Write, report: &InfluenceReport, name: &str)
     let level = |level: f64| if level.is_nan() { "-".to_owned() } else { format!("{level:.3}") };
     let percent = |share: f64| if share.is_nan() { "-".to_owned() } else { format!("{:.1} %", 100.0 * share) };
     let mut above = None;
-    let rows: Vec<Vec<String>> = report
-        .intensities
-        .iter()
-        .map(|row| {
-            vec![
-                shown_site(&mut above, (row.im, row.repaired), &row.site),
-                format!("{}, {}", spectrum_words(row.im, row.repaired), row.unit),
-                format!("{:.3}", row.strength),
-                metres(row.u_m),
-                level(row.level_05),
-                level(row.level_50),
-                level(row.level_95),
-                percent(row.share_below_stripes),
-                percent(row.share_above_stripes),
-            ]
-        })
-        .collect();
-    let header = ["site", "im", "strength", "u, m", "5 %", "50 %", "95 %", "below", "above"];
-    writeln!(out, "{}", table(&header, &rows))?;
+    let table = Table::of(&report.intensities)
+        .left("site", |row| shown_site(&mut above, (row.im, row.repaired), &row.site))
+        .right("im", |row| format!("{}, {}", spectrum_words(row.im, row.repaired), row.unit))
+        .right("strength", |row| format!("{:.3}", row.strength))
+        .right("u, m", |row| metres(row.u_m))
+        .right("5 %", |row| level(row.level_05))
+        .right("50 %", |row| level(row.level_50))
+        .right("95 %", |row| level(row.level_95))
+        .right("below", |row| percent(row.share_below_stripes))
+        .right("above", |row| percent(row.share_above_stripes));
+    writeln!(out, "{table}")?;
     Ok(())
 }

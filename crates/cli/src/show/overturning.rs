@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::structure::{CollapseReport, OverturningReport, SiteRisk};
-use uplift::text::{share, table};
+use uplift::text::{Table, share};
 use uplift_spectra::Noisy;
 
 use super::alarms::print_alarms;
@@ -67,29 +67,23 @@ fn first_level(found: &CollapseReport, enough: &dyn Fn(u32) -> bool) -> String {
 }
 
 fn print_fragility(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
-    let row = |found: &CollapseReport| {
+    let at_last = |found: &CollapseReport| {
         let last = found.overturned.iter().zip(&found.overturned_rounding).next_back();
-        vec![
-            format!("{}, {}", found.im, found.unit),
-            found.model.to_owned(),
-            first_level(found, &|overturned| overturned > 0),
-            first_level(found, &|overturned| 2 * overturned >= found.records),
-            format!(
-                "{} of {}",
-                last.map_or_else(|| "0".to_owned(), |(&own, &range)| counted(own, range)),
-                found.records
-            ),
-            or_dash(found.theta_rounding, digits),
-            or_dash(found.beta_rounding, digits),
-        ]
+        let count = last.map_or_else(|| "0".to_owned(), |(&own, &range)| counted(own, range));
+        format!("{count} of {}", found.records)
     };
-    let rows: Vec<Vec<String>> = report.overturning.iter().map(row).collect();
-    let header = ["measure", "model", "first overturns", "half overturn", "at the last level", "theta", "beta"];
+    let table = Table::of(&report.overturning)
+        .left("measure", |found| format!("{}, {}", found.im, found.unit))
+        .right("model", |found| found.model)
+        .right("first overturns", |found| first_level(found, &|overturned| overturned > 0))
+        .right("half overturn", |found| first_level(found, &|overturned| 2 * overturned >= found.records))
+        .right("at the last level", at_last)
+        .right("theta", |found| or_dash(found.theta_rounding, digits))
+        .right("beta", |found| or_dash(found.beta_rounding, digits));
     writeln!(
         out,
         "\nCollapse fragility: levels at which the first and half of the records overturn the structure, and the \
-         lognormal curve of maximum\nlikelihood beside them\n{}",
-        table(&header, &rows)
+         lognormal curve of maximum\nlikelihood beside them\n{table}"
     )?;
     Ok(())
 }
@@ -137,7 +131,7 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
         "\nRisk of overturning: from the counted shares{weighted}, with a 90 % band (docs/method.md, section 9); \
          with the lognormal curve in\ntheir place; and what of the first comes from below and above the \
          analysed levels\n{}",
-        table(&header, &rows)
+        Table::new(header, rows)
     )?;
     let others = [
         (1, "The band if the earthquakes of these records were others:"),

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::pulses::{PulseReport, Summary};
-use uplift::text::{table, thousands};
+use uplift::text::{Table, thousands};
 
 use super::shown_path;
 use crate::error::CommandError;
@@ -17,7 +17,7 @@ pub(crate) fn print_pulses(report: &PulseReport, terminal: &Terminal) -> Result<
     let row = |name: &str, cell: &dyn Fn(&Summary) -> String| {
         std::iter::once(name.to_owned()).chain(summaries.iter().map(cell)).collect::<Vec<String>>()
     };
-    let header: Vec<&str> = std::iter::once("Ricker wavelet").chain(summaries.iter().map(|of| of.wavelet)).collect();
+    let header = std::iter::once("Ricker wavelet").chain(summaries.iter().map(|of| of.wavelet));
     let rows = [
         row("motions over ω_p/p", &|of| thousands(of.points as u64)),
         row("overturn without impact", &|of| thousands(of.overturned_without_impact as u64)),
@@ -29,7 +29,7 @@ pub(crate) fn print_pulses(report: &PulseReport, terminal: &Terminal) -> Result<
             format!("{}{beyond}", number(of.largest_overturning_base))
         }),
     ];
-    writeln!(out, "{}", table(&header, &rows))?;
+    writeln!(out, "{}", Table::new(header, rows))?;
     if !terminal.is_quiet() {
         writeln!(out)?;
         for file in &report.files {

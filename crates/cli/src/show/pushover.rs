@@ -2,9 +2,9 @@
 
 use std::io::Write;
 
-use uplift::pushover::{MeasuredCurve, ProtocolReport, PushoverReport, SideOfLoop};
-use uplift::text::table;
-use uplift_statics::{Capacity, Event, PushoverState};
+use uplift::pushover::{MeasuredCurve, ProtocolReport, PushoverReport};
+use uplift::text::{Table, TableOf};
+use uplift_statics::{Capacity, PushoverState};
 
 use super::{print_files, shown_path};
 use crate::error::CommandError;
@@ -17,23 +17,18 @@ const CYCLES: usize = 6;
 pub(crate) fn print_pushover(report: &PushoverReport, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
     head(&mut out, report)?;
-    let rows: Vec<Vec<String>> = report.events.iter().map(event_cells).collect();
-    writeln!(out, "\n{}", table(&["event", "u, m", "drift, %", "F, kN", "T, kN", "springs, mm"], &rows))?;
-    let mut header = vec!["u, m", "drift, %", "F, kN", "T, kN", "springs, mm", "N, kN", "M, kN m", "V, kN", "M base"];
-    let names: Vec<String> =
-        report.linear.iter().map(|curve| format!("F lin {:.0}", 1e-3 * curve.stiffness_n_m)).collect();
-    header.extend(names.iter().map(String::as_str));
-    let rows: Vec<Vec<String>> = report
-        .rows
-        .iter()
-        .enumerate()
-        .map(|(index, row)| {
-            let mut cells = state_cells(row);
-            cells.extend(report.linear.iter().map(|curve| kilo(curve.rows[index].force_n)));
-            cells
-        })
-        .collect();
-    writeln!(out, "\n{}", table(&header, &rows))?;
+    let events = Table::of(&report.events).left("event", |event| event.event.words());
+    writeln!(out, "\n{}", way(events, |event| &event.state).build())?;
+    let states = way(Table::of(report.rows.iter().enumerate()), |(_, state)| state)
+        .right("N, kN", |(_, state)| kilo(state.sections.top_axial_n))
+        .right("M, kN m", |(_, state)| kilo(state.sections.top_moment_n_m))
+        .right("V, kN", |(_, state)| kilo(state.sections.top_shear_n))
+        .right("M base", |(_, state)| kilo(state.sections.base_moment_n_m))
+        .each(&report.linear, |table, curve| {
+            let heading = format!("F lin {:.0}", 1e-3 * curve.stiffness_n_m);
+            table.right(heading, |(index, _)| kilo(curve.rows[index].force_n))
+        });
+    writeln!(out, "\n{}", states.build().with_left(1))?;
     for curve in &report.linear {
         let capacity = curve.capacity_m.map_or("none".to_owned(), |capacity_m| format!("{capacity_m:.4} m"));
         let (k, share) = (kilo(curve.stiffness_n_m), curve.share_of_critical);
@@ -118,66 +113,37 @@ fn millimetres(value: Option<f64>) -> String {
     value.map_or("-".to_owned(), |value| format!("{:.2}", 1e3 * value))
 }
 
-fn event_cells(event: &Event) -> Vec<String> {
-    let state = &event.state;
-    vec![
-        event.event.words().to_owned(),
-        format!("{:.4}", state.displacement_m),
-        format!("{:.2}", 100.0 * state.drift),
-        kilo(state.force_n),
-        kilo(state.tendon_n),
-        millimetres(state.spring_m),
-    ]
-}
-
-fn state_cells(state: &PushoverState) -> Vec<String> {
-    let sections = &state.sections;
-    vec![
-        format!("{:.4}", state.displacement_m),
-        format!("{:.2}", 100.0 * state.drift),
-        kilo(state.force_n),
-        kilo(state.tendon_n),
-        millimetres(state.spring_m),
-        kilo(sections.top_axial_n),
-        kilo(sections.top_moment_n_m),
-        kilo(sections.top_shear_n),
-        kilo(sections.base_moment_n_m),
-    ]
+/// Columns on the way of the structure in each row.
+fn way<'a, T: Copy>(table: TableOf<T>, state: impl Fn(T) -> &'a PushoverState) -> TableOf<T> {
+    table
+        .right("u, m", |row| format!("{:.4}", state(row).displacement_m))
+        .right("drift, %", |row| format!("{:.2}", 100.0 * state(row).drift))
+        .right("F, kN", |row| kilo(state(row).force_n))
+        .right("T, kN", |row| kilo(state(row).tendon_n))
+        .right("springs, mm", |row| millimetres(state(row).spring_m))
 }
 
 fn print_measured(out: &mut impl Write, measured: &MeasuredCurve) -> Result<(), CommandError> {
     writeln!(out, "\nmeasured   {}, {} points", shown_path(&measured.file).display(), measured.points)?;
     let slope = |slope: Option<f64>| slope.map_or("-".to_owned(), kilo);
-    let side = |name: &str, side: &SideOfLoop| {
-        vec![
-            name.to_owned(),
-            kilo(side.peak_n),
-            format!("{:.2}", 100.0 * side.drift_at_peak),
-            slope(side.slope_n_m),
-            slope(side.computed_slope_n_m),
-        ]
-    };
-    let rows = vec![side("+", &measured.positive), side("-", &measured.negative)];
-    let header = ["side", "peak, kN", "at drift, %", "slope 3-15 %, kN/m", "computed"];
-    writeln!(out, "{}", table(&header, &rows))?;
+    let table = Table::of([("+", &measured.positive), ("-", &measured.negative)])
+        .left("side", |(name, _)| name)
+        .right("peak, kN", |(_, side)| kilo(side.peak_n))
+        .right("at drift, %", |(_, side)| format!("{:.2}", 100.0 * side.drift_at_peak))
+        .right("slope 3-15 %, kN/m", |(_, side)| slope(side.slope_n_m))
+        .right("computed", |(_, side)| slope(side.computed_slope_n_m));
+    writeln!(out, "{table}")?;
     let mut cycles: Vec<_> = measured.cycles.iter().enumerate().collect();
     cycles.sort_by(|left, right| right.1.largest_m.total_cmp(&left.1.largest_m));
-    let rows: Vec<Vec<String>> = cycles
-        .iter()
-        .take(CYCLES)
-        .map(|(index, cycle)| {
-            vec![
-                format!("{}", index + 1),
-                format!("{:.4}", cycle.largest_m),
-                format!("{:.4}", cycle.least_m),
-                format!("{:.1}", cycle.dissipated_j),
-                cycle.equivalent_damping.map_or("-".to_owned(), |damping| format!("{:.2}", 100.0 * damping)),
-            ]
-        })
-        .collect();
-    if !rows.is_empty() {
-        let header = ["cycle", "u max, m", "u min, m", "loop, J", "equivalent damping, %"];
-        writeln!(out, "{}", table(&header, &rows))?;
+    let damping = |share: Option<f64>| share.map_or("-".to_owned(), |share| format!("{:.2}", 100.0 * share));
+    let table = Table::of(cycles.into_iter().take(CYCLES))
+        .left("cycle", |(index, _)| index + 1)
+        .right("u max, m", |(_, cycle)| format!("{:.4}", cycle.largest_m))
+        .right("u min, m", |(_, cycle)| format!("{:.4}", cycle.least_m))
+        .right("loop, J", |(_, cycle)| format!("{:.1}", cycle.dissipated_j))
+        .right("equivalent damping, %", |(_, cycle)| damping(cycle.equivalent_damping));
+    if !table.is_empty() {
+        writeln!(out, "{table}")?;
     }
     Ok(())
 }
@@ -185,9 +151,10 @@ fn print_measured(out: &mut impl Write, measured: &MeasuredCurve) -> Result<(), 
 /// Amplitudes and duration.
 pub(crate) fn print_protocol(report: &ProtocolReport, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
-    let row = |(index, amplitude): (usize, &f64)| vec![format!("{}", index + 1), format!("{:.3}", 100.0 * amplitude)];
-    let rows: Vec<Vec<String>> = report.amplitudes.iter().enumerate().map(row).collect();
-    writeln!(out, "{}", table(&["set", "amplitude, %"], &rows))?;
+    let table = Table::of(report.amplitudes.iter().enumerate())
+        .left("set", |(index, _)| index + 1)
+        .right("amplitude, %", |(_, amplitude)| format!("{:.3}", 100.0 * amplitude));
+    writeln!(out, "{table}")?;
     writeln!(out, "duration {:.0} s, {:.1} h", report.duration_s, report.duration_s / 3600.0)?;
     drop(out);
     print_files(&report.files, terminal)

@@ -2,35 +2,27 @@
 
 use std::io::Write;
 
-use uplift::records::{
-    AtLevelReport, ComponentReport, ListReport, ListedRecord, RecordReport, SelectReport, ShowReport,
-};
-use uplift::text::table;
+use uplift::records::{AtLevelReport, ComponentReport, ListReport, RecordReport, SelectReport, ShowReport};
+use uplift::text::Table;
 
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
 /// The records of a set.
 pub(crate) fn print_records(report: &ListReport) -> Result<(), CommandError> {
-    let said = |text: &Option<String>| text.clone().unwrap_or_else(|| "-".to_owned());
-    let row = |record: &ListedRecord| {
-        vec![
-            record.record.clone(),
-            said(&record.event),
-            said(&record.magnitude),
-            said(&record.distance_km),
-            said(&record.vs30),
-            format!("{:.3}", record.pga_g),
-            format!("{:.2}", record.pgv_cm_s),
-            format!("{:.1}", record.d5_75_s),
-            said(&record.pulse_like),
-        ]
-    };
-    let rows: Vec<Vec<String>> = report.records.iter().map(row).collect();
-    let header = ["record", "event", "M", "R [km]", "Vs30 [m/s]", "PGA [g]", "PGV [cm/s]", "D5-75 [s]", "pulse"];
-    let mut out = output();
-    writeln!(out, "{}", table(&header, &rows))?;
-    writeln!(out, "\n{} of {} records; PGA and PGV: {}", rows.len(), report.count, report.intensity.long_name())?;
+    let table = Table::of(&report.records)
+        .left("record", |record| &record.record)
+        .right("event", |record| record.event.as_deref().unwrap_or("-"))
+        .right("M", |record| record.magnitude.as_deref().unwrap_or("-"))
+        .right("R [km]", |record| record.distance_km.as_deref().unwrap_or("-"))
+        .right("Vs30 [m/s]", |record| record.vs30.as_deref().unwrap_or("-"))
+        .right("PGA [g]", |record| format!("{:.3}", record.pga_g))
+        .right("PGV [cm/s]", |record| format!("{:.2}", record.pgv_cm_s))
+        .right("D5-75 [s]", |record| format!("{:.1}", record.d5_75_s))
+        .right("pulse", |record| record.pulse_like.as_deref().unwrap_or("-"));
+    let (mut out, shown) = (output(), report.records.len());
+    writeln!(out, "{table}")?;
+    writeln!(out, "\n{} of {} records; PGA and PGV: {}", shown, report.count, report.intensity.long_name())?;
     Ok(())
 }
 

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::restrainer::{RestrainerCurve, RestrainerDesign, stack_name};
-use uplift::text::table;
+use uplift::text::{Table, TableOf};
 use uplift_statics::Candidate;
 
 use super::{print_files, shown_path};
@@ -35,38 +35,22 @@ pub(crate) fn print_restrainer_curve(report: &RestrainerCurve, terminal: &Termin
     let optional =
         |value: Option<f64>, factor: f64| value.map_or("-".to_owned(), |value| format!("{:.2}", factor * value));
     if !report.events.is_empty() {
-        let rows: Vec<Vec<String>> = report
-            .events
-            .iter()
-            .map(|event| {
-                vec![
-                    event.event.to_owned(),
-                    format!("{:.2}", 1e3 * event.elongation_m),
-                    kilo(event.force_n),
-                    optional(event.spring_m, 1e3),
-                ]
-            })
-            .collect();
-        writeln!(out, "\n{}", table(&["event", "elongation, mm", "T, kN", "springs, mm"], &rows))?;
+        let table = Table::of(&report.events)
+            .left("event", |event| event.event)
+            .right("elongation, mm", |event| format!("{:.2}", 1e3 * event.elongation_m))
+            .right("T, kN", |event| kilo(event.force_n))
+            .right("springs, mm", |event| optional(event.spring_m, 1e3));
+        writeln!(out, "\n{table}")?;
     }
-    let rows: Vec<Vec<String>> = report
-        .rows
-        .iter()
-        .map(|row| {
-            vec![
-                format!("{:.2}", 1e3 * row.elongation_m),
-                kilo(row.force_n),
-                optional(row.secant_n_m, 1e-3),
-                format!("{:.2}", 1e-3 * row.stiffness_n_m),
-                optional(row.spring_m, 1e3),
-                optional(row.spring_secant_n_m, 1e-3),
-                format!("{:.1}", row.energy_j),
-            ]
-        })
-        .collect();
-    let header =
-        ["elongation, mm", "T, kN", "secant, kN/m", "tangent, kN/m", "springs, mm", "their secant, kN/m", "energy, J"];
-    writeln!(out, "\n{}", table(&header, &rows))?;
+    let table = Table::of(&report.rows)
+        .left("elongation, mm", |row| format!("{:.2}", 1e3 * row.elongation_m))
+        .right("T, kN", |row| kilo(row.force_n))
+        .right("secant, kN/m", |row| optional(row.secant_n_m, 1e-3))
+        .right("tangent, kN/m", |row| format!("{:.2}", 1e-3 * row.stiffness_n_m))
+        .right("springs, mm", |row| optional(row.spring_m, 1e3))
+        .right("their secant, kN/m", |row| optional(row.spring_secant_n_m, 1e-3))
+        .right("energy, J", |row| format!("{:.1}", row.energy_j));
+    writeln!(out, "\n{table}")?;
     drop(out);
     print_files(&report.files, terminal)
 }
@@ -86,88 +70,60 @@ pub(crate) fn print_restrainer_design(report: &RestrainerDesign, terminal: &Term
     let (found, discs) = (report.found, report.discs);
     let shown = report.stacks.len();
     writeln!(out, "stacks     {found} of {discs} discs in {}", shown_path(&report.catalogue).display())?;
-    let rows: Vec<Vec<String>> = report.stacks.iter().map(cells).collect();
-    let header = [
-        "stack",
-        "miss, %",
-        "secant, kN/m",
-        "u, m",
-        "T, kN",
-        "of yield, %",
-        "springs, mm",
-        "of stroke, %",
-        "u_cap, m",
-        "linear",
-        "length, m",
-        "mass, kg",
-        "price",
-        "first",
-    ];
-    writeln!(out, "\n{}", table(&header, &rows))?;
+    writeln!(out, "\n{}", stacks(&report.stacks))?;
     if shown < found {
         writeln!(out, "{} more: --most {found} shows them, -o FILE.csv writes them", found - shown)?;
     }
     if let Some(demand_m) = target.demand_m {
-        let rows: Vec<Vec<String>> = report
-            .stacks
-            .iter()
-            .zip(&report.at_demand)
-            .map(|(stack, state)| vec![stack_name(stack), kilo(state.tendon_n), format!("{:.2}", 1e3 * state.spring_m)])
-            .collect();
-        let title = format!("at the demand, {demand_m:.4} m");
-        writeln!(out, "\n{}", table(&[&title, "T, kN", "springs, mm"], &rows))?;
+        let table = Table::of(report.stacks.iter().zip(&report.at_demand))
+            .left(format!("at the demand, {demand_m:.4} m"), |(stack, _)| stack_name(stack))
+            .right("T, kN", |(_, state)| kilo(state.tendon_n))
+            .right("springs, mm", |(_, state)| format!("{:.2}", 1e3 * state.spring_m));
+        writeln!(out, "\n{table}")?;
     }
     if !report.stoppers.is_empty() {
-        let rows: Vec<Vec<String>> = report
-            .stacks
-            .iter()
-            .zip(&report.stoppers)
-            .map(|(stack, stopper)| {
-                vec![
-                    stack_name(stack),
-                    stopper.engages_at_m.map_or("-".to_owned(), |at_m| format!("{at_m:.4}")),
-                    kilo(stopper.engages_at_n),
-                    stopper.most_yield_n.map_or("none".to_owned(), kilo),
-                ]
-            })
-            .collect();
-        writeln!(out, "\n{}", table(&["stopper of", "engages at u, m", "T, kN", "yield at most, kN"], &rows))?;
+        let table = Table::of(report.stacks.iter().zip(&report.stoppers))
+            .left("stopper of", |(stack, _)| stack_name(stack))
+            .right("engages at u, m", |(_, stopper)| metres_or("-", stopper.engages_at_m))
+            .right("T, kN", |(_, stopper)| kilo(stopper.engages_at_n))
+            .right("yield at most, kN", |(_, stopper)| stopper.most_yield_n.map_or("none".to_owned(), kilo));
+        writeln!(out, "\n{table}")?;
     }
-    let rows: Vec<Vec<String>> = report
-        .tolerances
-        .iter()
-        .map(|tolerance| {
-            vec![
-                tolerance.imperfection.clone(),
-                tolerance.capacity_m.map_or("none".to_owned(), |capacity_m| format!("{capacity_m:.4}")),
-                tolerance.change.map_or("-".to_owned(), |change| format!("{:+.1}", 100.0 * change)),
-            ]
-        })
-        .collect();
-    let title = format!("{} with", report.tolerances_of);
-    writeln!(out, "\n{}", table(&[&title, "u_cap, m", "change, %"], &rows))?;
+    let change = |change: Option<f64>| change.map_or("-".to_owned(), |change| format!("{:+.1}", 100.0 * change));
+    let table = Table::of(&report.tolerances)
+        .left(format!("{} with", report.tolerances_of), |tolerance| &tolerance.imperfection)
+        .right("u_cap, m", |tolerance| metres_or("none", tolerance.capacity_m))
+        .right("change, %", |tolerance| change(tolerance.change));
+    writeln!(out, "\n{table}")?;
     drop(out);
     print_files(&report.files, terminal)
 }
 
-fn cells(stack: &Candidate) -> Vec<String> {
-    let metres = |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value:.4}"));
-    vec![
-        stack_name(stack),
-        format!("{:+.1}", 100.0 * stack.miss),
-        format!("{:.0}", 1e-3 * stack.secant_n_m),
-        format!("{:.4}", stack.at_m),
-        kilo(stack.tendon_n),
-        stack.tendon_utilisation.map_or("-".to_owned(), |share| format!("{:.0}", 100.0 * share)),
-        format!("{:.2}", 1e3 * stack.spring_m),
-        format!("{:.0}", 100.0 * stack.stroke_share),
-        metres(stack.capacity_m),
-        metres(stack.linear_capacity_m),
-        format!("{:.3}", stack.length_m),
-        format!("{:.2}", stack.mass_kg),
-        stack.price.map_or("-".to_owned(), |price| format!("{price:.2}")),
-        stack.first.map_or("-".to_owned(), |(event, at_m)| format!("{} at {at_m:.3} m", event.words())),
-    ]
+fn stacks(stacks: &[Candidate]) -> TableOf<&Candidate> {
+    let or_dash = |value: Option<f64>, factor: f64, digits: usize| {
+        value.map_or("-".to_owned(), |value| format!("{:.digits$}", factor * value))
+    };
+    Table::of(stacks)
+        .left("stack", stack_name)
+        .right("miss, %", |stack| format!("{:+.1}", 100.0 * stack.miss))
+        .right("secant, kN/m", |stack| format!("{:.0}", 1e-3 * stack.secant_n_m))
+        .right("u, m", |stack| format!("{:.4}", stack.at_m))
+        .right("T, kN", |stack| kilo(stack.tendon_n))
+        .right("of yield, %", |stack| or_dash(stack.tendon_utilisation, 100.0, 0))
+        .right("springs, mm", |stack| format!("{:.2}", 1e3 * stack.spring_m))
+        .right("of stroke, %", |stack| format!("{:.0}", 100.0 * stack.stroke_share))
+        .right("u_cap, m", |stack| metres_or("none", stack.capacity_m))
+        .right("linear", |stack| metres_or("none", stack.linear_capacity_m))
+        .right("length, m", |stack| format!("{:.3}", stack.length_m))
+        .right("mass, kg", |stack| format!("{:.2}", stack.mass_kg))
+        .right("price", |stack| or_dash(stack.price, 1.0, 2))
+        .right("first", |stack| {
+            stack.first.map_or("-".to_owned(), |(event, at_m)| format!("{} at {at_m:.3} m", event.words()))
+        })
+}
+
+fn metres_or(none: &str, value: Option<f64>) -> String {
+    value.map_or(none.to_owned(), |value| format!("{value:.4}"))
 }
 
 fn kilo(value: f64) -> String {

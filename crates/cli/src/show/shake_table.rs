@@ -4,7 +4,7 @@ use std::io::Write;
 
 use uplift::result::ShakeTable;
 use uplift::table::TestsTable;
-use uplift::text::table;
+use uplift::text::Table;
 use uplift_validation::Sample;
 
 use crate::error::CommandError;
@@ -40,32 +40,28 @@ pub(super) fn print_tests(out: &mut impl Write, found: &ShakeTable) -> Result<()
         }
     }
     let header = ["level", "class", "tests", "16 %", "50 %", "84 %", "never uplift", "overturn"];
-    Ok(writeln!(out, "{}", table(&header, &rows))?)
+    Ok(writeln!(out, "{}", Table::new(header, rows))?)
 }
 
 /// Every test in the order of its response, beside a printed order.
 pub(super) fn print_order(out: &mut impl Write, found: &TestsTable) -> Result<(), CommandError> {
     writeln!(out, "records: {}; structure: {}", found.record_set, found.structure)?;
-    let mut header = vec!["order", "level", "excitation", "class", "U, m", "drift, %", "T, kN", "base shear, kN"];
-    header.extend(found.agreement.is_some().then_some("| printed"));
-    let rows: Vec<Vec<String>> = found
-        .rows
-        .iter()
-        .map(|row| {
-            let mut cells = vec![row.order.to_string(), row.level.clone(), row.exc_id.clone(), row.class.clone()];
-            let or = |value: Option<f64>, none: &str, factor: f64, decimals: usize| {
-                value.map_or_else(|| none.to_owned(), |value| format!("{:.decimals$}", factor * value))
-            };
-            cells.push(or(row.u_m, OVERTURNS, 1.0, 4));
-            cells.extend([or(row.drift, "-", 100.0, 2), or(row.tendon_n, "-", 1e-3, 2)]);
-            cells.push(or(row.base_shear_n, "-", 1e-3, 2));
-            if found.agreement.is_some() {
-                cells.push(row.reference.map_or_else(|| "| -".to_owned(), |place| format!("| {place}")));
-            }
-            cells
-        })
-        .collect();
-    writeln!(out, "{}", table(&header, &rows))?;
+    let or = |value: Option<f64>, none: &str, factor: f64, decimals: usize| {
+        value.map_or_else(|| none.to_owned(), |value| format!("{:.decimals$}", factor * value))
+    };
+    let table = Table::of(&found.rows)
+        .left("order", |row| row.order)
+        .right("level", |row| &row.level)
+        .right("excitation", |row| &row.exc_id)
+        .right("class", |row| &row.class)
+        .right("U, m", |row| or(row.u_m, OVERTURNS, 1.0, 4))
+        .right("drift, %", |row| or(row.drift, "-", 100.0, 2))
+        .right("T, kN", |row| or(row.tendon_n, "-", 1e-3, 2))
+        .right("base shear, kN", |row| or(row.base_shear_n, "-", 1e-3, 2))
+        .when(found.agreement.is_some(), |table| {
+            table.bar("printed", |row| row.reference.map_or_else(|| "-".to_owned(), |place| place.to_string()))
+        });
+    writeln!(out, "{table}")?;
     if let Some(agreement) = &found.agreement {
         let shown = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
         let levels: Vec<String> = agreement

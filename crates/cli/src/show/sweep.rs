@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::io::Write;
 
 use uplift::sweep::{SweepReport, VariantReport};
-use uplift::text::{metres, nearest, risk_in_words, table};
+use uplift::text::{Table, metres, nearest, risk_in_words};
 
 use super::shown_path;
 use crate::error::CommandError;
@@ -32,12 +32,9 @@ pub(crate) fn print_sweep(report: &SweepReport, terminal: &Terminal) -> Result<(
     header.extend(["risk", "strength", u_m, "strength", u_m, "strength", u_m]);
     for im in measures {
         for site in &sites {
-            let rows: Vec<Vec<String>> = report.variants.iter().map(|variant| row(variant, im, site)).collect();
-            writeln!(
-                out,
-                "\nUniform risk spectra by {im} at {site}: displacement in m{synthetic}\n{}",
-                table(&header, &rows)
-            )?;
+            let rows = report.variants.iter().map(|variant| row(variant, im, site));
+            let table = Table::new(header.iter().copied(), rows);
+            writeln!(out, "\nUniform risk spectra by {im} at {site}: displacement in m{synthetic}\n{table}")?;
         }
     }
     if !terminal.is_quiet() {

@@ -5,8 +5,10 @@ mod design;
 
 use std::io::Write;
 
-use uplift::table::{COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, TableReport, TableRows};
-use uplift::text::{kind_of_risks, risk_name, spectrum_words, table};
+use uplift::table::{
+    COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, ReferenceFit, TableReport, TableRows,
+};
+use uplift::text::{Table, kind_of_risks, risk_name, spectrum_words};
 
 use super::alarms::print_alarms;
 use super::shake_table;
@@ -28,20 +30,34 @@ pub(crate) fn print_table(report: &TableReport, terminal: &Terminal) -> Result<(
 
 fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result<(), CommandError> {
     writeln!(out, "u = c0 exp(c1 strength) + c2, metres; records: {}", report.record_set)?;
-    let mut header = vec!["site", "im", "poe", "c0", "c1", "c2  ", "rmse"];
-    if report.compared {
-        header.extend(["| c0", "c1", "c2", "rmse", "| ratio"]);
-    }
-    let cells = |row: &CoefficientRow| {
-        let mut cells = vec![row.site.clone(), measure(row), risk_name(row.poe, report.years)];
-        cells.extend(ours(row));
-        if report.compared {
-            cells.extend(theirs(row));
-        }
-        cells
+    // a fit without coefficients says so in the first of its columns
+    let fitted =
+        |row: &CoefficientRow, value: f64| if row.c0_m.is_nan() { String::new() } else { format!("{value:.4}") };
+    let c2 = |row: &CoefficientRow| match fitted(row, row.c2_m) {
+        none if none.is_empty() => none,
+        shown => shown + if row.bound_active { " *" } else { "  " },
     };
-    let rows: Vec<Vec<String>> = report.rows.iter().map(cells).collect();
-    writeln!(out, "{}", table(&header, &rows))?;
+    let printed = |row: &CoefficientRow, value: fn(&ReferenceFit) -> Option<f64>| {
+        row.reference.as_ref().and_then(value).map_or_else(|| "-".to_owned(), |value| format!("{value:.4}"))
+    };
+    let ratio = |row: &CoefficientRow| row.reference.as_ref().and(row.median_ratio).map(|ratio| format!("{ratio:.2}"));
+    let table = Table::of(&report.rows)
+        .left("site", |row| &row.site)
+        .right("im", measure)
+        .right("poe", |row| risk_name(row.poe, report.years))
+        .right("c0", |row| if row.c0_m.is_nan() { "no fit".to_owned() } else { fitted(row, row.c0_m) })
+        .right("c1", |row| fitted(row, row.c1))
+        .right("c2  ", c2)
+        .right("rmse", |row| fitted(row, row.rmse_m))
+        .when(report.compared, |table| {
+            table
+                .bar("c0", |row| printed(row, |of| Some(of.c0_m)))
+                .right("c1", |row| printed(row, |of| Some(of.c1)))
+                .right("c2", |row| printed(row, |of| Some(of.c2_m)))
+                .right("rmse", |row| printed(row, |of| of.rmse_m))
+                .bar("ratio", |row| ratio(row).unwrap_or_else(|| "-".to_owned()))
+        });
+    writeln!(out, "{table}")?;
     let starred = if report.rows.iter().any(|row| row.bound_active) { "* c2 held at 0; " } else { "" };
     let poes: Vec<f64> = report.rows.iter().map(|row| row.poe).collect();
     let kind = kind_of_risks(&poes, report.years).map_or_else(String::new, |kind| kind + "; ");
@@ -62,30 +78,4 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
 
 fn measure(row: &CoefficientRow) -> String {
     spectrum_words(&row.im, row.repaired)
-}
-
-fn ours(row: &CoefficientRow) -> Vec<String> {
-    if row.c0_m.is_nan() {
-        return vec!["no fit".to_owned(), String::new(), String::new(), String::new()];
-    }
-    let bound = if row.bound_active { " *" } else { "  " };
-    vec![
-        format!("{:.4}", row.c0_m),
-        format!("{:.4}", row.c1),
-        format!("{:.4}{bound}", row.c2_m),
-        format!("{:.4}", row.rmse_m),
-    ]
-}
-
-fn theirs(row: &CoefficientRow) -> Vec<String> {
-    let Some(reference) = &row.reference else {
-        return ["| -", "-", "-", "-", "| -"].map(str::to_owned).to_vec();
-    };
-    vec![
-        format!("| {:.4}", reference.c0_m),
-        format!("{:.4}", reference.c1),
-        format!("{:.4}", reference.c2_m),
-        reference.rmse_m.map_or_else(|| "-".to_owned(), |rmse| format!("{rmse:.4}")),
-        row.median_ratio.map_or_else(|| "| -".to_owned(), |ratio| format!("| {ratio:.2}")),
-    ]
 }

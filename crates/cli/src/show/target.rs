@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::structure::{Drawn, TargetBand, TargetReport};
-use uplift::text::{per_cent, short, table, thousands};
+use uplift::text::{Table, per_cent, short, thousands};
 
 use super::alarms::print_alarms;
 use super::shown_path;
@@ -109,37 +109,26 @@ fn print_crossings(out: &mut impl Write, report: &TargetReport) -> Result<(), Co
     if report.crossings.len() < 2 {
         return Ok(());
     }
-    let row = |crossing: &uplift::structure::Crossing| {
-        let becomes = if crossing.becomes_met { "met" } else { "missed" };
-        vec![becomes.to_owned(), short(crossing.from), short(crossing.to)]
-    };
-    let rows: Vec<Vec<String>> = report.crossings.iter().map(row).collect();
-    let header = format!("{} from", report.quantity);
-    writeln!(out, "\nCrossings of the target, upwards\n{}", table(&["becomes", &header, "to"], &rows))?;
+    let table = Table::of(&report.crossings)
+        .left("becomes", |crossing| if crossing.becomes_met { "met" } else { "missed" })
+        .right(format!("{} from", report.quantity), |crossing| short(crossing.from))
+        .right("to", |crossing| short(crossing.to));
+    writeln!(out, "\nCrossings of the target, upwards\n{table}")?;
     Ok(())
 }
 
 fn print_beside(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
     if !report.at_return_periods.is_empty() {
-        let rows: Vec<Vec<String>> = report
-            .at_return_periods
-            .iter()
-            .map(|at| {
-                vec![
-                    format!("{:.0} years", at.return_period_years),
-                    short(at.level),
-                    format!("{} of {}", at.count, at.runs),
-                    per_cent(at.probability),
-                ]
-            })
-            .collect();
-        let level = format!("{}, {}", report.im, report.im_unit);
         let whose = if report.uncertainty.is_some() { "runs" } else { "records" };
+        let table = Table::of(&report.at_return_periods)
+            .left("return period", |at| format!("{:.0} years", at.return_period_years))
+            .right(format!("{}, {}", report.im, report.im_unit), |at| short(at.level))
+            .right(whose, |at| format!("{} of {}", at.count, at.runs))
+            .right("probability", |at| per_cent(at.probability));
         writeln!(
             out,
-            "\nProbability of {} given the level of a return period, for the structure that was found\n{}",
-            report.event,
-            table(&["return period", &level, whose, "probability"], &rows)
+            "\nProbability of {} given the level of a return period, for the structure that was found\n{table}",
+            report.event
         )?;
     }
     let Some(generic) = &report.generic else { return Ok(()) };

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::structure::{QuantityReport, UncertainFinding, UncertaintyReport};
-use uplift::text::{per_cent, short, table, thousands};
+use uplift::text::{Table, per_cent, short, thousands};
 
 use crate::error::CommandError;
 
@@ -42,9 +42,20 @@ pub(super) fn kind_in_words(kind: &str) -> &'static str {
 
 /// A row for each, and what was cut off.
 pub(super) fn print_quantities(out: &mut impl Write, quantities: &[QuantityReport]) -> Result<(), CommandError> {
-    let rows: Vec<Vec<String>> = quantities.iter().map(quantity).collect();
-    let header = ["quantity", "distribution", "5 %", "16 %", "50 %", "84 %", "95 %", "correlated with"];
-    writeln!(out, "{}", table(&header, &rows))?;
+    let table = Table::of(quantities)
+        .left(
+            "quantity",
+            |of| if of.unit.is_empty() { of.name.to_owned() } else { format!("{}, {}", of.name, of.unit) },
+        )
+        .right("distribution", |of| of.distribution)
+        .each(["5 %", "16 %", "50 %", "84 %", "95 %"].into_iter().enumerate(), |table, (at, heading)| {
+            table.right(heading, |of| short(of.percentiles[at]))
+        })
+        .right("correlated with", |of| match of.correlated_with.as_slice() {
+            [] => "-".to_owned(),
+            names => names.join(", "),
+        });
+    writeln!(out, "{table}")?;
     for quantity in quantities.iter().filter(|quantity| quantity.cut_off_share > 0.0) {
         writeln!(
             out,
@@ -54,13 +65,4 @@ pub(super) fn print_quantities(out: &mut impl Write, quantities: &[QuantityRepor
         )?;
     }
     Ok(())
-}
-
-fn quantity(of: &QuantityReport) -> Vec<String> {
-    let name = if of.unit.is_empty() { of.name.to_owned() } else { format!("{}, {}", of.name, of.unit) };
-    let correlated = if of.correlated_with.is_empty() { "-".to_owned() } else { of.correlated_with.join(", ") };
-    let mut row = vec![name, of.distribution.to_owned()];
-    row.extend(of.percentiles.map(short));
-    row.push(correlated);
-    row
 }

@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use uplift::text::{metres, nearest, risk_in_words, risk_name, table};
-use uplift::uniform_risk::{BranchReport, RunReport};
+use uplift::text::{Table, TableOf, metres, nearest, risk_in_words, risk_name};
+use uplift::uniform_risk::{BranchReport, RunReport, SpectrumReport};
 
 use crate::error::CommandError;
 
@@ -61,21 +61,21 @@ fn print_repaired(out: &mut impl Write, report: &RunReport, shown: &[usize]) -> 
 }
 
 /// Displacements of the spectra of one measure: a row a site.
-fn spectra_table(report: &RunReport, own: &[&uplift::uniform_risk::SpectrumReport], shown: &[usize]) -> String {
-    let mut header = vec!["site".to_owned()];
-    for poe in &report.poes {
-        header.push(risk_in_words(*poe, report.years).replace(" years", " yr"));
-        header.extend(std::iter::repeat_n(String::new(), shown.len() - 1));
-    }
+fn spectra_table<'a>(
+    report: &RunReport,
+    own: &'a [&'a SpectrumReport],
+    shown: &[usize],
+) -> TableOf<&'a [&'a SpectrumReport]> {
     let displacement = |u_m: f64| if u_m.is_nan() { "-".to_owned() } else { metres(u_m) };
     // the spectra of a site follow each other, one a probability
-    let row = |of_site: &[&uplift::uniform_risk::SpectrumReport]| {
-        let cells = of_site.iter().flat_map(|spectrum| shown.iter().map(|&index| displacement(spectrum.u_m[index])));
-        std::iter::once(of_site[0].site.clone()).chain(cells).collect()
-    };
-    let rows: Vec<Vec<String>> = own.chunks(report.poes.len()).map(row).collect();
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    table(&header, &rows)
+    let table = Table::of(own.chunks(report.poes.len())).left("site", |of_site| &of_site[0].site);
+    table.each(report.poes.iter().enumerate(), |table, (poe, &probability)| {
+        let risk = risk_in_words(probability, report.years).replace(" years", " yr");
+        table.each(shown.iter().enumerate(), |table, (place, &strength)| {
+            let heading = if place == 0 { risk.as_str() } else { "" };
+            table.right(heading, |of_site| displacement(of_site[poe].u_m[strength]))
+        })
+    })
 }
 
 /// The spread of the spectra over weighted hazard curves and over the structures that may be, where there are such.
@@ -93,23 +93,16 @@ fn print_spread(
     (report, spread): (&RunReport, &[BranchReport]),
     shown: &[usize],
 ) -> Result<(), CommandError> {
-    let mut rows = Vec::new();
-    for branches in spread {
-        for &strength in shown {
-            rows.push(vec![
-                branches.site.clone(),
-                branches.im.to_owned(),
-                risk_name(report.poes[branches.poe], report.years),
-                format!("{:.3}", report.strengths[strength]),
-                metres(branches.low_m[strength]),
-                metres(branches.mean_m[strength]),
-                metres(branches.high_m[strength]),
-            ]);
-        }
-    }
-    if !rows.is_empty() {
-        writeln!(out, "\nSpread over the {over}: displacement in m, 5 and 95 % fractile and mean")?;
-        writeln!(out, "{}", table(&["site", "im", "probability", "strength", "5 %", "mean", "95 %"], &rows))?;
+    let table = Table::of(spread.iter().flat_map(|of| shown.iter().map(move |&strength| (of, strength))))
+        .left("site", |(of, _)| &of.site)
+        .right("im", |(of, _)| of.im)
+        .right("probability", |(of, _)| risk_name(report.poes[of.poe], report.years))
+        .right("strength", |(_, strength)| format!("{:.3}", report.strengths[strength]))
+        .right("5 %", |(of, strength)| metres(of.low_m[strength]))
+        .right("mean", |(of, strength)| metres(of.mean_m[strength]))
+        .right("95 %", |(of, strength)| metres(of.high_m[strength]));
+    if !table.is_empty() {
+        writeln!(out, "\nSpread over the {over}: displacement in m, 5 and 95 % fractile and mean\n{table}")?;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::text::{share, table};
+use uplift::text::{Table, share};
 use uplift::validate::{GroupReport, PRule, ValidateReport};
 use uplift_validation::{Pairs, Quantiles};
 
@@ -35,36 +35,33 @@ pub(crate) fn print_validation(report: &ValidateReport, terminal: &Terminal) -> 
 }
 
 fn print_tests(out: &mut impl Write, report: &ValidateReport) -> Result<(), CommandError> {
-    let sees = format!("sees at {}", report.significance);
-    let mut header =
-        vec!["Kolmogorov-Smirnov", "n", "D", "p exact", "Kolmogorov", "kstest2", "Holm", "evidence", sees.as_str()];
     let permuted = report.groups.iter().any(|group| group.p_permutation.is_some());
     let at_limits = report.groups.iter().any(|group| group.censored.is_some());
-    header.extend(permuted.then_some("p swaps"));
-    header.extend(at_limits.then_some("D at limits"));
-    let rows: Vec<Vec<String>> = report
-        .groups
-        .iter()
-        .map(|group| {
-            let test = &group.kolmogorov_smirnov;
-            let sizes = if group.measured == group.computed {
-                group.measured.to_string()
-            } else {
-                format!("{}, {}", group.measured, group.computed)
-            };
-            let factor =
-                group.detectable_factor.map_or_else(|| NONE.to_owned(), |factor| format!("a factor of {factor:.2}"));
-            let ties = if test.has_ties { "=" } else { "" };
-            let mut cells = vec![ValidateReport::name(group), sizes, digits(test.distance)];
-            cells.push(format!("{}{ties}", digits(test.p_exact)));
-            cells.extend([test.p_kolmogorov, test.p_kstest2, group.p_holm].map(digits));
-            cells.extend([group.evidence.words().to_owned(), factor]);
-            cells.extend(permuted.then(|| or_dash(group.p_permutation)));
-            cells.extend(at_limits.then(|| or_dash(group.censored.map(|censored| censored.ks_distance_at_limits))));
-            cells
+    let sizes = |group: &GroupReport| match (group.measured, group.computed) {
+        (measured, computed) if measured == computed => measured.to_string(),
+        (measured, computed) => format!("{measured}, {computed}"),
+    };
+    let p_exact = |group: &GroupReport| {
+        let ties = if group.kolmogorov_smirnov.has_ties { "=" } else { "" };
+        format!("{}{ties}", digits(group.kolmogorov_smirnov.p_exact))
+    };
+    let table = Table::of(&report.groups)
+        .left("Kolmogorov-Smirnov", ValidateReport::name)
+        .right("n", sizes)
+        .right("D", |group| digits(group.kolmogorov_smirnov.distance))
+        .right("p exact", p_exact)
+        .right("Kolmogorov", |group| digits(group.kolmogorov_smirnov.p_kolmogorov))
+        .right("kstest2", |group| digits(group.kolmogorov_smirnov.p_kstest2))
+        .right("Holm", |group| digits(group.p_holm))
+        .right("evidence", |group| group.evidence.words())
+        .right(format!("sees at {}", report.significance), |group| {
+            group.detectable_factor.map_or_else(dash, |factor| format!("a factor of {factor:.2}"))
         })
-        .collect();
-    writeln!(out, "\n{}", table(&header, &rows))?;
+        .when(permuted, |table| table.right("p swaps", |group| or_dash(group.p_permutation)))
+        .when(at_limits, |table| {
+            table.right("D at limits", |group| or_dash(group.censored.map(|of| of.ks_distance_at_limits)))
+        });
+    writeln!(out, "\n{table}")?;
     let rule = match report.p_rule {
         PRule::Exact => "the exact p",
         PRule::Kolmogorov => "Kolmogorov's p",
@@ -90,24 +87,20 @@ fn print_sizes(out: &mut impl Write, report: &ValidateReport) -> Result<(), Comm
     if are_pairs {
         header.extend(["bias", "5 to 95 %", "dispersion", "5 to 95 %", "Pearson", "Spearman", "in 1.5", "in 2"]);
     }
-    let rows: Vec<Vec<String>> = report
-        .groups
-        .iter()
-        .map(|group| {
-            let mut cells = vec![ValidateReport::name(group)];
-            cells.extend([
-                median(group.median_measured, group.median_measured_above),
-                median(group.median_computed, group.median_computed_above),
-            ]);
-            cells.extend([group.e50.map(share), group.median_error.map(signed)].map(|cell| cell.unwrap_or(dash())));
-            cells.push(band(group.median_error_band, signed));
-            if let Some(pairs) = &group.pairs {
-                cells.extend(pair_cells(group, pairs));
-            }
-            cells
-        })
-        .collect();
-    writeln!(out, "\n{}", table(&header, &rows))?;
+    let rows = report.groups.iter().map(|group| {
+        let mut cells = vec![ValidateReport::name(group)];
+        cells.extend([
+            median(group.median_measured, group.median_measured_above),
+            median(group.median_computed, group.median_computed_above),
+        ]);
+        cells.extend([group.e50.map(share), group.median_error.map(signed)].map(|cell| cell.unwrap_or(dash())));
+        cells.push(band(group.median_error_band, signed));
+        if let Some(pairs) = &group.pairs {
+            cells.extend(pair_cells(group, pairs));
+        }
+        cells
+    });
+    writeln!(out, "\n{}", Table::new(header, rows))?;
     if are_pairs {
         writeln!(
             out,
@@ -141,24 +134,20 @@ fn print_distances(out: &mut impl Write, report: &ValidateReport) -> Result<(), 
     if are_pairs {
         header.extend(["both", "one"]);
     }
-    let rows: Vec<Vec<String>> = report
-        .groups
-        .iter()
-        .map(|group| {
-            let (darling, mises, whitney) = (&group.anderson_darling, &group.cramer_von_mises, &group.mann_whitney);
-            let mut cells = vec![ValidateReport::name(group)];
-            cells.extend([darling.midrank, darling.right, mises.statistic, mises.p].map(digits));
-            cells.extend([format!("{}", whitney.statistic), digits(whitney.p)]);
-            cells.extend([group.wasserstein, group.energy].map(or_dash));
-            cells.extend([group.measured_collapses, group.computed_collapses].map(|count| count.to_string()));
-            if let Some(pairs) = &group.pairs {
-                let counts = pairs.collapses;
-                cells.extend([counts.both, counts.measured_only + counts.computed_only].map(|count| count.to_string()));
-            }
-            cells
-        })
-        .collect();
-    Ok(writeln!(out, "\n{}", table(&header, &rows))?)
+    let rows = report.groups.iter().map(|group| {
+        let (darling, mises, whitney) = (&group.anderson_darling, &group.cramer_von_mises, &group.mann_whitney);
+        let mut cells = vec![ValidateReport::name(group)];
+        cells.extend([darling.midrank, darling.right, mises.statistic, mises.p].map(digits));
+        cells.extend([format!("{}", whitney.statistic), digits(whitney.p)]);
+        cells.extend([group.wasserstein, group.energy].map(or_dash));
+        cells.extend([group.measured_collapses, group.computed_collapses].map(|count| count.to_string()));
+        if let Some(pairs) = &group.pairs {
+            let counts = pairs.collapses;
+            cells.extend([counts.both, counts.measured_only + counts.computed_only].map(|count| count.to_string()));
+        }
+        cells
+    });
+    Ok(writeln!(out, "\n{}", Table::new(header, rows))?)
 }
 
 fn dash() -> String {

@@ -1,10 +1,10 @@
 //! What the report shows of displacement spectra.
 
-use super::{Content, Part, Table};
+use super::{Content, Part, TitledTable};
 use crate::figures::{Extent, displacement_figures};
 use uplift::UpliftError;
 use uplift::result::{DesignRow, ResultFile, StoredDesign, StoredDisplacements, StoredStructures};
-use uplift::text::thousands;
+use uplift::text::{Table, thousands};
 
 pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let stored = file.displacements()?;
@@ -38,42 +38,29 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     })
 }
 
-fn sets(stored: &StoredDisplacements) -> Table {
-    let rows = stored.sets.iter().map(|set| {
-        vec![
-            set.name.clone(),
-            set.records.to_string(),
-            (2 * set.records).to_string(),
-            format!("{:.3}", set.median_pga_g),
-            format!("{:.1}", set.median_pgv_cm_s),
-        ]
-    });
-    Table {
-        id: "sets".to_owned(),
-        title: "Record sets".to_owned(),
-        note: format!(
-            "Both horizontal components of a record are motions of their own. The medians of the geometric means \
+fn sets(stored: &StoredDisplacements) -> TitledTable {
+    let table = Table::of(&stored.sets)
+        .left("set", |set| &set.name)
+        .right("records", |set| set.records)
+        .right("motions", |set| 2 * set.records)
+        .right("median PGA, g", |set| format!("{:.3}", set.median_pga_g))
+        .right("median PGV, cm/s", |set| format!("{:.1}", set.median_pgv_cm_s));
+    let note = format!(
+        "Both horizontal components of a record are motions of their own. The medians of the geometric means \
              (Eq. 2.16, 2.17) are what multiples refer to. Scalings: {}. The figures here are of motions scaled by {} \
              and of the smallest uplift displacement; uplift plot draws all.{}",
-            stored.scalings.join(", "),
-            stored.scaled_by.first().map_or("", String::as_str),
-            stored.rounding.as_ref().map_or_else(String::new, |rounding| {
-                let abscissas: Vec<String> = rounding.abscissas.iter().map(|at| format!("{at:.3}")).collect();
-                format!(
-                    " Whether rounding decides their ordinates was looked at where they are {}.",
-                    abscissas.join(", ")
-                )
-            })
-        ),
-        group: String::new(),
-        header: ["set", "records", "motions", "median PGA, g", "median PGV, cm/s"].map(str::to_owned).to_vec(),
-        text_columns: 1,
-        rows: rows.collect(),
-    }
+        stored.scalings.join(", "),
+        stored.scaled_by.first().map_or("", String::as_str),
+        stored.rounding.as_ref().map_or_else(String::new, |rounding| {
+            let abscissas: Vec<String> = rounding.abscissas.iter().map(|at| format!("{at:.3}")).collect();
+            format!(" Whether rounding decides their ordinates was looked at where they are {}.", abscissas.join(", "))
+        })
+    );
+    TitledTable::new("sets", "Record sets", note, table)
 }
 
 /// A table a set and rule: a row a quantity and way of scaling, a column a scaling.
-fn designs(stored: &StoredDisplacements, design: &StoredDesign) -> Vec<Table> {
+fn designs(stored: &StoredDisplacements, design: &StoredDesign) -> Vec<TitledTable> {
     let StoredDesign { safety_factor, percentile, noise_points, noise_relative, .. } = design;
     let note = format!(
         "FS = {safety_factor}; percentile {percentile}. In brackets: lowest and highest over {noise_points} points \
@@ -104,15 +91,9 @@ fn designs(stored: &StoredDisplacements, design: &StoredDesign) -> Vec<Table> {
             }
             let header =
                 ["quantity", "scaled by"].into_iter().map(str::to_owned).chain(stored.scalings.iter().cloned());
-            Table {
-                id: format!("design-{}", index + 1),
-                title: format!("Design example, {}{rule}", first.record_set),
-                note: format!("{note}{}", rounding(of_table)),
-                group: String::new(),
-                header: header.collect(),
-                text_columns: 2,
-                rows: cells,
-            }
+            let table = Table::new(header, cells).with_left(2);
+            let title = format!("Design example, {}{rule}", first.record_set);
+            TitledTable::new(&format!("design-{}", index + 1), title, format!("{note}{}", rounding(of_table)), table)
         })
         .collect()
 }

@@ -2,16 +2,18 @@
 
 use super::answer::{answer, significant};
 use super::consistency;
-use super::{Content, Part, Table};
+use super::{Content, Part, TitledTable};
 use crate::figures::FigureSource;
 use uplift::UpliftError;
 use uplift::influence::{level_of_share, rank_records};
 use uplift::result::{MeasureBands, ResultFile, StoredBands, StoredSpectra, StoredSpectraBands, StoredStripes};
-use uplift::text::{kind_of_risks, metres, nearest, per_cent, risk_in_words, risk_name, spectrum_words};
+use uplift::text::{Table, kind_of_risks, metres, nearest, per_cent, risk_in_words, risk_name, spectrum_words};
 
 /// Strengths in the table of displacements, and in that of intensities.
 const SHOWN_STRENGTHS: [f64; 5] = [0.05, 0.1, 0.2, 0.3, 0.4];
 const TAKEN_APART: [f64; 3] = [0.1, 0.2, 0.4];
+/// What stands above columns of displacements.
+const UPLIFTS_AT: &str = "displacement, m, of a structure that uplifts at";
 /// In place of what is of other probabilities than those of the page.
 const INFLUENCE_LEFT_OUT: &str = "Which records and intensities carry the spectra is left out: uplift influence found \
                                   it for the probabilities of the study, and this page is of others.";
@@ -113,77 +115,61 @@ fn how_sure(precision: &[String]) -> String {
     sentences.join(" ")
 }
 
-fn summary(source: &FigureSource) -> Table {
+/// The strength at an index as the acceleration at which structures uplift.
+fn acceleration(stored: &StoredSpectra, eta: usize) -> String {
+    format!("{:.2} g", stored.strengths[eta])
+}
+
+fn summary(source: &FigureSource) -> TitledTable {
     let stored = &source.spectra;
     let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
-    let mut header = ["site", "measure", "probability"].map(str::to_owned).to_vec();
-    header.extend(shown.iter().map(|&strength| format!("{:.2} g", stored.strengths[strength])));
-    let row = |site: &str, measure: String, poe: f64, u_m: &[f64]| {
-        let mut row = vec![site.to_owned(), measure, risk_in_words(poe, stored.years)];
-        row.extend(shown.iter().map(|&strength| metres(u_m[strength])));
-        row
-    };
     let places = stored.measures.iter().flat_map(|of| of.u_m.blocks::<2>().map(|(at, _)| at));
     let mut rows = Vec::new();
     let mut is_repaired = false;
     for ([site, poe], spectrum) in places.zip(stored.rows()) {
         let label = spectrum.measure.label();
-        rows.push(row(spectrum.site, label.to_owned(), spectrum.poe, spectrum.u_m));
+        rows.push((spectrum.site, label.to_owned(), spectrum.poe, spectrum.u_m));
         if let Some(u_m) = source.repaired(spectrum.measure, site) {
-            rows.push(row(spectrum.site, spectrum_words(label, true), spectrum.poe, u_m.block([site, poe])));
+            rows.push((spectrum.site, spectrum_words(label, true), spectrum.poe, u_m.block([site, poe])));
             is_repaired = true;
         }
     }
     let repaired = if is_repaired { REPAIRED } else { "" };
-    Table {
-        id: "summary".to_owned(),
-        title: "Displacement in metres".to_owned(),
-        note: format!(
-            "What a structure goes beyond with the stated probability, if it uplifts at the stated acceleration.\
-             {repaired}"
-        ),
-        group: "displacement, m, of a structure that uplifts at".to_owned(),
-        header,
-        text_columns: 3,
-        rows,
-    }
+    let note = format!(
+        "What a structure goes beyond with the stated probability, if it uplifts at the stated acceleration.{repaired}"
+    );
+    let table = Table::of(&rows)
+        .left("site", |(site, ..)| site)
+        .left("measure", |(_, measure, ..)| measure)
+        .left("probability", |&(_, _, poe, _)| risk_in_words(poe, stored.years))
+        .each(shown, |table, eta| table.right(acceleration(stored, eta), |(.., u_m)| metres(u_m[eta])));
+    TitledTable { group: UPLIFTS_AT, ..TitledTable::new("summary", "Displacement in metres", note, table) }
 }
 
 /// How far the spectra lie apart over what is not known; none where all of it is.
-fn spread(source: &FigureSource) -> Option<Table> {
+fn spread(source: &FigureSource) -> Option<TitledTable> {
     let stored = &source.spectra;
     let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
-    let mut rows = Vec::new();
-    for spread in &source.spreads {
-        for (poe, &probability) in stored.poes.iter().enumerate() {
-            let [_, lower, .., upper] = spread.limits_m(poe);
-            let mut row = vec![
-                stored.sites[spread.site].clone(),
-                spread.measure.label().to_owned(),
-                risk_name(probability, stored.years),
-                spread.over.words().to_owned(),
-            ];
-            row.extend(shown.iter().map(|&eta| format!("{} to {}", metres(lower[eta]), metres(upper[eta]))));
-            rows.push(row);
-        }
-    }
-    let mut header = ["site", "measure", "probability", "over"].map(str::to_owned).to_vec();
-    header.extend(shown.iter().map(|&strength| format!("{:.2} g", stored.strengths[strength])));
-    (!rows.is_empty()).then(|| Table {
-        id: "spread".to_owned(),
-        title: "Spectra over what is not known".to_owned(),
-        note: "5 to 95 % fractiles over weighted hazard curves, and over structures that may be: one of them holds, \
-               and nobody knows which. What the records leave open is not in it."
-            .to_owned(),
-        group: "displacement, m, of a structure that uplifts at".to_owned(),
-        header,
-        text_columns: 4,
-        rows,
-    })
+    let places = source.spreads.iter().flat_map(|of| (0..stored.poes.len()).map(move |poe| (of, poe)));
+    let table = Table::of(places)
+        .left("site", |(of, _)| &stored.sites[of.site])
+        .left("measure", |(of, _)| of.measure.label())
+        .left("probability", |(_, poe)| risk_name(stored.poes[poe], stored.years))
+        .left("over", |(of, _)| of.over.words())
+        .each(shown, |table, eta| {
+            table.right(acceleration(stored, eta), |(of, poe)| {
+                let [_, lower, .., upper] = of.limits_m(poe);
+                format!("{} to {}", metres(lower[eta]), metres(upper[eta]))
+            })
+        });
+    let note = "5 to 95 % fractiles over weighted hazard curves, and over structures that may be: one of them holds, \
+                and nobody knows which. What the records leave open is not in it.";
+    let table = TitledTable::new("spread", "Spectra over what is not known", note, table);
+    TitledTable { group: UPLIFTS_AT, ..table }.unless_empty()
 }
 
 /// Which levels make the risk of the rarest probability; none before `uplift influence`.
-fn intensities(source: &FigureSource) -> Option<Table> {
+fn intensities(source: &FigureSource) -> Option<TitledTable> {
     let stored = &source.stored;
     let (poe, shown) = (source.rarest(), nearest(&stored.strengths, &TAKEN_APART));
     let mut rows = Vec::new();
@@ -203,23 +189,17 @@ fn intensities(source: &FigureSource) -> Option<Table> {
     }
     let header =
         ["site", "measure", "strength, g", "5 % below", "half below", "95 % below", "below all, %", "above all, %"];
-    (!rows.is_empty()).then(|| Table {
-        id: "intensities".to_owned(),
-        title: "Intensities that make the risk".to_owned(),
-        note: format!(
-            "Levels of the measure below which 5 %, half and 95 % of the risk at the ordinate of {} lie, \
-             and what of it comes from below and above all analysed levels.",
-            risk_in_words(stored.poes[poe], stored.years)
-        ),
-        group: String::new(),
-        header: header.map(str::to_owned).to_vec(),
-        text_columns: 2,
-        rows,
-    })
+    let note = format!(
+        "Levels of the measure below which 5 %, half and 95 % of the risk at the ordinate of {} lie, and what of it \
+         comes from below and above all analysed levels.",
+        risk_in_words(stored.poes[poe], stored.years)
+    );
+    let table = Table::new(header, rows).with_left(2);
+    TitledTable::new("intensities", "Intensities that make the risk", note, table).unless_empty()
 }
 
 /// Which records carry the spectra of the rarest probability; none before `uplift influence`.
-fn records(source: &FigureSource) -> Option<Table> {
+fn records(source: &FigureSource) -> Option<TitledTable> {
     let stored = &source.stored;
     let poe = source.rarest();
     let mut rows = Vec::new();
@@ -238,60 +218,40 @@ fn records(source: &FigureSource) -> Option<Table> {
             }
         }
     }
-    (!rows.is_empty()).then(|| Table {
-        id: "records".to_owned(),
-        title: "Records that carry the spectra".to_owned(),
-        note: format!(
-            "Change of the spectrum of {} if one record is left out, on average over the strengths that \
-             rock, and where it is largest.",
-            risk_in_words(stored.poes[poe], stored.years)
-        ),
-        group: String::new(),
-        header: ["site", "measure", "record left out", "mean change, %", "largest, %", "at strength, g"]
-            .map(str::to_owned)
-            .to_vec(),
-        text_columns: 3,
-        rows,
-    })
+    let note = format!(
+        "Change of the spectrum of {} if one record is left out, on average over the strengths that rock, and where it \
+         is largest.",
+        risk_in_words(stored.poes[poe], stored.years)
+    );
+    let header = ["site", "measure", "record left out", "mean change, %", "largest, %", "at strength, g"];
+    let table = Table::new(header, rows).with_left(3);
+    TitledTable::new("records", "Records that carry the spectra", note, table).unless_empty()
 }
 
 fn percentage(share: Option<f64>) -> String {
     share.filter(|share| share.is_finite()).map_or_else(|| "–".to_owned(), |share| format!("{:.1}", 100.0 * share))
 }
 
-fn coefficients(spectra: &StoredSpectra) -> Table {
+fn coefficients(spectra: &StoredSpectra) -> TitledTable {
     let number =
         |value: f64, digits: usize| if value.is_nan() { "no fit".to_owned() } else { format!("{value:.digits$}") };
-    let rows = spectra
-        .rows()
-        .map(|spectrum| {
-            let fit = &spectrum.fit;
-            vec![
-                spectrum.site.to_owned(),
-                spectrum.measure.label().to_owned(),
-                risk_name(spectrum.poe, spectra.years),
-                number(fit.c0_m, 4),
-                number(fit.c1, 4),
-                number(fit.c2_m, 4),
-                number(fit.rmse_m, 4),
-            ]
-        })
-        .collect();
-    Table {
-        id: "table-4-2".to_owned(),
-        title: "Coefficients (Table 4.2)".to_owned(),
-        note: format!(
-            "u = c0 exp(c1 η) + c2 with c2 not negative, for strengths η above 0.05 or as the study says{}.",
-            kind_of_risks(&spectra.poes, spectra.years).map_or_else(String::new, |kind| format!("; {kind}"))
-        ),
-        group: String::new(),
-        header: ["site", "measure", "probability", "c0, m", "c1", "c2, m", "RMSE, m"].map(str::to_owned).to_vec(),
-        text_columns: 3,
-        rows,
-    }
+    let rows: Vec<_> = spectra.rows().collect();
+    let table = Table::of(&rows)
+        .left("site", |spectrum| spectrum.site)
+        .left("measure", |spectrum| spectrum.measure.label())
+        .left("probability", |spectrum| risk_name(spectrum.poe, spectra.years))
+        .right("c0, m", |spectrum| number(spectrum.fit.c0_m, 4))
+        .right("c1", |spectrum| number(spectrum.fit.c1, 4))
+        .right("c2, m", |spectrum| number(spectrum.fit.c2_m, 4))
+        .right("RMSE, m", |spectrum| number(spectrum.fit.rmse_m, 4));
+    let note = format!(
+        "u = c0 exp(c1 η) + c2 with c2 not negative, for strengths η above 0.05 or as the study says{}.",
+        kind_of_risks(&spectra.poes, spectra.years).map_or_else(String::new, |kind| format!("; {kind}"))
+    );
+    TitledTable::new("table-4-2", "Coefficients (Table 4.2)", note, table)
 }
 
-fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
+fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> TitledTable {
     let number = |value: f64, digits: usize| if value.is_nan() { "-".to_owned() } else { format!("{value:.digits$}") };
     let beyond = |of_measure: &MeasureBands, at @ [site, poe, _]: [usize; 3]| -> [String; 2] {
         let found = || {
@@ -333,25 +293,18 @@ fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> Table {
         }
         rows
     };
-    Table {
-        id: "table-4-1".to_owned(),
-        title: "How sure the spectra are (Table 4.1)".to_owned(),
-        note: format!(
-            "Error of the median and width of the {} interval over {}, at the strength where each is largest (Eq. 4.9, \
+    let note = format!(
+        "Error of the median and width of the {} interval over {}, at the strength where each is largest (Eq. 4.9, \
              4.10). Truth: where the spectrum of all records like these lies, and another set: where that of another \
              set of as many lies, each with {} confidence, from the ordinate at the strength where the first is widest \
              in metres.{}{}",
-            per_cent(bands.confidence),
-            bands.drawn_words(),
-            per_cent(bands.confidence),
-            if bands.measures.iter().any(|of| of.repaired.is_some()) { REPAIRED_BANDS } else { "" },
-            if bands.measures.iter().any(|of| of.plain.joint.is_some()) { JOINT_BANDS } else { "" }
-        ),
-        group: String::new(),
-        header: ["site", "measure", "probability", "records", "e_{median}, %", "r, %", "truth, %", "another set, %"]
-            .map(str::to_owned)
-            .to_vec(),
-        text_columns: 3,
-        rows: bands.measures.iter().flat_map(rows).collect(),
-    }
+        per_cent(bands.confidence),
+        bands.drawn_words(),
+        per_cent(bands.confidence),
+        if bands.measures.iter().any(|of| of.repaired.is_some()) { REPAIRED_BANDS } else { "" },
+        if bands.measures.iter().any(|of| of.plain.joint.is_some()) { JOINT_BANDS } else { "" }
+    );
+    let header = ["site", "measure", "probability", "records", "e_{median}, %", "r, %", "truth, %", "another set, %"];
+    let table = Table::new(header, bands.measures.iter().flat_map(rows)).with_left(3);
+    TitledTable::new("table-4-1", "How sure the spectra are (Table 4.1)", note, table)
 }

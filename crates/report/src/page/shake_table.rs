@@ -1,10 +1,10 @@
 //! What the report shows of a shaking table.
 
-use super::{Content, Part, Table};
+use super::{Content, Part, TitledTable};
 use crate::figures::shake_table_figures;
 use uplift::UpliftError;
 use uplift::result::{ResultFile, ShakeTable};
-use uplift::text::thousands;
+use uplift::text::{Table, thousands};
 
 pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let table = file.shake_table()?;
@@ -34,39 +34,27 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     })
 }
 
-fn tests(table: &ShakeTable) -> Table {
+fn tests(table: &ShakeTable) -> TitledTable {
     let order = table.order();
     let tests = (0..table.levels.len()).flat_map(|level| table.of_level(level).map(move |test| (level, test)));
     let number = |value: f64, factor: f64, decimals: usize| {
         if value.is_finite() { format!("{:.decimals$}", factor * value) } else { "-".to_owned() }
     };
-    let mut rows: Vec<(u32, Vec<String>)> = tests
-        .zip(order)
-        .map(|((level, (excitation, test)), order)| {
-            let u = if test.u_m.is_infinite() { "overturns".to_owned() } else { number(test.u_m, 1.0, 4) };
-            let cells = vec![
-                excitation.exc_id.clone(),
-                excitation.class.clone(),
-                table.levels[level].name.clone(),
-                order.to_string(),
-                number(test.factor, 1.0, 3),
-                u,
-                number(test.drift, 100.0, 2),
-                number(test.tendon_n, 1e-3, 2),
-                number(test.base_shear_n, 1e-3, 2),
-            ];
-            (order, cells)
+    let mut tests: Vec<_> = tests.zip(order).map(|((level, of), order)| (level, of, order)).collect();
+    tests.sort_by_key(|(.., order)| *order);
+    let rows = Table::of(&tests)
+        .left("excitation", |(_, (excitation, _), _)| &excitation.exc_id)
+        .left("class", |(_, (excitation, _), _)| &excitation.class)
+        .left("level", |(level, ..)| &table.levels[*level].name)
+        .right("order", |(.., order)| order)
+        .right("factor", |(_, (_, test), _)| number(test.factor, 1.0, 3))
+        .right("U, m", |(_, (_, test), _)| match test.u_m {
+            u_m if u_m.is_infinite() => "overturns".to_owned(),
+            u_m => number(u_m, 1.0, 4),
         })
-        .collect();
-    rows.sort_by_key(|(order, _)| *order);
-    let header = ["excitation", "class", "level", "order", "factor", "U, m", "drift, %", "T, kN", "base shear, kN"];
-    Table {
-        id: "tests".to_owned(),
-        title: "Tests in the order of rising response".to_owned(),
-        note: "The deck does not turn about the vertical in the model.".to_owned(),
-        group: String::new(),
-        header: header.map(str::to_owned).to_vec(),
-        text_columns: 3,
-        rows: rows.into_iter().map(|(_, cells)| cells).collect(),
-    }
+        .right("drift, %", |(_, (_, test), _)| number(test.drift, 100.0, 2))
+        .right("T, kN", |(_, (_, test), _)| number(test.tendon_n, 1e-3, 2))
+        .right("base shear, kN", |(_, (_, test), _)| number(test.base_shear_n, 1e-3, 2));
+    let note = "The deck does not turn about the vertical in the model.";
+    TitledTable::new("tests", "Tests in the order of rising response", note, rows)
 }

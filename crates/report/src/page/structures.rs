@@ -10,8 +10,9 @@ use uplift::alarms::Alarm;
 use uplift::result::{FindingRow, ResultFile, StoredFinding};
 use uplift::structure::StructureReport;
 use uplift::study::Structure;
+use uplift::text::Table;
 
-use super::Table;
+use super::TitledTable;
 use crate::sheet::{bands, elevation, facts};
 
 /// A structure, and the answers to what it was asked.
@@ -31,7 +32,7 @@ pub(super) struct AskedStructure {
 /// What one question was answered.
 #[derive(Debug, Serialize)]
 pub(super) struct Answer {
-    pub(super) table: Table,
+    pub(super) table: TitledTable,
     /// Drawings of the numbers with bands.
     bands: Vec<String>,
 }
@@ -76,19 +77,15 @@ fn asked(number: usize, answers: &[StoredFinding], known: &[Alarm]) -> AskedStru
     }
 }
 
-fn table([structure, answer]: [usize; 2], of: &StoredFinding) -> Table {
-    let row = |row: &FindingRow| {
-        let unit = if row.unit == "1" { "" } else { &row.unit };
-        let texts = [&row.quantity, &row.site, &row.im].map(String::clone);
-        [&texts[..], &[row.shown(), row.band_shown(), unit.to_owned(), row.band.clone()]].concat()
-    };
-    Table {
-        id: format!("structure-{structure}-{answer}"),
-        title: of.finding.question(),
-        note: format!("Found {} by uplift {} ({}).", of.created, of.version, of.commit),
-        group: String::new(),
-        header: ["what", "site", "measure", "value", "band", "unit", "band of"].map(str::to_owned).to_vec(),
-        text_columns: 3,
-        rows: of.finding.rows.iter().map(row).collect(),
-    }
+fn table([structure, answer]: [usize; 2], of: &StoredFinding) -> TitledTable {
+    let rows = Table::of(&of.finding.rows)
+        .left("what", |row| &row.quantity)
+        .left("site", |row| &row.site)
+        .left("measure", |row| &row.im)
+        .right("value", FindingRow::shown)
+        .right("band", FindingRow::band_shown)
+        .right("unit", |row| if row.unit == "1" { "" } else { &row.unit })
+        .right("band of", |row| &row.band);
+    let note = format!("Found {} by uplift {} ({}).", of.created, of.version, of.commit);
+    TitledTable::new(&format!("structure-{structure}-{answer}"), of.finding.question(), note, rows)
 }

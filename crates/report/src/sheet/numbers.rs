@@ -3,10 +3,10 @@
 use serde::Serialize;
 use uplift::structure::{DesignReport, EventRisk, ExactDemand, RuleCheck, RuleOutcome, StructureReport};
 use uplift::study::Structure;
-use uplift::text::{per_cent, risk_in_words, share};
+use uplift::text::{Table, per_cent, risk_in_words, share};
 use uplift_spectra::Noisy;
 
-use crate::page::Table;
+use crate::page::TitledTable;
 use crate::page::answer::significant;
 
 /// A sentence at the head of the sheet; `yes` or `no` where it is a verdict.
@@ -168,23 +168,11 @@ pub(crate) fn facts(structure: &Structure, of: &StructureReport) -> Vec<(&'stati
 }
 
 /// Demands, rules, risk, and what of them is noise.
-pub(super) fn tables(report: &DesignReport) -> Vec<Table> {
+pub(super) fn tables(report: &DesignReport) -> Vec<TitledTable> {
     [demands(report), rules(report), risk(report), noise(report)].into_iter().flatten().collect()
 }
 
-fn table(id: &str, title: &str, note: String, header: &[&str], rows: Vec<Vec<String>>) -> Option<Table> {
-    (!rows.is_empty()).then(|| Table {
-        id: id.to_owned(),
-        title: title.to_owned(),
-        note,
-        group: String::new(),
-        header: header.iter().map(|&name| name.to_owned()).collect(),
-        text_columns: 1,
-        rows,
-    })
-}
-
-fn demands(report: &DesignReport) -> Option<Table> {
+fn demands(report: &DesignReport) -> Option<TitledTable> {
     let mut rows = Vec::new();
     let mut row = |what: &str, demand: String| rows.push(vec![what.to_owned(), demand]);
     if let Some(spectrum) = &report.spectrum {
@@ -203,10 +191,11 @@ fn demands(report: &DesignReport) -> Option<Table> {
         risk_in_words(report.poe, report.years),
         power(report.target_per_year, 2)
     );
-    table("demand", "Demand", note, &["demand on", "displacement, m"], rows)
+    let table = Table::new(["demand on", "displacement, m"], rows);
+    TitledTable::new("demand", "Demand", note, table).unless_empty()
 }
 
-fn rules(report: &DesignReport) -> Option<Table> {
+fn rules(report: &DesignReport) -> Option<TitledTable> {
     let rounding = report.exact.as_ref().map(|exact| exact.rounding);
     let marked = |outcome: &RuleOutcome, error: f64| {
         let range = rounding.and_then(|rounding| match &outcome.from_spectrum {
@@ -215,22 +204,20 @@ fn rules(report: &DesignReport) -> Option<Table> {
         });
         range.map_or_else(|| relative(error), |range| range.marked(relative))
     };
-    let row = |outcome: &RuleOutcome, check: &RuleCheck| {
-        let verdict = if check.satisfied { "satisfied" } else { "NOT satisfied" };
-        let stiffness = check.required_tendon_stiffness_n_m.map_or_else(|| "–".to_owned(), tendons);
-        vec![
-            outcome.rule.words().to_owned(),
-            metres(check.demand_m),
-            metres(check.required_capacity_m),
-            if check.capacity_m.is_finite() { metres(check.capacity_m) } else { "infinite".to_owned() },
-            if check.margin_m.is_finite() { format!("{:+.4}", check.margin_m) } else { "–".to_owned() },
-            if check.safety_factor.is_finite() { format!("{:.2}", check.safety_factor) } else { "–".to_owned() },
-            stiffness,
-            check.error.map_or_else(|| "–".to_owned(), |error| marked(outcome, error)),
-            verdict.to_owned(),
-        ]
-    };
-    let rows = report.rules.iter().filter_map(|outcome| Some(row(outcome, outcome.check()?))).collect();
+    let error =
+        |(of, check): (&RuleOutcome, &RuleCheck)| check.error.map_or_else(|| "–".to_owned(), |error| marked(of, error));
+    let table = Table::of(report.rules.iter().filter_map(|outcome| Some((outcome, outcome.check()?))))
+        .left("rule", |(of, _)| of.rule.words())
+        .right("demand, m", |(_, check)| metres(check.demand_m))
+        .right("required capacity, m", |(_, check)| metres(check.required_capacity_m))
+        .right("capacity, m", |(_, check)| if_finite(check.capacity_m, "infinite", metres))
+        .right("margin, m", |(_, check)| if_finite(check.margin_m, "–", |margin_m| format!("{margin_m:+.4}")))
+        .right("safety factor", |(_, check)| if_finite(check.safety_factor, "–", |factor| format!("{factor:.2}")))
+        .right("tendons for it, N/m", |(_, check)| {
+            check.required_tendon_stiffness_n_m.map_or_else(|| "–".to_owned(), tendons)
+        })
+        .right("error of spectrum and rule", error)
+        .right("verdict", |(_, check)| if check.satisfied { "satisfied" } else { "NOT satisfied" });
     let note = format!(
         "Required capacity with a safety factor of {0} (Eq. 3.15). By equal energy the demand grows where the capacity \
          shrinks: it is {0} times the demand that a structure of just that capacity would have, and not {0} times the \
@@ -238,21 +225,10 @@ fn rules(report: &DesignReport) -> Option<Table> {
          against the exact one, spectrum and rule together; negative is unsafe.",
         report.required_safety_factor
     );
-    let header = [
-        "rule",
-        "demand, m",
-        "required capacity, m",
-        "capacity, m",
-        "margin, m",
-        "safety factor",
-        "tendons for it, N/m",
-        "error of spectrum and rule",
-        "verdict",
-    ];
-    table("rules", "Margin by the design rules", note, &header, rows)
+    TitledTable::new("rules", "Margin by the design rules", note, table).unless_empty()
 }
 
-fn risk(report: &DesignReport) -> Option<Table> {
+fn risk(report: &DesignReport) -> Option<TitledTable> {
     let exact = report.exact.as_ref()?;
     let row = |what: String, risk: &EventRisk, rounding: &Noisy| {
         let mark = if rounding.shows_otherwise(scientific) { "*" } else { "" };
@@ -272,14 +248,13 @@ fn risk(report: &DesignReport) -> Option<Table> {
     let beyond = exact.beyond_capacity.iter().zip(&rounding.beyond_capacity_per_year);
     let beyond = beyond.map(|(risk, of)| row(format!("beyond its capacity, {} m", metres(capacity_m)), risk, of));
     let overturning = row("overturning".to_owned(), &exact.overturning, &rounding.overturning_per_year);
-    let rows = beyond.chain([overturning]).collect();
     let years = format!("in {} years", report.years);
     let header = ["the structure itself", "per year", &years, "return period, years", "from outside the levels"];
-    let note = "Counted over all records and levels, weighted by the hazard of the site (Eq. 4.4).".to_owned();
-    table("risk", "Risk", note, &header, rows)
+    let note = "Counted over all records and levels, weighted by the hazard of the site (Eq. 4.4).";
+    Some(TitledTable::new("risk", "Risk", note, Table::new(header, beyond.chain([overturning]))))
 }
 
-fn noise(report: &DesignReport) -> Option<Table> {
+fn noise(report: &DesignReport) -> Option<TitledTable> {
     let ExactDemand { noise, rounding, .. } = report.exact.as_ref()?;
     let mut rows = Vec::new();
     let mut range = |what: &str, [of, rounding]: [&Noisy; 2], shown: fn(f64) -> String| {
@@ -296,9 +271,13 @@ fn noise(report: &DesignReport) -> Option<Table> {
     range("overturning, per year", [&noise.overturning_per_year, &rounding.overturning_per_year], counted);
     let note = "The same for ten structures whose strength is up to one percent lower or higher: what lies within the \
                 range is no finding. The own error of a rule starts from the exact demand on zero stiffness, not from \
-                the spectrum."
-        .to_owned();
-    table("noise", "How sure it is", note, &["within 1 % of the strength", "here", "lowest", "highest"], rows)
+                the spectrum.";
+    let table = Table::new(["within 1 % of the strength", "here", "lowest", "highest"], rows);
+    TitledTable::new("noise", "How sure it is", note, table).unless_empty()
+}
+
+fn if_finite(value: f64, otherwise: &str, shown: fn(f64) -> String) -> String {
+    if value.is_finite() { shown(value) } else { otherwise.to_owned() }
 }
 
 /// A displacement; infinite where the structure overturns.

@@ -8,7 +8,7 @@ use uplift::result::is_hdf5;
 use uplift::result_of;
 use uplift_study::{Bootstrap, Repair, Structure, Study};
 
-use super::force::ForceArgument;
+use super::ForceArgument;
 use super::study::command_line;
 use crate::error::CommandError;
 use crate::terminal::Terminal;

@@ -3,37 +3,29 @@
 use std::io::Write;
 
 use uplift::table::{ColumnsRow, ColumnsTable};
-use uplift::text::table;
+use uplift::text::Table;
 
 use crate::error::CommandError;
 
 /// A row for each quantity, and one for each further number that the reference has for it.
 pub(super) fn print_columns(out: &mut impl Write, report: &ColumnsTable) -> Result<(), CommandError> {
-    let mut header = vec!["quantity", "ours"];
-    if report.compared {
-        header.extend(["| reference", "| difference, %"]);
-    }
     let told = report.rows.iter().any(|row| row.source.is_some() || row.stiffness_n_m.is_some());
-    if told {
-        header.push("| of the reference");
-    }
-    let cells = |row: &ColumnsRow| {
-        let mut cells = vec![row.quantity.clone(), row.value.map_or("none".to_owned(), number)];
-        if report.compared {
-            cells.push(format!("| {}", row.reference.map_or("-".to_owned(), number)));
-            let difference = row.difference().map(|share| format!("{:+.2}", 100.0 * share));
-            cells.push(format!("| {}", difference.unwrap_or("-".to_owned())));
-        }
-        if told {
-            let held = row.stiffness_n_m.map(|stiffness| format!("linear, {:.0} kN/m", 1e-3 * stiffness));
-            let words: Vec<String> = row.source.iter().cloned().chain(held).collect();
-            cells.push(format!("| {}", words.join("; ")));
-        }
-        cells
+    let or_none = |none: &str, value: Option<f64>| value.map_or(none.to_owned(), number);
+    let difference = |row: &ColumnsRow| row.difference().map(|share| format!("{:+.2}", 100.0 * share));
+    let of_reference = |row: &ColumnsRow| {
+        let held = row.stiffness_n_m.map(|stiffness| format!("linear, {:.0} kN/m", 1e-3 * stiffness));
+        row.source.iter().cloned().chain(held).collect::<Vec<String>>().join("; ")
     };
-    let rows: Vec<Vec<String>> = report.rows.iter().map(cells).collect();
-    writeln!(out, "{} ({})", report.structure, report.file.display())?;
-    Ok(writeln!(out, "{}", table(&header, &rows))?)
+    let table = Table::of(&report.rows)
+        .left("quantity", |row| &row.quantity)
+        .right("ours", |row| or_none("none", row.value))
+        .when(report.compared, |table| {
+            table
+                .bar("reference", |row| or_none("-", row.reference))
+                .bar("difference, %", |row| difference(row).unwrap_or("-".to_owned()))
+        })
+        .when(told, |table| table.bar("of the reference", of_reference));
+    Ok(writeln!(out, "{} ({})\n{table}", report.structure, report.file.display())?)
 }
 
 /// Six digits, in powers of ten where they would be too many or few.

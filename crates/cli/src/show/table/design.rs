@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::table::{DesignTable, DesignTableRow};
-use uplift::text::table;
+use uplift::text::Table;
 
 use crate::error::CommandError;
 use crate::show::ROUNDING_DECIDES;
@@ -23,28 +23,21 @@ pub(super) fn print_design(out: &mut impl Write, report: &DesignTable) -> Result
             None => "",
         };
         writeln!(out, "\n{}{rule}, FS = {}", first.record_set, report.safety_factor)?;
-        let mut header = vec!["quantity".to_owned(), "scaling".to_owned()];
-        header.extend(by.iter().map(|by| format!("by {by}")));
-        if report.compared {
-            header.extend(["| reference".to_owned(), "within".to_owned()]);
-        }
-        let mut cells = Vec::new();
         // the ways of scaling one value stand together
-        for values in of_table.chunks(by.len()) {
-            let first = &values[0];
-            let mut row = vec![first.row.quantity.clone(), first.row.scaling.clone()];
-            row.extend(values.iter().map(|value| value.row.ranged()));
-            if report.compared {
-                compared_with += usize::from(first.reference.is_some());
-                for (value, held) in values.iter().zip(&mut held) {
-                    *held += usize::from(value.within == Some(true));
-                }
-                row.extend(theirs(values));
+        let table = Table::of(of_table.chunks(by.len()))
+            .left("quantity", |values| &values[0].row.quantity)
+            .right("scaling", |values| &values[0].row.scaling)
+            .each(by.iter().enumerate(), |table, (way, by)| {
+                table.right(format!("by {by}"), |values| values.get(way).map_or(String::new(), |of| of.row.ranged()))
+            })
+            .when(report.compared, |table| table.bar("reference", reference).right("within", within));
+        writeln!(out, "{table}")?;
+        if report.compared {
+            compared_with += of_table.chunks(by.len()).filter(|values| values[0].reference.is_some()).count();
+            for (value, at) in of_table.iter().zip((0..by.len()).cycle()) {
+                held[at] += usize::from(value.within == Some(true));
             }
-            cells.push(row);
         }
-        let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        writeln!(out, "{}", table(&header, &cells))?;
     }
     writeln!(
         out,
@@ -69,12 +62,15 @@ pub(super) fn print_design(out: &mut impl Write, report: &DesignTable) -> Result
     Ok(())
 }
 
-/// What the reference says of a value, and by which ways of scaling the range holds it.
-fn theirs(values: &[DesignTableRow]) -> [String; 2] {
-    let Some(reference) = values[0].reference else { return ["| -".to_owned(), String::new()] };
-    let within: Vec<&str> =
-        values.iter().filter(|value| value.within == Some(true)).map(|value| value.row.scaled_by.as_str()).collect();
-    [format!("| {}", values[0].row.shown(reference)), within.join(", ")]
+/// What the reference says of a value.
+fn reference(values: &[DesignTableRow]) -> String {
+    values[0].reference.map_or_else(|| "-".to_owned(), |reference| values[0].row.shown(reference))
+}
+
+/// By which ways of scaling the range of a value holds the reference.
+fn within(values: &[DesignTableRow]) -> String {
+    let within = values.iter().filter(|value| value.within == Some(true) && values[0].reference.is_some());
+    within.map(|value| value.row.scaled_by.as_str()).collect::<Vec<&str>>().join(", ")
 }
 
 /// Whose peak is scaled, each way once.
