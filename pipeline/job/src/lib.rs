@@ -7,7 +7,7 @@
 //! | [`machine`] | what a job needs of memory and disk, and what there is |
 //! | [`alarm`] | what to know before the numbers of a result are used |
 //! | [`table`], [`text_table`] | tables as CSV, written and read |
-//! | [`text`], [`checksum`] | numbers in words; SHA-256 of files and motions |
+//! | [`text`], [`checksum`] | tables and numbers for people; SHA-256 of files and motions |
 //! | [`frame`] | what the kinds of study share |
 
 pub mod alarm;

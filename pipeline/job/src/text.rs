@@ -1,4 +1,4 @@
-//! Tables and texts for the terminal.
+//! Tables, numbers and texts as the terminal and the page show them.
 
 mod risk;
 mod table;
