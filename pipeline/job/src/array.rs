@@ -6,14 +6,14 @@ use std::ops::{Index, IndexMut};
 /// Values over `N` axes, row by row: the last axis runs fastest.
 ///
 /// ```
-/// use uplift::Array;
+/// use uplift_job::Array;
 /// // [site, poe, strength]
 /// let u_m = Array::new([1, 2, 3], vec![0.3, 0.2, 0.1, 0.6, 0.4, 0.2])?;
 /// assert_eq!(u_m[[0, 1, 2]], 0.2);
 /// assert_eq!(u_m.block([0, 1]), [0.6, 0.4, 0.2]);
 /// let spectra: Vec<_> = u_m.blocks().map(|([site, poe], u_m)| (site, poe, u_m[0])).collect();
 /// assert_eq!(spectra, [(0, 0, 0.3), (0, 1, 0.6)]);
-/// # Ok::<(), uplift::ShapeError>(())
+/// # Ok::<(), uplift_job::ShapeError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Array<const N: usize, T = f64> {
