@@ -15,15 +15,19 @@ mod structures;
 mod study;
 mod validate;
 
-use clap::{Parser, Subcommand};
+use std::fmt::Write as _;
+
+use clap::{CommandFactory, Parser, Subcommand};
 
 use uplift_oscillator::InstructionSet;
 
 use crate::error::CommandError;
 use crate::terminal::{Form, Terminal};
-use result::{bootstrap, consistency, export, influence, measures, plot, report, status, table, verify};
+use result::{
+    bootstrap, consistency, export, influence, measures, plot, report, spectrum, status, table, verify, warnings,
+};
 use structures::{design, overturning, risk, target};
-use study::{check, merge, run, sweep};
+use study::{check, init, merge, run, sweep};
 
 /// Uniform risk spectra for rocking structures.
 ///
@@ -31,19 +35,19 @@ use study::{check, merge, run, sweep};
 /// that its annual risk is what the engineer chose.
 #[derive(Debug, Parser)]
 #[command(name = "uplift", version = uplift::VERSION_AND_COMMIT, max_term_width = 100)]
-#[command(
-    after_help = "Exit codes: 0 done, 2 usage, 3 study or structure file, 4 input data or disk, 5 interrupted, 1 a \
-                  bug.\n\
-    Start with: uplift run configs/quick.toml"
-)]
+#[command(after_help = "Start with:\n  uplift init first\n  uplift run first/study.toml\n\n\
+    Exit codes: 0 done, 2 usage, 3 study or structure file, 4 input data or disk, 5 interrupted, 1 a bug")]
 pub(crate) struct Arguments {
-    /// Threads to use; the numbers do not depend on it [default: all cores]
+    /// Number of threads; results do not depend on it [default: all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     threads: Option<u16>,
-    /// Only what was asked for, and errors: no progress, no remarks, no summary of files that are written
+    /// Print only results and errors
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
-    /// How progress, remarks and errors are told on standard error: text for people, or a line of JSON for each event
+    /// Show every table
+    #[arg(long, global = true)]
+    pub(crate) details: bool,
+    /// Form of progress and errors on standard error
     #[arg(long, global = true, value_name = "FORM", value_enum, default_value = "text")]
     pub(crate) progress: Form,
     #[command(subcommand)]
@@ -52,65 +56,96 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run a study: uniform risk spectra with their coefficients, displacement spectra of record sets, or the tests of
-    /// a shaking table; one result file
+    /// Write a small study to start from
+    Init(init::InitArguments),
+    /// Run a study
     Run(run::RunArguments),
-    /// Join the shards of a run into its result
-    Merge(merge::MergeArguments),
-    /// How far a run is, and what a result holds
-    Status(status::StatusArguments),
-    /// Check that every byte of a result is as it was written
-    Verify(verify::VerifyArguments),
-    /// Check a study and its input data, and say what it would cost
+    /// Check a study and estimate its cost
     Check(check::CheckArguments),
-    /// Run variants of a study, each an ordinary result, and compare them
+    /// Show the progress of a run or the content of a result
+    Status(status::StatusArguments),
+    /// Run variants of a study and compare them
     Sweep(sweep::SweepArguments),
-    /// Shake one oscillator or one rigid block with one record, or a rocking frame with its components
-    Response(response::ResponseArguments),
-    /// Rocking spectra of a rigid block under Ricker wavelets: figures and tables (Figures 2.2 to 2.7)
-    Pulse(pulse::PulseArguments),
-    /// How sure the spectra are: confidence bands from resampled records (Table 4.1)
-    Bootstrap(bootstrap::BootstrapArguments),
-    /// Whether the records bring the site's hazard of the other measure, and weights by which they do
-    Consistency(consistency::ConsistencyArguments),
-    /// Which records carry the spectra (jackknife), and which intensities (disaggregation)
-    Influence(influence::InfluenceArguments),
-    /// Which intensity measure to trust: efficiency and sufficiency
-    Measures(measures::MeasuresArguments),
-    /// Design a structure by a spectrum, and test the design by the structure's own risk
-    Design(design::DesignArguments),
-    /// How often a structure overturns: collapse fragility and risk, by oscillator and rigid block
-    Overturning(overturning::OverturningArguments),
-    /// The risk of a rocking frame itself, wobbling under both components, beside what its proxies say (Chapter 6)
-    Risk(risk::FrameRiskArguments),
-    /// Find the least strength, size, width, capacity or tendon stiffness for a target risk
-    Target(Box<target::TargetArguments>),
-    /// Push columns sideways: force, restrainer, sections and events over the displacement (Chapters 5 and 6)
-    Pushover(pushover::PushoverArguments),
-    /// Cyclic loading protocols: amplitudes that grow from set to set (Figure 5.11)
-    Protocol(protocol::ProtocolArguments),
-    /// Restrainers of tendons and disc springs: their force, and stacks out of a catalogue
-    Restrainer(Box<restrainer::RestrainerArguments>),
-    /// Whether computed peaks are distributed as measured ones: tests, power, bands, by class and level (Section 6.8)
-    Validate(validate::ValidateArguments),
-    /// Bring record files: import a folder, list, show, choose, synthesize
-    Records(records::RecordsArguments),
-    /// Bring hazard curves: take them from the exports of engines, show, draw
-    Hazard(hazard::HazardArguments),
-    /// Draw the figures of a result, or of a structure's columns
-    Plot(plot::PlotArguments),
-    /// Write one page with everything, to hand over: HTML that needs no network
-    Report(report::ReportArguments),
-    /// Write spectra, bands and coefficients of a result as an Excel workbook, CSV, JSON or a MATLAB file
-    Export(export::ExportArguments),
-    /// Print the coefficients of a result (Table 4.2), its design example (Tables 2.1-2.3, 3.2-3.7) or its tests (Table
-    /// A1.1), beside a reference if one is given; or what the columns of a structure have (Table 5.1, Section 6.3)
-    Table(table::TableArguments),
-    /// Print the JSON Schema by which editors complete and check keys
+    /// Join the shards of a run
+    Merge(merge::MergeArguments),
+    /// Check that results are as they were written
+    Verify(verify::VerifyArguments),
+    /// Print the JSON Schema for editors
     Schema(schema::SchemaArguments),
-    /// Write the pages of the manual and the completions of the shells
+    /// Import and manage records
+    Records(records::RecordsArguments),
+    /// Import and show hazard curves
+    Hazard(hazard::HazardArguments),
+    /// Read displacements at any strength and return period
+    Spectrum(spectrum::SpectrumArguments),
+    /// Compute confidence bands
+    Bootstrap(bootstrap::BootstrapArguments),
+    /// Check and repair hazard consistency
+    Consistency(consistency::ConsistencyArguments),
+    /// Find the records and intensities that matter
+    Influence(influence::InfluenceArguments),
+    /// Rank intensity measures
+    Measures(measures::MeasuresArguments),
+    /// List every warning about a result
+    Warnings(warnings::WarningsArguments),
+    /// Check a structure against a spectrum
+    Design(design::DesignArguments),
+    /// Compute how often a structure overturns
+    Overturning(overturning::OverturningArguments),
+    /// Compute the risk of a rocking frame
+    Risk(risk::FrameRiskArguments),
+    /// Find the least size or strength for a target risk
+    Target(Box<target::TargetArguments>),
+    /// Design restrainers of tendons and disc springs
+    Restrainer(Box<restrainer::RestrainerArguments>),
+    /// Push columns sideways
+    Pushover(pushover::PushoverArguments),
+    /// Shake a structure with one record
+    Response(response::ResponseArguments),
+    /// Write a page with figures and tables
+    Report(report::ReportArguments),
+    /// Draw figures
+    Plot(plot::PlotArguments),
+    /// Write CSV, Excel, JSON or MATLAB files
+    Export(export::ExportArguments),
+    /// Print coefficients, design example or tests
+    Table(table::TableArguments),
+    /// Compute rocking spectra under wavelets
+    Pulse(pulse::PulseArguments),
+    /// Make cyclic loading protocols
+    Protocol(protocol::ProtocolArguments),
+    /// Compare computed with measured peaks
+    Validate(validate::ValidateArguments),
+    /// Write manual pages and shell completions
     #[command(hide = true)]
     Manual(manual::ManualArguments),
+}
+
+/// The commands by what they are for, in the order of the help.
+const GROUPS: [(&str, &[&str]); 6] = [
+    ("Study", &["init", "run", "check", "status", "sweep", "merge", "verify", "schema"]),
+    ("Data", &["records", "hazard"]),
+    ("Spectrum", &["spectrum", "bootstrap", "consistency", "influence", "measures", "warnings"]),
+    ("Structure", &["design", "overturning", "risk", "target", "restrainer", "pushover", "response"]),
+    ("Output", &["report", "plot", "export", "table"]),
+    ("Dissertation", &["pulse", "protocol", "validate"]),
+];
+
+/// The program's arguments, with its commands in groups.
+pub(crate) fn program() -> clap::Command {
+    let program = Arguments::command();
+    let mut listed = String::new();
+    for (title, names) in GROUPS {
+        let _ = writeln!(listed, "{title}:");
+        for name in names {
+            let about = program.find_subcommand(name).and_then(clap::Command::get_about);
+            let _ = writeln!(listed, "  {name:<12} {}", about.map(ToString::to_string).unwrap_or_default());
+        }
+        listed.push('\n');
+    }
+    program.help_template(format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{listed}Options:\n{{options}}{{after-help}}"
+    ))
 }
 
 /// Carry out what was typed.
@@ -127,6 +162,7 @@ pub(crate) fn execute(arguments: &Arguments, terminal: &Terminal) -> Result<(), 
     // a word that is none is told by every command, whether it computes or not
     InstructionSet::chosen().map_err(|error| CommandError::Usage(error.to_string()))?;
     match &arguments.command {
+        Command::Init(arguments) => init::init(arguments, terminal),
         Command::Run(arguments) => run::run(arguments, terminal),
         Command::Merge(arguments) => merge::merge(arguments, terminal),
         Command::Status(arguments) => status::status(arguments),
@@ -135,6 +171,8 @@ pub(crate) fn execute(arguments: &Arguments, terminal: &Terminal) -> Result<(), 
         Command::Sweep(arguments) => sweep::sweep(arguments, terminal),
         Command::Response(arguments) => response::response(arguments, terminal),
         Command::Pulse(arguments) => pulse::pulse(arguments, terminal),
+        Command::Spectrum(arguments) => spectrum::spectrum(arguments, terminal),
+        Command::Warnings(arguments) => warnings::warnings(arguments),
         Command::Bootstrap(arguments) => bootstrap::bootstrap(arguments, terminal),
         Command::Consistency(arguments) => consistency::consistency(arguments, terminal),
         Command::Influence(arguments) => influence::influence(arguments, terminal),
@@ -155,5 +193,25 @@ pub(crate) fn execute(arguments: &Arguments, terminal: &Terminal) -> Result<(), 
         Command::Table(arguments) => table::table(arguments, terminal),
         Command::Schema(arguments) => schema::schema(arguments),
         Command::Manual(arguments) => manual::manual(arguments),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_is_in_one_group_and_has_one_short_line() {
+        let program = Arguments::command();
+        let mut listed: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
+        let mut known: Vec<&str> =
+            program.get_subcommands().filter(|own| !own.is_hide_set()).map(clap::Command::get_name).collect();
+        listed.sort_unstable();
+        known.sort_unstable();
+        assert_eq!(listed, known);
+        for own in program.get_subcommands() {
+            let about = own.get_about().map(ToString::to_string).unwrap_or_default();
+            assert!((1..=60).contains(&about.len()), "{}: {about}", own.get_name());
+        }
     }
 }

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::FromArgMatches;
 
 mod command;
 mod error;
@@ -35,8 +35,8 @@ fn main() -> ExitCode {
         );
         end_at_once();
     }));
-    let arguments = Arguments::parse();
-    let terminal = Terminal::new(arguments.quiet, arguments.progress);
+    let arguments = Arguments::from_arg_matches(&command::program().get_matches()).unwrap_or_else(|error| error.exit());
+    let terminal = Terminal::new(arguments.quiet, arguments.details, arguments.progress);
     match command::execute(&arguments, &terminal) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

@@ -20,16 +20,17 @@ mod response;
 mod restrainer;
 mod run;
 mod shake_table;
+mod spectrum;
 mod status;
 mod structure;
 mod sweep;
 mod table;
 mod target;
 mod uncertainty;
-mod uniform_risk;
 mod validate;
 mod verify;
 
+pub(crate) use alarms::print_all_warnings;
 pub(crate) use bootstrap::print_bootstrap;
 pub(crate) use consistency::print_consistency;
 pub(crate) use design::print_design;
@@ -40,13 +41,14 @@ pub(crate) use hazard::{print_curves, print_hazard_import};
 pub(crate) use import::{print_import, tell_remarks};
 pub(crate) use influence::print_influence;
 pub(crate) use overturning::print_overturning;
-pub(crate) use plan::print_plan;
+pub(crate) use plan::{print_plan, print_study};
 pub(crate) use pulse::print_pulses;
 pub(crate) use pushover::{print_protocol, print_pushover};
 pub(crate) use records::{print_at_level, print_record, print_records, print_selection};
 pub(crate) use response::{print_block_response, print_response};
 pub(crate) use restrainer::{print_restrainer_curve, print_restrainer_design};
 pub(crate) use run::{print_run, print_shard};
+pub(crate) use spectrum::{print_spectrum, print_spectrum_csv};
 pub(crate) use status::print_status;
 pub(crate) use sweep::print_sweep;
 pub(crate) use table::print_table;
@@ -77,6 +79,11 @@ pub(crate) fn print_files(files: &[PathBuf], terminal: &Terminal) -> Result<(), 
         }
     }
     Ok(())
+}
+
+/// That there is more to see, unless all of it is shown.
+fn print_more(out: &mut impl Write, terminal: &Terminal) -> Result<(), CommandError> {
+    if terminal.shows_details() || terminal.is_quiet() { Ok(()) } else { Ok(writeln!(out, "Details  --details")?) }
 }
 
 /// What an asterisk says of a number of displacement spectra and their designs.

@@ -41,6 +41,7 @@ pub(crate) enum Form {
 /// goes on.
 pub(crate) struct Terminal {
     quiet: bool,
+    details: bool,
     form: Form,
     stop: Arc<AtomicBool>,
     /// What is said where an interruption cannot wait for the work in hand.
@@ -49,12 +50,14 @@ pub(crate) struct Terminal {
 }
 
 impl Terminal {
-    /// A terminal that hears Ctrl-C and SIGTERM from now on; a quiet one tells results and errors only.
-    pub(crate) fn new(quiet: bool, form: Form) -> Self {
+    /// A terminal that hears Ctrl-C and SIGTERM from now on; a quiet one tells results and errors only, one
+    /// with `details` every table.
+    pub(crate) fn new(quiet: bool, details: bool, form: Form) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
         let interruption_message = Arc::new(Mutex::new(JobError::Interrupted.to_string()));
         let terminal = Self {
             quiet,
+            details,
             form,
             stop: stop.clone(),
             interruption_message: interruption_message.clone(),
@@ -88,11 +91,17 @@ impl Terminal {
         self.quiet
     }
 
+    /// Whether every table is shown.
+    pub(crate) fn shows_details(&self) -> bool {
+        self.details
+    }
+
     /// The same terminal for a process that must not speak.
     #[cfg(feature = "mpi")]
     pub(crate) fn with_quiet(&self, quiet: bool) -> Self {
         Self {
             quiet: self.quiet || quiet,
+            details: self.details,
             form: self.form,
             stop: self.stop.clone(),
             interruption_message: self.interruption_message.clone(),

@@ -58,9 +58,8 @@ pub(super) fn case(study: &UniformRiskStudy, curves: &CurvesAtSite<'_>) -> Optio
             name(apart.odd[0]),
             apart.times
         ),
-        what_to_do: unit_of_branch(study, (curves.site, curves.measure), apart.too_large()).unwrap_or_else(|| {
-            "see the files: their units, whether they give rates per year, of this site and this measure".to_owned()
-        }),
+        what_to_do: unit_of_branch(study, (curves.site, curves.measure), apart.too_large())
+            .unwrap_or_else(|| "Check the files: unit, annual rates, site and measure".to_owned()),
     })
 }
 

@@ -39,8 +39,8 @@ pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alar
         let records = stored.sizes[stored.largest()];
         let of_joint = repaired.bands.joint.as_ref().and_then(|joint| joint.failed.as_ref());
         let kinds = [
-            (Some(&repaired.failed), format!("the site's hazard to {{}} of the samples of {records} records")),
-            (of_joint, format!("the hazard to {{}} of the pairs of a sample of {records} records and a hazard curve")),
+            (Some(&repaired.failed), format!("of the resamples of {records} records")),
+            (of_joint, format!("of the resamples of {records} records with a hazard curve")),
         ];
         for (site, name) in evidence.spectra.sites.iter().enumerate() {
             for (failed, what) in &kinds {
@@ -51,10 +51,10 @@ pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alar
                         badness: share,
                         subject: format!("{name} by {}", bands.measure.label()),
                         what: format!(
-                            "no weights bring {}: their spectra are repaired in part only, and so is the band",
-                            what.replace("{}", &format!("{:.0} %", 100.0 * share))
+                            "weights fail for {:.0} % {what}; their band is repaired in part only",
+                            100.0 * share
                         ),
-                        what_to_do: "take more records, or records of another kind (uplift consistency)".to_owned(),
+                        what_to_do: "Add records, or records of another kind: uplift consistency".to_owned(),
                     });
                 }
             }
@@ -72,18 +72,11 @@ fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) ->
         severity: if is_repaired { Severity::Note } else { Severity::Caution },
         badness: times.ln().abs(),
         subject: format!("{name} by {scaled_to}"),
-        what: format!(
-            "the records bring {times:.1} times the {other} of the site's hazard; spectra by {scaled_to} are not \
-             hazard-consistent"
-        ),
+        what: format!("records scaled to {scaled_to} have {times:.1} times the site's {other}"),
         what_to_do: match u_m {
-            Some(_) if is_repaired => {
-                "use the repaired spectra beside them (uplift consistency; uplift design --repaired)"
-            }
-            Some(_) => "no weights of these records can mend it: uplift consistency says which are missing",
-            None => {
-                "[consistency] repair = \"weights\" gives spectra that are, beside the plain ones (uplift consistency)"
-            }
+            Some(_) if is_repaired => "Use the repaired spectra: uplift spectrum --repaired",
+            Some(_) => "No weights repair it; list what is missing: uplift consistency",
+            None => "Repair: uplift consistency --repair",
         }
         .to_owned(),
     }

@@ -74,14 +74,11 @@ fn case(study: &UniformRiskStudy, site: &str, biases: [Option<f64>; 2]) -> Optio
         badness: times,
         subject: site.to_owned(),
         what: format!(
-            "for its curve of PGV and these records its curve of PGA is {times:.1} times too {direction}: sites differ \
-             by 2 or 3 times, and units by more"
+            "its curve of PGA is {times:.1} times too {direction} for its curve of PGV and these records; sites differ by \
+             2 or 3 times"
         ),
-        what_to_do: unit_that_explains(study, site, too_high).unwrap_or_else(|| {
-            "see both curves: their units, whether they are rates per year, of one site, and of one definition of the \
-             measure"
-                .to_owned()
-        }),
+        what_to_do: unit_that_explains(study, site, too_high)
+            .unwrap_or_else(|| "Check both curves: unit, annual rates, site, and definition of the measure".to_owned()),
     })
 }
 
@@ -148,7 +145,7 @@ mod tests {
             ),
             (["m/s", "g"], [Some(120.0), Some(0.01)], ["109.5 times too low", "numbers of its PGV in cm/s"]),
             (["cm/s", "g"], [Some(9.0), Some(0.1)], ["9.5 times too low", "of its PGV in mm/s"]),
-            (["cm/s", "g"], [Some(300.0), None], ["300.0 times too low", "see both curves"]),
+            (["cm/s", "g"], [Some(300.0), None], ["300.0 times too low", "Check both curves"]),
         ] {
             let told = told(units, biases).unwrap();
             assert!(words.iter().all(|word| told.contains(word)), "{told}");

@@ -81,7 +81,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Vec<Alarm> {
                 Severity::Note,
                 1.0,
                 format!("no fit: {reason}"),
-                "use the ordinates themselves, lower regression.strength_above, or give more strengths.values",
+                "Use the ordinates, lower regression.strength_above, or add strengths.values",
             ));
             continue;
         };
@@ -89,8 +89,8 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Vec<Alarm> {
             meaningless.push(case(
                 Severity::Note,
                 1.0,
-                "the spectrum is no decaying exponential: its coefficients mean nothing one by one".to_owned(),
-                "use the ordinates themselves",
+                "the spectrum is no decaying exponential, so single coefficients mean nothing".to_owned(),
+                "Use the ordinates",
             ));
         }
         let Some(reach) = reach_of_fit(&curve, (strengths, u_m), above, uplift_m) else { continue };
@@ -99,13 +99,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Vec<Alarm> {
             if reach.worst_ratio > 0.0 { reach.worst_ratio.max(1.0 / reach.worst_ratio) } else { f64::INFINITY };
         if times > FAR {
             let severity = if times > FAR_OFF { Severity::Caution } else { Severity::Note };
-            far.push(case(
-                severity,
-                times,
-                leaves(&reach),
-                "read the spectrum itself outside of that range; regression.strength_above moves it, and other \
-                 strengths.values do",
-            ));
+            far.push(case(severity, times, leaves(&reach), "Use the ordinates outside that range: uplift spectrum"));
         }
     }
     let kinds = [("fit-leaves-spectrum", far), ("no-fit", none), ("no-exponential", meaningless)];
@@ -117,14 +111,11 @@ fn leaves(reach: &FitReach) -> String {
     let FitReach { worst_ratio, worst_at_strength, within_ten_percent } = reach;
     let digits = if *worst_ratio < 0.1 { 3 } else { 2 };
     let range = match within_ten_percent {
-        Some((from, to)) if from < to => format!("within 10 % of it from strength {from:.3} to {to:.3}"),
-        Some((at, _)) => format!("within 10 % of it at strength {at:.3} only"),
-        None => "nowhere within 10 % of it".to_owned(),
+        Some((from, to)) if from < to => format!("within 10 % from {from:.3} to {to:.3}"),
+        Some((at, _)) => format!("within 10 % at {at:.3} only"),
+        None => "nowhere within 10 %".to_owned(),
     };
-    format!(
-        "the fitted curve (Eq. 4.11) leaves its spectrum: {worst_ratio:.digits$} times the ordinate at strength \
-         {worst_at_strength:.3}; it is {range}"
-    )
+    format!("the fitted curve is {worst_ratio:.digits$} times the ordinate at strength {worst_at_strength:.3}, {range}")
 }
 
 #[cfg(test)]
@@ -143,7 +134,7 @@ mod tests {
         let reach = reach_of_fit(&CURVE, (&STRENGTHS, &u_m), 0.05, 0.0005).unwrap();
         assert!((reach.worst_ratio - 1.0 / 3.0).abs() < 1e-12, "{reach:?}");
         assert_eq!((reach.worst_at_strength, reach.within_ten_percent), (0.4, Some((0.1, 0.3))));
-        assert!(leaves(&reach).contains("0.33 times the ordinate at strength 0.400; it is within 10 %"));
+        assert!(leaves(&reach).contains("0.33 times the ordinate at strength 0.400, within 10 %"));
         // a smaller displacement at uplift lets the last one count: 1/32 over 0.0004
         let reach = reach_of_fit(&CURVE, (&STRENGTHS, &u_m), 0.05, 0.0001).unwrap();
         assert!(reach.worst_at_strength == 0.5 && reach.worst_ratio > 70.0, "{reach:?}");

@@ -23,6 +23,6 @@ pub(super) fn case(study: &UniformRiskStudy, curves: &CurvesAtSite<'_>) -> Optio
         subject: curves.subject(),
         what: format!("by {} {}, which is hardly possible", found.name, odd.what),
         what_to_do: units_that_make_possible(study, (curves.site, measure), found.curve)
-            .unwrap_or_else(|| "see its unit, that it is of this measure, and that it gives rates per year".to_owned()),
+            .unwrap_or_else(|| "Check its unit, its measure, and that it gives annual rates".to_owned()),
     })
 }

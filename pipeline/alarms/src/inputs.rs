@@ -40,9 +40,9 @@ pub fn study_alarms(warnings: &[Warning], synthetic: bool) -> impl Iterator<Item
         Alarm::new(
             Severity::Caution,
             "synthetic-records",
-            "records",
-            "they are synthetic, and scatter less than real ones: not for design".to_owned(),
-            "bring real ones for results that matter: records.manifest (records/README.md)",
+            "Synthetic records",
+            "not for design".to_owned(),
+            "Use recorded motions: records.manifest",
         )
     });
     warnings.iter().map(|warning| warning_alarm("study", warning)).chain(of_records)
@@ -88,8 +88,7 @@ fn far(sets: &Sets) -> Option<Alarm> {
 
 /// Of factors `what` of which no definition of the measure explains.
 pub fn far_factors_alarm(what: String) -> Alarm {
-    let what_to_do = "is the unit of the table's levels, of its factors or of the record files another one? correct \
-                      records.at_level, or leave it if it is meant";
+    let what_to_do = "Check the units of levels, factors and records in records.at_level, or leave it if it is meant";
     Alarm::new(Severity::Mistake, "factors-at-level", "records", what, what_to_do)
 }
 
@@ -113,10 +112,10 @@ fn few_at_level(sets: &Sets) -> Option<Alarm> {
             "few-records",
             &place,
             format!(
-                "its {count} count as {effective:.1}, the fewest of all levels: below about {FEW_RECORDS} \
-                 spectra depend strongly on the choice of records"
+                "its {count} count as {effective:.1}, the fewest of all levels; below about {FEW_RECORDS} spectra \
+                 depend strongly on which"
             ),
-            "select more for the level (records.at_level); uplift bootstrap shows how much",
+            "Select more for this level: records.at_level",
         )
     })
 }
@@ -127,16 +126,12 @@ pub fn few(records: usize, pairs: usize) -> Option<Alarm> {
         Alarm::new(
             Severity::Caution,
             "few-records",
-            "records",
+            "Few records",
             format!(
-                "{are} are few: below about {FEW_RECORDS} spectra depend strongly on the choice of records",
-                are = if pairs < records {
-                    format!("{pairs} pairs, of which {records} records are made,")
-                } else {
-                    records.to_string()
-                }
+                "{are}; below about {FEW_RECORDS} spectra depend strongly on which",
+                are = if pairs < records { format!("{pairs} pairs ({records} records)") } else { records.to_string() }
             ),
-            "bring more (records.manifest), or take all there are (records.first); uplift bootstrap shows how much",
+            "Add records: records.manifest or records.first",
         )
     })
 }
@@ -173,9 +168,7 @@ mod tests {
     #[test]
     fn forty_records_are_no_longer_few() {
         assert_eq!([few(40, 40), few(80, 40)], [None, None]);
-        assert!(few(39, 39).is_some_and(|alarm| alarm.what.starts_with("39 are few")));
-        assert!(
-            few(78, 39).is_some_and(|alarm| alarm.what.starts_with("39 pairs, of which 78 records are made, are few"))
-        );
+        assert!(few(39, 39).is_some_and(|alarm| alarm.what.starts_with("39;")));
+        assert!(few(78, 39).is_some_and(|alarm| alarm.what.starts_with("39 pairs (78 records);")));
     }
 }

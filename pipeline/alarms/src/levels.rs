@@ -3,7 +3,7 @@
 use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_job::text::{per_cent, share};
+use uplift_job::text::share;
 use uplift_risk::{OrdinateFlag, TAIL_SHARE_LIMIT};
 use uplift_study::{MeasurePlan, levels_key};
 
@@ -71,20 +71,18 @@ pub fn below_first_case(
         badness: most,
         subject: name.to_owned(),
         what: format!(
-            "{count} of {} {} take more than {} of their risk from below the first level, {first} {}, at most {}: they \
-             come out too large",
+            "{count} of {} {} too large: up to {} of their risk lies below the first level, {first} {}",
             shares.len(),
             counted.ordinates(),
-            per_cent(TAIL_SHARE_LIMIT),
-            measure.unit(),
-            share(most)
+            share(most),
+            measure.unit()
         ),
         what_to_do: match counted {
             _ if curve.first().im >= first => {
-                format!("take a hazard curve from further down than {} {}", curve.first().im, measure.unit())
+                format!("Use a hazard curve that begins below {} {}", curve.first().im, measure.unit())
             }
-            Counted::All => format!("begin {} lower: uplift check proposes a line", levels_key(measure)),
-            Counted::Tried => format!("begin {} lower: see what is said of levels above", levels_key(measure)),
+            Counted::All => format!("Lower the first of {}: uplift check proposes one", levels_key(measure)),
+            Counted::Tried => format!("Lower the first of {}", levels_key(measure)),
         },
     })
 }
@@ -141,7 +139,7 @@ impl UpperEnd<'_> {
         let Some(&last) = plan.levels.last() else { return Ok(None) };
         // what is known of the hazard ends with the curve, though levels go on
         let (known_to, per_year) = if end.im < last {
-            (format!("the hazard curve ends at {} {unit} and goes on by extrapolation, and that", end.im), end.maf)
+            (format!("the end of the hazard curve, {} {unit},", end.im), end.maf)
         } else {
             let per_year = curve.rate_at_extrapolated(last, self.extrapolate)?;
             (format!("the last level, {last} {unit},"), per_year)
@@ -151,12 +149,11 @@ impl UpperEnd<'_> {
             return Ok(None);
         }
         let counted = match count {
-            0 => String::new(),
+            0 => "ordinates may be too small".to_owned(),
             _ => format!(
-                "{count} of {} {} take more than {} of their risk from above the last level, at most {}; ",
+                "{count} of {} {} may be too small, up to {} of their risk lies above the last level",
                 shares.len(),
                 counted.ordinates(),
-                per_cent(TAIL_SHARE_LIMIT),
                 share(most)
             ),
         };
@@ -165,15 +162,13 @@ impl UpperEnd<'_> {
             badness: most.max(beyond),
             subject: name.to_owned(),
             what: format!(
-                "{counted}{known_to} is exceeded {per_year:.1e} times a year, {} the target rate of \
-                 {target_per_year:.1e}: what stronger motions do is not known, and ordinates may be too small",
+                "{counted}: {known_to} is exceeded {per_year:.1e} times a year, {} the target rate",
                 if beyond > 1.0 { format!("{beyond:.1} times") } else { format!("{} of", share(beyond)) }
             ),
             what_to_do: if end.im > last {
-                format!("let {} reach further up, the hazard curve goes to {} {unit}", levels_key(measure), end.im)
+                format!("Raise the last of {}, up to {} {unit}", levels_key(measure), end.im)
             } else {
-                let key = levels_key(measure);
-                format!("take a hazard curve that goes beyond {} {unit}, and let {key} follow it", end.im)
+                format!("Use a hazard curve beyond {} {unit}, and raise {}", end.im, levels_key(measure))
             },
         }))
     }
@@ -188,13 +183,11 @@ fn without_ordinate(place: &Place<'_>) -> Option<Case> {
         badness: count as f64,
         subject: place.name.clone(),
         what: format!(
-            "{count} of {} ordinates are censored: overturned runs, or the last threshold, exceed the target risk",
+            "{count} of {} ordinates are censored: overturning, or the last threshold, exceeds the target risk",
             place.strengths.len()
         ),
-        what_to_do:
-            "no displacement meets the target there: take larger strengths.values or oscillator.capacity_m, or \
-                     with risk.contour = \"grid\" larger risk.thresholds_m"
-                .to_owned(),
+        what_to_do: "Raise strengths.values or oscillator.capacity_m (risk.thresholds_m where risk.contour = \"grid\")"
+            .to_owned(),
     })
 }
 
@@ -209,13 +202,13 @@ fn never_exceeded(place: &Place<'_>, strengths: &[f64], target_per_year: f64) ->
         badness: count as f64,
         subject: place.name.clone(),
         what: format!(
-            "{count} of {} ordinates are 0: the target rate of {target_per_year:.1e} a year is not reached, and the \
-             hazard curve begins with {:.1e} a year at {} {}",
+            "{count} of {} ordinates are 0: the hazard curve begins with {:.1e} a year at {} {}, below the target rate \
+             of {target_per_year:.1e}",
             place.strengths.len(),
             foot.maf,
             foot.im,
             place.curve.unit()
         ),
-        what_to_do: "take a hazard curve from further down, or a smaller risk.poe".to_owned(),
+        what_to_do: "Extend the hazard curve to lower levels, or lower risk.poe".to_owned(),
     })
 }

@@ -114,8 +114,17 @@ fn spectra_alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, Alar
     alarms.extend(measures::alarms(evidence, scope));
     alarms.extend(consistency::alarms(evidence, scope));
     alarms.extend(consistency::failing_samples(evidence, scope));
-    alarms.extend(fit::alarms(evidence, scope));
     Ok(alarms)
+}
+
+/// What is to be raised about the fitted curves (Eq. 4.11) of `file`, by one `measure` or by all: it belongs beside
+/// their coefficients, since nearly every curve leaves its spectrum somewhere.
+///
+/// # Errors
+/// A file that is damaged, or without sites.
+pub fn fit_alarms(file: &ResultFile, measure: Option<IntensityMeasure>) -> Result<Vec<Alarm>, AlarmsError> {
+    let scope = Scope { measure, ..Scope::default() };
+    Ok(fit::alarms(&Evidence::read(file, &scope)?, &scope))
 }
 
 #[cfg(test)]

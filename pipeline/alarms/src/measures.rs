@@ -85,25 +85,18 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
 fn case(evidence: &Evidence, subject: String, (pgv, pga): (Side<'_>, Side<'_>), gap: Gap, banded: bool) -> Case {
     let times = gap.ratio.max(1.0 / gap.ratio);
     let allowed = match &evidence.bands {
-        Some(bands) if banded => format!("further apart than their {} bands", per_cent(bands.confidence)),
-        _ => format!("more than {RATIO_LIMIT} times apart"),
+        Some(bands) if banded => format!(", outside each other's {} bands", per_cent(bands.confidence)),
+        _ => String::new(),
     };
     Case {
         severity: if times > RATIO_DECISIVE { Severity::Caution } else { Severity::Note },
         badness: times,
         subject,
         what: format!(
-            "the spectra by PGV and by PGA are {allowed}: at strength {:.3} {:.4} m by PGV and {:.4} m by PGA, \
-             {times:.1} times",
-            evidence.spectra.strengths[gap.strength], pgv.u_m[gap.strength], pga.u_m[gap.strength]
+            "spectra by PGV and by PGA differ {times:.1} times{allowed}: {:.3} and {:.3} m at strength {:.3}",
+            pgv.u_m[gap.strength], pga.u_m[gap.strength], evidence.spectra.strengths[gap.strength]
         ),
-        what_to_do: if banded {
-            "uplift measures tells which measure is the more efficient and sufficient: use that one, or the larger"
-        } else {
-            "uplift measures tells which measure is the more efficient and sufficient: use that one, or the larger; \
-             uplift bootstrap, how far apart the records alone can put them"
-        }
-        .to_owned(),
+        what_to_do: "Rank the measures: uplift measures".to_owned(),
     }
 }
 

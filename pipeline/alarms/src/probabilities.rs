@@ -25,14 +25,11 @@ pub(super) fn case(curves: &CurvesAtSite<'_>) -> Option<Case> {
     let found = curves.first_that(look_like_probabilities)?;
     let line = curve_line(curves.measure, !curves.branches.is_empty(), POE);
     let what_to_do = if found.is_all {
-        format!(
-            "if so, write {line}, with the years that the file is of, 1 or 50 mostly, and poe for maf in the head of \
-             the file"
-        )
+        format!("If so, write {line} with the years of the file, and poe for maf in its head")
     } else {
         format!(
-            "if all curves of {key} are, write {line}, and poe for maf in the heads of the files; if not all, write \
-             rates per year into the files of those that are"
+            "If all curves of {key} are, write {line}, and poe for maf in their heads; if not all, write rates per year \
+             into the files of those that are"
         )
     };
     let first = found.curve.first();
@@ -41,8 +38,7 @@ pub(super) fn case(curves: &CurvesAtSite<'_>) -> Option<Case> {
         badness: first.maf,
         subject: curves.subject(),
         what: format!(
-            "the rates of {} level off just below 1 ({} a year at {} {}): they look like probabilities, and if these \
-             are of many years the spectra are far too large",
+            "the rates of {} level off just below 1 ({} a year at {} {}), as probabilities in many years do",
             found.name,
             first.maf,
             first.im,

@@ -40,7 +40,7 @@ pub fn structure_alarms(structure: &Structure) -> Vec<Alarm> {
 /// A safety factor that was probably meant otherwise.
 pub fn safety_factor_alarm(safety_factor: f64) -> Option<Alarm> {
     let found = USUAL_SAFETY_FACTOR.unlikely("--safety-factor", safety_factor)?;
-    let what_to_do = "give --safety-factor as a factor, or leave it if it is meant";
+    let what_to_do = "Give --safety-factor as a factor, or leave it if it is meant";
     Some(Alarm::new(Severity::Mistake, "unlikely-number", "design", found.to_string(), what_to_do))
 }
 
@@ -54,12 +54,11 @@ pub fn own_demand_alarm(demand_m: f64, capacity_m: Option<f64>, safety_factor: f
             "rule-unsafe",
             "design",
             format!(
-                "the rules are satisfied, and the structure's own exact demand of {demand_m:.4} m is not: the \
-                 capacity of {capacity_m:.4} m is {:.2} times it, for a safety factor of {safety_factor}",
+                "the rules are satisfied, the structure's own demand of {demand_m:.4} m is not: the capacity of \
+                 {capacity_m:.4} m is {:.2} times it, for a safety factor of {safety_factor}",
                 capacity_m / demand_m
             ),
-            "size it by its own demand, or make the spectrum with its uplift displacement and restitution \
-             (oscillator.uplift_displacement_m, oscillator.restitution)",
+            "Size it by its own demand: uplift target",
         )
     })
 }
@@ -76,20 +75,20 @@ fn outside_levels(own: &OwnRisk) -> Option<Case> {
     let EventRisk { lower_tail_share, upper_tail_share, .. } = own.risk;
     let (first, last) = own.levels;
     let (share, where_from, therefore, remedy) = if upper_tail_share >= lower_tail_share {
-        (upper_tail_share, format!("above the last level, {last}"), "rather a lower bound", "reach further up")
+        (upper_tail_share, format!("above the last level, {last}"), "a lower bound", "Raise the last")
     } else {
-        (lower_tail_share, format!("below the first level, {first}"), "rather too large", "begin lower")
+        (lower_tail_share, format!("below the first level, {first}"), "too large", "Lower the first")
     };
     (share > TAIL_SHARE_LIMIT).then(|| Case {
         severity: if share > DECISIVE { Severity::Caution } else { Severity::Note },
         badness: share,
         subject: own.subject.clone(),
         what: format!(
-            "{} of the risk comes from outside the analysed levels, {where_from} {}: it is {therefore}",
+            "{} of the risk lies {where_from} {}, so the rate is {therefore}",
             share_in_words(share),
             own.measure.unit()
         ),
-        what_to_do: format!("let {} of the study {remedy}, and run it again", levels_key(own.measure)),
+        what_to_do: format!("{remedy} of {}, and run the study again", levels_key(own.measure)),
     })
 }
 
@@ -100,9 +99,8 @@ fn none_seen(own: &OwnRisk) -> Option<Case> {
         badness: at_most_per_year,
         subject: own.subject.clone(),
         what: format!(
-            "0 of {} at any level up to {} {}: that is not never, but at most {at_most_per_year:.1e} a year; stronger \
-             motions were not analysed and count as if all did, and 0 of {pairs}{weighted} leave a share of up \
-             to {} at the last level ({} confidence)",
+            "0 of {} up to {} {}, so at most {at_most_per_year:.1e} a year: 0 of {pairs}{weighted} leave up to {} at the \
+             last level ({} confidence)",
             records_in_words(own.records, own.pairs),
             own.levels.1,
             own.measure.unit(),
@@ -115,7 +113,7 @@ fn none_seen(own: &OwnRisk) -> Option<Case> {
                 String::new()
             },
         ),
-        what_to_do: format!("for a smaller bound let {} of the study reach further up", levels_key(own.measure)),
+        what_to_do: format!("Raise the last of {} for a smaller bound", levels_key(own.measure)),
     })
 }
 
@@ -159,7 +157,7 @@ mod tests {
         assert_eq!(own_risk_alarms(&[own(RISK)]), []);
         let [above] = &own_risk_alarms(&[own(EventRisk { upper_tail_share: 0.078, ..RISK })])[..] else { panic!() };
         assert_eq!(above.severity, Severity::Note);
-        assert!(above.what.starts_with("7.8 % of the risk") && above.what.ends_with("rather a lower bound"), "{above}");
+        assert!(above.what.starts_with("7.8 % of the risk") && above.what.ends_with("a lower bound"), "{above}");
         let [below] = &own_risk_alarms(&[own(EventRisk { lower_tail_share: 0.5, ..RISK })])[..] else { panic!() };
         assert!(below.severity == Severity::Caution && below.what.contains("below the first level, 1 cm/s"), "{below}");
     }
@@ -180,7 +178,7 @@ mod tests {
     fn none_of_thirty_pairs_is_no_more_for_having_two_components() {
         let both = OwnRisk { records: 60, ..own(EventRisk { per_year: 0.0, at_most_per_year: Some(2.3e-5), ..RISK }) };
         let [none] = &own_risk_alarms(&[both])[..] else { panic!() };
-        for words in ["0 of 60 records of 30 pairs at any level", "and 0 of 30 pairs leave", "9.5 %"] {
+        for words in ["0 of 60 records of 30 pairs up to", ": 0 of 30 pairs leave", "9.5 %"] {
             assert!(none.what.contains(words), "{words}: {none}");
         }
     }

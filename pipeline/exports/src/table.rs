@@ -19,7 +19,7 @@ pub use tests_of_table::{Agreement, TestRow, TestsTable};
 pub use uplift_alarms::COMPARED_FROM_M;
 
 use crate::error::ExportsError;
-use uplift_alarms::{alarms, alarms_by};
+use uplift_alarms::{alarms, alarms_by, fit_alarms, ranked};
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_questions::bootstrap::resampled;
@@ -108,11 +108,14 @@ pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport,
     tell_findings(&file, events)?;
     // bands tell which measures disagree, at whatever risk
     let file = resampled(file, events)?;
-    let alarms = match options.measure {
+    let mut alarms = match options.measure {
         TableMeasure::Only(measure) if file.kind() == Kind::UniformRisk => alarms_by(&file, measure),
         _ => alarms(&file),
     }?;
-    Ok(TableReport { rows, alarms })
+    if let TableRows::Coefficients(_) = rows {
+        alarms.extend(fit_alarms(&file, options.measure.of_rows(&file.measures()))?);
+    }
+    Ok(TableReport { rows, alarms: ranked(alarms) })
 }
 
 /// Says which structures were asked something under the result.

@@ -35,6 +35,33 @@ pub fn metres(value: f64) -> String {
     if value.is_infinite() { "censored".to_owned() } else { format!("{value:.4}") }
 }
 
+/// A displacement with the two digits that a record set can tell.
+pub fn two_digits(value: f64) -> String {
+    if value.is_nan() {
+        return "-".to_owned();
+    }
+    if value.is_infinite() {
+        return "∞".to_owned();
+    }
+    let value = rounded(value, 2);
+    let decimals = if value == 0.0 { 0.0 } else { (1.0 - value.abs().log10().floor()).clamp(0.0, 5.0) };
+    format!("{value:.*}", decimals as usize)
+}
+
+/// A displacement with its confidence band in a sentence: `0.35 m (0.24 to 0.84)`.
+pub fn metres_with_band(u_m: f64, band_m: Option<[f64; 2]>) -> String {
+    match band_m.map(|limits_m| limits_m.map(two_digits)) {
+        _ if u_m.is_infinite() => "overturns".to_owned(),
+        Some([lower, upper]) => format!("{} m ({lower} to {upper})", two_digits(u_m)),
+        None => format!("{} m", two_digits(u_m)),
+    }
+}
+
+/// The same in a cell of a table, whose heading has the unit: `0.35 (0.24–0.84)`.
+pub fn cell_with_band(u_m: f64, band_m: Option<[f64; 2]>) -> String {
+    metres_with_band(u_m, band_m).replacen(" m", "", 1).replacen(" to ", "–", 1)
+}
+
 /// A number with a few digits, in powers of ten where it is very large or small.
 pub fn short(value: f64) -> String {
     if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
@@ -81,6 +108,18 @@ mod tests {
         assert_eq!(thousands(2_370_375), "2,370,375");
         assert_eq!(thousands(12), "12");
         assert_eq!(metres(f64::INFINITY), "censored");
+    }
+
+    #[test]
+    fn displacements_have_two_digits_and_a_band() {
+        assert_eq!(
+            ["0.35", "0.10", "0.034", "1.2", "12", "0.00034"],
+            [0.346, 0.0996, 0.0341, 1.24, 12.3, 3.4e-4].map(two_digits)
+        );
+        assert_eq!(cell_with_band(0.346, Some([0.24, f64::INFINITY])), "0.35 (0.24–∞)");
+        assert_eq!(metres_with_band(0.346, Some([0.24, 0.841])), "0.35 m (0.24 to 0.84)");
+        assert_eq!(metres_with_band(f64::INFINITY, Some([0.24, f64::INFINITY])), "overturns");
+        assert_eq!([metres_with_band(0.5, None), cell_with_band(0.5, None)], ["0.50 m", "0.50"]);
     }
 
     #[test]

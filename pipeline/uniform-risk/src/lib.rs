@@ -7,6 +7,7 @@
 //! | `spectra`, `coefficients`, `site_risk` | spectra of all sites and their fits; the same site by site |
 //! | `epistemic` | spectra of weighted hazard curves and of structures that are not known exactly |
 //! | `precision` | how well the records know the spectra |
+//! | `displacement` | displacements with their confidence bands, at any strength and risk |
 //! | [`consistency`] | whether the records have the hazard of the other measure, and weights by which they do |
 //! | `asked`, `study_of_result` | a result asked for other risks; its study and records read again |
 //! | `event_risk` | how often something happens to a structure |
@@ -14,6 +15,7 @@
 mod asked;
 mod coefficients;
 pub mod consistency;
+mod displacement;
 mod epistemic;
 mod error;
 mod event_risk;
@@ -27,12 +29,15 @@ mod units;
 
 pub use asked::{AskedRisk, RiskTargets, at, stored_spectra};
 pub use coefficients::{Coefficients, fit_ordinates, fit_spectra, fit_spectrum};
+pub use displacement::{
+    CONFIDENCE, Displacement, DisplacementOptions, DisplacementReport, StrengthPlace, displacements,
+};
 pub use epistemic::{BRANCHES, BranchSpectra, write_branch_spectra};
 pub use error::UniformRiskError;
 pub use event_risk::{BOUND_CONFIDENCE, EventRisk, at_most_per_year, share_at_most};
 pub use precision::{Precision, precision};
 pub use site_risk::{SiteRisk, SiteSpectra};
-pub use spectra::{Reading, Spectra, SpectrumReport, pooled_demand, uniform_risk_spectra};
+pub use spectra::{Reading, Spectra, pooled_demand, uniform_risk_spectra};
 pub use stored_stripes::{StoredMeasure, StoredStripes, branch_weights};
 pub use stripes::{
     Stripes, plan_levels, plan_own_stripes, plan_stripes, seen, shaken_upwards, stripes_of, systems, systems_under,

@@ -39,19 +39,6 @@ impl Spectra {
     }
 }
 
-/// One spectrum.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SpectrumReport {
-    /// The site.
-    pub site: String,
-    /// `PGV` or `PGA`.
-    pub im: &'static str,
-    /// Position of the probability.
-    pub poe: usize,
-    /// Displacements over the strengths, m; infinite where censored.
-    pub u_m: Vec<f64>,
-}
-
 /// How ordinates are read: the target rates and the thresholds of a study.
 pub struct Reading {
     /// Target rates, 1/yr, one a probability.

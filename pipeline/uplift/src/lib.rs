@@ -45,9 +45,11 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`run`](mod@run), [`plan`](mod@plan), [`shard`] | a study of either kind carried out, planned, shared |
+//! | [`init`](mod@init) | a small study to start from |
 //! | [`frame`], [`lock`](mod@lock) | what the kinds of study share; one run at a time for one result |
 //! | [`events`] | what a job tells while it works, and how it is stopped |
 //! | [`uniform_risk`] | studies of uniform risk: stripes, spectra, coefficients |
+//! | [`mod@spectrum`] | displacements with confidence bands, read off a result at any strength and return period |
 //! | [`displacement`] | studies of displacement spectra of record sets |
 //! | [`mod@shake_table`] | studies of a shaking table: its tests, and what a frame does in them |
 //! | [`bootstrap`], [`influence`], [`efficiency`] | how sure a spectrum is, and what carries it |
@@ -69,10 +71,12 @@
 //! | [`text`] | numbers in words |
 
 mod error;
+pub mod init;
 pub mod plan;
 mod result_of;
 pub mod run;
 pub mod shard;
+pub mod spectrum;
 pub mod status;
 pub mod sweep;
 pub mod verify;

@@ -7,6 +7,8 @@ pub(super) mod influence;
 pub(super) mod measures;
 pub(super) mod plot;
 pub(super) mod report;
+pub(super) mod spectrum;
 pub(super) mod status;
 pub(super) mod table;
 pub(super) mod verify;
+pub(super) mod warnings;

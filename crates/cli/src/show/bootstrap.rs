@@ -1,17 +1,41 @@
-//! How sure the spectra are: Table 4.1, what it means in words, and rocking initiation.
+//! Confidence bands: of the spectrum that a run shows, and in detail Table 4.1 and rocking initiation.
 
 use std::io::Write;
 
 use uplift::bootstrap::{Bands, BootstrapReport, BootstrapRow, Initiation, JointBands, MANY_FAILED, ReferenceRow};
 use uplift::text::{Table, per_cent, risk_in_words, risk_name};
 
-use super::shown_path;
+use uplift::uniform_risk::DisplacementReport;
+
+use super::spectrum::print_displacements;
+use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
-/// The report for people; a quiet terminal gets the tables alone.
-pub(crate) fn print_bootstrap(report: &BootstrapReport, terminal: &Terminal) -> Result<(), CommandError> {
+/// The bands of `shown` displacements and how they depend on the number of records; in detail Table 4.1 and all
+/// other figures. A quiet terminal gets the tables alone.
+pub(crate) fn print_bootstrap(
+    report: &BootstrapReport,
+    shown: &DisplacementReport,
+    terminal: &Terminal,
+) -> Result<(), CommandError> {
     let out = &mut output();
+    print_displacements(out, shown, terminal)?;
+    if terminal.shows_details() || !report.reference.is_empty() {
+        print_details(out, report)?;
+    }
+    if !terminal.is_quiet() {
+        print_sizes(out, report, shown)?;
+        let tables = report.tables.each_ref().map(|file| shown_path(file).display().to_string());
+        writeln!(out, "\nBands    /bootstrap in {}", shown_path(&report.result).display())?;
+        writeln!(out, "Tables   {}", tables.join(", "))?;
+        print_more(out, terminal)?;
+    }
+    Ok(())
+}
+
+/// Table 4.1 for each probability, repaired and joint bands, and rocking initiation.
+fn print_details(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
     for (poe, &probability) in report.poes.iter().enumerate() {
         // Table 4.1 is about the rarest
         let rarest = report.poes.iter().all(|&other| other >= probability);
@@ -19,18 +43,8 @@ pub(crate) fn print_bootstrap(report: &BootstrapReport, terminal: &Terminal) -> 
     }
     print_repaired(out, report)?;
     print_inferred(out, report)?;
-    if !terminal.is_quiet() {
-        print_reading(out, report)?;
-    }
     print_joint(out, report)?;
-    print_initiation(out, report)?;
-    if !terminal.is_quiet() {
-        writeln!(out, "\nBands: /bootstrap in {}", shown_path(&report.result).display())?;
-        for file in &report.tables {
-            writeln!(out, "       {}", shown_path(file).display())?;
-        }
-    }
-    Ok(())
+    print_initiation(out, report)
 }
 
 fn print_figures(
@@ -150,45 +164,26 @@ fn print_inferred(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
     Ok(())
 }
 
-/// What the figures mean, in sentences.
-fn print_reading(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
-    let sizes = &report.sizes;
-    writeln!(
-        out,
-        "\nIn words, at the strength where the band of the truth is widest in metres, with {} confidence (where \
-         displacements are small, at higher strengths, it may be many times as wide in per cent: see the bands):",
-        per_cent(report.confidence)
-    )?;
-    for bands in &report.bands {
-        let label = bands.measure.label();
-        for &probability in &report.poes {
-            let parts: Vec<String> = sizes.iter().map(|&size| known_from(report, (label, probability), size)).collect();
-            writeln!(
-                out,
-                "  {label}, {}: the spectrum is known from {}",
-                risk_in_words(probability, report.years),
-                parts.join("; ")
-            )?;
-        }
+/// How wide the band is for each number of records, over all sites.
+fn print_sizes(out: &mut impl Write, report: &BootstrapReport, shown: &DisplacementReport) -> Result<(), CommandError> {
+    let [first, ..] = &shown.displacements[..] else { return Ok(()) };
+    writeln!(out, "\nWidest band of all sites, relative to the displacement, by number of records")?;
+    for &size in &report.sizes {
+        writeln!(out, "  {}", known_from(report, (first.im, first.poe), size))?;
     }
     Ok(())
 }
 
-/// How well so many records know the spectra by a measure at a probability, over all sites.
+/// The limits of the band from so many records, of a measure and probability, relative to the ordinate.
 fn known_from(report: &BootstrapReport, (im, poe): (&str, f64), size: u32) -> String {
     let is_asked = |row: &&BootstrapRow| row.im == im && row.sample_size == size && row.poe.total_cmp(&poe).is_eq();
     let found: Vec<[f64; 2]> =
         report.rows.iter().filter(is_asked).filter_map(|row| Some(row.inferred?.truth)).collect();
-    let range = |limit: usize| {
-        let mut limits: Vec<f64> = found.iter().map(|limits| limits[limit]).collect();
-        limits.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let (least, most) = (limits.first()?, limits.last()?);
-        let (least, most) = (format!("{least:+.0}"), format!("{most:+.0}"));
-        Some(if least == most { most } else { format!("{least} to {most}") })
-    };
-    match (range(0), range(1)) {
-        (Some(lower), Some(upper)) => format!("{size} records, within {lower} % and {upper} %"),
-        _ => format!("{size} records, not at all (overturning, or no displacement)"),
+    // the limit that is furthest from the ordinate, of all sites
+    let widest = |limit: usize| found.iter().map(|limits| limits[limit]).max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    match (widest(0), widest(1)) {
+        (Some(lower), Some(upper)) => format!("{size} records: {lower:+.0} % to {upper:+.0} %"),
+        _ => format!("{size} records: none (overturning, or no displacement)"),
     }
 }
 

@@ -5,17 +5,47 @@ use std::io::Write;
 use uplift::consistency::{ConsistencyReport, ConsistencyRow, RepairRow};
 use uplift::text::{Table, per_cent, risk_name, risks_in_words};
 
-use super::shown_path;
+use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
-/// The report for people; a quiet terminal gets the tables alone.
+/// The verdicts; in detail levels, scale factors, earthquakes and agreement. A quiet terminal gets the tables alone.
 pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
     if report.rows.is_empty() {
         writeln!(out, "{}", report.note)?;
         return Ok(());
     }
+    print_answer(out, report)?;
+    if terminal.shows_details() {
+        print_details(out, report)?;
+    }
+    if !terminal.is_quiet() {
+        print_end(out, report)?;
+    }
+    print_more(out, terminal)
+}
+
+/// How far each set of scaled records is from the site's hazard of the other measure.
+fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
+    let is_repaired = report.rows.iter().any(|row| row.repair.is_some());
+    let repair = |row: &ConsistencyRow| match row.repair.as_ref() {
+        Some(RepairRow { failed: None, least_effective: Some(least), .. }) => {
+            format!("{least:.0} of {} records", report.records)
+        }
+        Some(_) => "no weights found".to_owned(),
+        None => "-".to_owned(),
+    };
+    let table = Table::of(&report.rows)
+        .left("site", |row| &row.site)
+        .left("records scaled to", |row| row.scaled_to)
+        .right("have times the site's", |row| format!("{} {}", number(row.bias, 2), row.shows))
+        .right("verdict", |row| row.verdict.unwrap_or("-"))
+        .when(is_repaired, |table| table.right("repaired, effective", repair));
+    Ok(writeln!(out, "{table}")?)
+}
+
+fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     print_levels(out, report)?;
     if !report.unasked.is_empty() {
         writeln!(out, "\nnot asked, for want of curves of two measures: {}", report.unasked.join(", "))?;
@@ -25,22 +55,23 @@ pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal)
     print_two_sided(out, report)?;
     print_agreement(out, report)?;
     for warning in &report.warnings {
-        writeln!(out, "\ncaution: {warning}")?;
+        writeln!(out, "\nWarning: {warning}")?;
     }
-    if !terminal.is_quiet() {
-        let is_repaired = |row: &ConsistencyRow| row.repair.as_ref().is_some_and(|repair| repair.failed.is_none());
-        if report.rows.iter().any(is_repaired) {
-            writeln!(
-                out,
-                "\nThe spectra of these weights: uplift table, report and export show them beside the plain ones"
-            )?;
-        }
-        if let Some(result) = &report.result {
-            writeln!(out, "\nAll of it: /consistency in {}", shown_path(result).display())?;
-        }
-        if let Some(path) = &report.table {
-            writeln!(out, "           {}", shown_path(path).display())?;
-        }
+    Ok(())
+}
+
+/// What to do next, and where everything is.
+fn print_end(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
+    let Some(result) = report.result.as_ref().map(|result| shown_path(result).display()) else { return Ok(()) };
+    let is_repaired = |row: &ConsistencyRow| row.repair.as_ref().is_some_and(|repair| repair.failed.is_none());
+    if report.rows.iter().any(is_repaired) {
+        writeln!(out, "\nRepaired spectra: uplift spectrum {result} --repaired")?;
+    } else if report.rows.iter().any(|row| row.verdict == Some("inconsistent") && row.repair.is_none()) {
+        writeln!(out, "\nRepair: uplift consistency {result} --repair")?;
+    }
+    writeln!(out, "Result   /consistency in {result}")?;
+    if let Some(path) = &report.table {
+        writeln!(out, "Table    {}", shown_path(path).display())?;
     }
     Ok(())
 }

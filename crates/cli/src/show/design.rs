@@ -3,17 +3,19 @@
 use std::io::Write;
 
 use uplift::alarms::Severity;
-use uplift::structure::{Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome};
-use uplift::text::{Table, risk_in_words, short};
+use uplift::structure::{
+    Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome, StructureReport,
+};
+use uplift::text::{Table, metres_with_band, risk_in_words, short};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
-use super::alarms::print_alarms;
-use super::shown_path;
+use super::alarms::print_warnings;
 use super::structure::{limit, lines, rate, risk_cells};
 use super::uncertainty::print_uncertainty;
+use super::{print_more, shown_path};
 use crate::error::CommandError;
-use crate::terminal::output;
+use crate::terminal::{Terminal, output};
 
 /// A displacement; infinite where the structure overturns.
 fn metres(value_m: f64) -> String {
@@ -29,9 +31,70 @@ fn relative(error: f64) -> String {
     }
 }
 
-/// The design: structure, demands, rules, risk, and what of it is noise.
-pub(crate) fn print_design(report: &DesignReport) -> Result<(), CommandError> {
+/// The verdict, demand and risk; in detail structure, rules, and what of the numbers is noise.
+pub(crate) fn print_design(report: &DesignReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
+    print_answer(out, report)?;
+    if terminal.shows_details() {
+        print_details(out, report)?;
+    }
+    print_warnings(out, &report.alarms, None)?;
+    print_more(out, terminal)
+}
+
+/// What an engineer asks first.
+fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
+    let StructureReport { name, capacity_m, .. } = &report.structure;
+    let checks: Vec<_> = report.rules.iter().filter_map(|rule| Some((rule.rule, rule.check()?))).collect();
+    let verdict = |(rule, check): &(Rule, &RuleCheck)| {
+        let word = if check.satisfied { "satisfied" } else { "NOT satisfied" };
+        format!("{word} by {} (requires {:.2} m)", rule.words(), check.required_capacity_m)
+    };
+    let has =
+        capacity_m.map_or_else(|| "no capacity: the force does not fall".to_owned(), |m| format!("capacity {m:.2} m"));
+    let verdicts: Vec<String> = checks.iter().map(verdict).collect();
+    writeln!(
+        out,
+        "Verdict   {name}, {has}: {}",
+        if verdicts.is_empty() { "no rule applies".to_owned() } else { verdicts.join(", ") }
+    )?;
+    if !checks.is_empty() {
+        writeln!(out, "          with a safety factor of {} (Eq. 3.15)", report.required_safety_factor)?;
+    }
+    if let Some(exact) = &report.exact {
+        let bands = exact.bands.as_ref();
+        let band_m = bands.map(|bands| bands.demand_m.by_record);
+        writeln!(out, "Demand    {} on the structure itself", metres_with_band(exact.demand_m, band_m))?;
+        if let Some(risk) = &exact.beyond_capacity {
+            let band = |band: Option<Bands>| {
+                band.map_or_else(String::new, |of| {
+                    format!(" ({} to {})", limit(of.by_record[0]), limit(of.by_record[1]))
+                })
+            };
+            let [beyond, ..] = risk_cells(risk);
+            let [overturning, ..] = risk_cells(&exact.overturning);
+            writeln!(
+                out,
+                "Rate      capacity exceeded {beyond} per year{}",
+                band(bands.and_then(|of| of.beyond_capacity_per_year))
+            )?;
+            writeln!(
+                out,
+                "          overturning {overturning} per year{}",
+                band(bands.and_then(|of| of.overturning_per_year))
+            )?;
+        }
+    } else if let Some(spectrum) = &report.spectrum {
+        let demand = metres_with_band(spectrum.zero_stiffness_demand_m, None);
+        writeln!(out, "Demand    {demand} by the spectrum at strength {:.4}", spectrum.strength)?;
+    }
+    let risk = risk_in_words(report.poe, report.years);
+    writeln!(out, "At        {} by {}, {risk}; {}", report.site, report.spectrum_words(), report.source.record_set)?;
+    Ok(())
+}
+
+fn print_details(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
+    writeln!(out)?;
     for line in lines(&report.structure) {
         writeln!(out, "{line}")?;
     }
@@ -57,7 +120,7 @@ pub(crate) fn print_design(report: &DesignReport) -> Result<(), CommandError> {
     if let Some(uncertainty) = &report.uncertainty {
         print_uncertainty(out, uncertainty)?;
     }
-    print_alarms(out, &report.alarms)
+    Ok(())
 }
 
 /// Displacements of the structure, from the spectrum and exact.

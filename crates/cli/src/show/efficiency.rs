@@ -5,7 +5,7 @@ use std::io::Write;
 use uplift::efficiency::{EfficiencyReport, EfficiencyRow, Trend};
 use uplift::text::{Table, nearest};
 
-use super::shown_path;
+use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -20,14 +20,16 @@ pub(crate) fn print_efficiency(report: &EfficiencyReport, terminal: &Terminal) -
     let shown = nearest(&report.strengths, &SHOWN_STRENGTHS);
     let measures: Vec<&[EfficiencyRow]> = report.rows.chunks(report.strengths.len()).collect();
     let shown = Shown { report, measures, strengths: shown };
-    shown.print_scatter(out)?;
-    shown.print_trends(out)?;
-    if !terminal.is_quiet() {
-        shown.print_reading(out)?;
-        writeln!(out, "\nAll of it: /efficiency and /sufficiency in {}", shown_path(&report.result).display())?;
-        writeln!(out, "           {}", shown_path(&report.table).display())?;
+    shown.print_reading(out)?;
+    if terminal.shows_details() {
+        shown.print_scatter(out)?;
+        shown.print_trends(out)?;
     }
-    Ok(())
+    if !terminal.is_quiet() {
+        writeln!(out, "\nResult   /efficiency and /sufficiency in {}", shown_path(&report.result).display())?;
+        writeln!(out, "Table    {}", shown_path(&report.table).display())?;
+    }
+    print_more(out, terminal)
 }
 
 /// What is shown of a report: a row a measure, a column a strength.
@@ -105,20 +107,39 @@ impl Shown<'_> {
     }
 
     fn print_reading(&self, out: &mut impl Write) -> Result<(), CommandError> {
-        writeln!(out, "\nIn words:")?;
         for (what, of) in [
             ("the displacement of a rocking structure", (|row| row.dispersion_level) as fn(&EfficiencyRow) -> f64),
             ("the onset of rocking", |row| row.dispersion_initiation),
         ] {
-            writeln!(out, "  {}", self.most_efficient(what, of))?;
+            writeln!(out, "{}", self.most_efficient(what, of))?;
         }
-        writeln!(
-            out,
-            "  a measure serves a risk analysis only if hazard curves of it can be had: for PGV, PGA and SA ground \
-             motion models and\n  maps exist"
-        )?;
+        let label = |rows: &[EfficiencyRow]| {
+            if rows[0].is_told() { format!("{} +", rows[0].im) } else { rows[0].im.to_owned() }
+        };
+        let mean = |rows: &[EfficiencyRow], of: fn(&EfficiencyRow) -> f64| {
+            let known: Vec<f64> =
+                self.strengths.iter().map(|&at| of(&rows[at])).filter(|value| value.is_finite()).collect();
+            number(known.iter().sum::<f64>() / known.len() as f64, 2)
+        };
+        let insufficient = |rows: &[EfficiencyRow]| {
+            let is_trend = |&&at: &&usize, name: &str| {
+                rows[at].trends.get(name).and_then(|of| of.p_value).is_some_and(|p| p < SIGNIFICANT)
+            };
+            let with = self.report.covariates.iter().filter(|name| self.strengths.iter().any(|at| is_trend(&at, name)));
+            let names: Vec<&str> = with.map(|name| &**name).collect();
+            if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+        };
+        let table = Table::of(&self.measures)
+            .left("measure", |rows| label(rows))
+            .right("scatter, displacement", |rows| mean(rows, |row| row.dispersion_level))
+            .right("scatter, initiation", |rows| mean(rows, |row| row.dispersion_initiation))
+            .right("trend with", |rows| insufficient(rows));
+        writeln!(out, "\n{table}")?;
+        if self.rows().any(EfficiencyRow::is_told) {
+            writeln!(out, "+ from runs scaled to another measure")?;
+        }
         if self.report.records < 30 {
-            writeln!(out, "  with {} records a p-value finds only strong trends", self.report.records)?;
+            writeln!(out, "With {} records only strong trends are found.", self.report.records)?;
         }
         Ok(())
     }
@@ -134,13 +155,13 @@ impl Shown<'_> {
         let mut names = winners.clone();
         names.dedup();
         match names[..] {
-            [] => format!("for {what} the stripes do not tell which is the most efficient"),
-            [one] => format!("{one} is the most efficient for {what}, at every strength shown"),
+            [] => format!("Most efficient for {what}: not known from these stripes"),
+            [one] => format!("Most efficient for {what}: {one}"),
             _ => {
                 let at = winners.iter().zip(self.strengths.iter().filter(|index| best(index).is_some()));
                 let told: Vec<String> =
                     at.map(|(name, &index)| format!("{name} at {:.3}", self.report.strengths[index])).collect();
-                format!("the most efficient for {what}: {}", told.join(", "))
+                format!("Most efficient for {what}: {}", told.join(", "))
             }
         }
     }

@@ -6,7 +6,7 @@ use std::path::Path;
 use uplift::response::{FrameResponseReport, FrameRun};
 use uplift_frame::Model;
 
-use super::alarms::print_alarms;
+use super::alarms::print_warnings;
 use super::response::{print_files, print_record};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -43,7 +43,7 @@ pub(crate) fn print_frame_response(
     for note in &report.notes {
         writeln!(out, "note      {note}")?;
     }
-    print_alarms(&mut out, &report.alarms)?;
+    print_warnings(&mut out, &report.alarms, None)?;
     print_files(report.history_file.as_deref(), figure, terminal)
 }
 

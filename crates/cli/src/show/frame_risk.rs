@@ -3,13 +3,13 @@
 use std::io::Write;
 
 use uplift::structure::{Banded, FrameRiskReport, ModelDemand};
-use uplift::text::{Table, risk_in_words, short};
+use uplift::text::{Table, metres_with_band, risk_in_words, short};
 
-use super::alarms::print_alarms;
-use super::shown_path;
+use super::alarms::print_warnings;
 use super::structure::{lines, risk_cells};
+use super::{print_more, shown_path};
 use crate::error::CommandError;
-use crate::terminal::output;
+use crate::terminal::{Terminal, output};
 
 /// A displacement; infinite where the structure overturns.
 fn metres(value_m: f64) -> String {
@@ -24,9 +24,36 @@ fn band(of: &Banded, shown: fn(f64) -> String) -> String {
     format!("{} to {}", shown(of.lower), shown(of.upper))
 }
 
-/// The risk: demands, what they mean for the restrainers, events, overturning, directions.
-pub(crate) fn print_frame_risk(report: &FrameRiskReport) -> Result<(), CommandError> {
+/// Demand and overturning of the frame; in detail restrainers, events and directions.
+pub(crate) fn print_frame_risk(report: &FrameRiskReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
+    print_answer(out, report)?;
+    if terminal.shows_details() {
+        print_details(out, report)?;
+    }
+    print_warnings(out, &report.alarms, None)?;
+    print_more(out, terminal)
+}
+
+/// The demand on the frame with its band, what its proxies say, and how often it overturns.
+fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
+    let [frame, proxies @ ..] = &report.demands[..] else { return Ok(()) };
+    let Banded { value, lower, upper } = frame.demand_m;
+    let demand = metres_with_band(value, Some([lower, upper]));
+    writeln!(out, "Demand       {demand} on {}, {}", report.structure.name, frame.model)?;
+    for proxy in proxies {
+        let of = proxy.error.as_ref().map_or_else(String::new, |error| format!(" ({})", per_cent(error.value)));
+        writeln!(out, "  {}: {}{of}", proxy.model, metres_with_band(proxy.demand_m.value, None))?;
+    }
+    let [per_year, _, return_period] = risk_cells(&report.overturning.risk);
+    writeln!(out, "Overturning  {per_year} per year, once in {return_period} years")?;
+    let risk = risk_in_words(report.poe, report.years);
+    writeln!(out, "At           {} by {}, {risk}; {}", report.site, report.im, report.source.record_set)?;
+    Ok(())
+}
+
+fn print_details(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
+    writeln!(out)?;
     for line in lines(&report.structure) {
         writeln!(out, "{line}")?;
     }
@@ -50,8 +77,7 @@ pub(crate) fn print_frame_risk(report: &FrameRiskReport) -> Result<(), CommandEr
     print_demands(out, report)?;
     print_state(out, report)?;
     print_events(out, report)?;
-    print_direction(out, report)?;
-    print_alarms(out, &report.alarms)
+    print_direction(out, report)
 }
 
 fn print_demands(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {

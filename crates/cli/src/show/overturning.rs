@@ -6,16 +6,48 @@ use uplift::structure::{CollapseReport, OverturningReport, SiteRisk};
 use uplift::text::{Table, share};
 use uplift_spectra::Noisy;
 
-use super::alarms::print_alarms;
-use super::shown_path;
+use super::alarms::print_warnings;
 use super::structure::{limit, lines, rate, risk_cells};
 use super::uncertainty::print_uncertainty;
+use super::{print_more, shown_path};
 use crate::error::CommandError;
-use crate::terminal::output;
+use crate::terminal::{Terminal, output};
 
-/// The overturning of a structure: models, fragility, risk.
-pub(crate) fn print_overturning(report: &OverturningReport) -> Result<(), CommandError> {
+/// How often a structure overturns; in detail its models, fragility and tails.
+pub(crate) fn print_overturning(report: &OverturningReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
+    print_answer(out, report)?;
+    if terminal.shows_details() {
+        print_details(out, report)?;
+    }
+    print_warnings(out, &report.alarms, None)?;
+    print_more(out, terminal)
+}
+
+/// The rate of every site by measure and model, with its band.
+fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
+    writeln!(out, "{} overturns so often a year (90 % confidence band)", report.structure.name)?;
+    let sites = report.overturning.first().map_or(&[][..], |found| &found.sites[..]);
+    let cell = |of: &SiteRisk| {
+        let [per_year, ..] = risk_cells(&of.risk);
+        let band = of.bands.map_or_else(String::new, |bands| {
+            let [lower, upper] = bands.by_record.map(|per_year| format!("{per_year:.1e}"));
+            format!(" ({lower}–{upper})")
+        });
+        let per_year = if of.risk.per_year > 0.0 { format!("{:.1e}", of.risk.per_year) } else { per_year };
+        format!("{per_year}{band}")
+    };
+    let table = Table::of(sites.iter().enumerate())
+        .left("site", |(_, of)| &of.site)
+        .each(&report.overturning, |table, found| {
+            table.right(format!("{}, {}", found.model, found.im), |(site, _)| cell(&found.sites[site]))
+        });
+    writeln!(out, "{table}\n{}", report.source.record_set)?;
+    Ok(())
+}
+
+fn print_details(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
+    writeln!(out)?;
     for line in lines(&report.structure) {
         writeln!(out, "{line}")?;
     }
@@ -40,7 +72,7 @@ pub(crate) fn print_overturning(report: &OverturningReport) -> Result<(), Comman
     if let Some(uncertainty) = &report.uncertainty {
         print_uncertainty(out, uncertainty)?;
     }
-    print_alarms(out, &report.alarms)
+    Ok(())
 }
 
 /// A count, with an asterisk where rounding decides it.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use uplift::response::{BlockResponseReport, ResponseReport, ShakenBy};
 
-use super::alarms::print_alarms;
+use super::alarms::print_warnings;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -31,7 +31,7 @@ pub(crate) fn print_response(
             report.impacts
         )?;
     }
-    print_alarms(&mut out, &report.alarms)?;
+    print_warnings(&mut out, &report.alarms, None)?;
     print_files(report.history_file.as_deref(), figure, terminal)
 }
 
@@ -73,7 +73,7 @@ pub(crate) fn print_block_response(
     if report.chatter_was_cut {
         terminal.say("note: a nearly elastic block rebounded 100,000 times in a sample interval, and was put to rest");
     }
-    print_alarms(&mut out, &report.alarms)?;
+    print_warnings(&mut out, &report.alarms, None)?;
     print_files(report.history_file.as_deref(), figure, terminal)
 }
 

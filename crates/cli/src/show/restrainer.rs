@@ -6,7 +6,7 @@ use uplift::restrainer::{RestrainerCurve, RestrainerDesign, stack_name};
 use uplift::text::{Table, TableOf};
 use uplift_statics::Candidate;
 
-use super::{print_files, shown_path};
+use super::{print_files, print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -55,10 +55,43 @@ pub(crate) fn print_restrainer_curve(report: &RestrainerCurve, terminal: &Termin
     print_files(&report.files, terminal)
 }
 
-/// The target, the stacks, and what imperfections do to the first.
+/// The best stacks; in detail all of them, their states, and what imperfections do to the first.
 pub(crate) fn print_restrainer_design(report: &RestrainerDesign, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
-    writeln!(out, "structure  {} ({})", report.name, shown_path(&report.file).display())?;
+    print_best(&mut out, report)?;
+    if terminal.shows_details() {
+        print_details(&mut out, report)?;
+    }
+    print_more(&mut out, terminal)?;
+    drop(out);
+    print_files(&report.files, terminal)
+}
+
+/// The best stack, and the next two.
+fn print_best(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), CommandError> {
+    match report.stacks.first() {
+        Some(best) => writeln!(out, "Stack     {} for {}", stack_name(best), report.name)?,
+        None => writeln!(out, "Stack     none meets the target and limits")?,
+    }
+    writeln!(out, "Target    {}", report.target.words)?;
+    writeln!(
+        out,
+        "Found     {} of {} discs in {}",
+        report.found,
+        report.discs,
+        shown_path(&report.catalogue).display()
+    )?;
+    let table = Table::of(report.stacks.iter().take(3))
+        .left("stack", stack_name)
+        .right("miss, %", |stack| format!("{:+.1}", 100.0 * stack.miss))
+        .right("T, kN", |stack| kilo(stack.tendon_n))
+        .right("of stroke, %", |stack| format!("{:.0}", 100.0 * stack.stroke_share))
+        .right("u_cap, m", |stack| metres_or("none", stack.capacity_m));
+    if table.is_empty() { Ok(()) } else { Ok(writeln!(out, "\n{table}")?) }
+}
+
+fn print_details(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), CommandError> {
+    writeln!(out, "\nstructure  {} ({})", report.name, shown_path(&report.file).display())?;
     let target = &report.target;
     writeln!(out, "target     {}", target.words)?;
     writeln!(
@@ -94,9 +127,7 @@ pub(crate) fn print_restrainer_design(report: &RestrainerDesign, terminal: &Term
         .left(format!("{} with", report.tolerances_of), |tolerance| &tolerance.imperfection)
         .right("u_cap, m", |tolerance| metres_or("none", tolerance.capacity_m))
         .right("change, %", |tolerance| change(tolerance.change));
-    writeln!(out, "\n{table}")?;
-    drop(out);
-    print_files(&report.files, terminal)
+    Ok(writeln!(out, "\n{table}")?)
 }
 
 fn stacks(stacks: &[Candidate]) -> TableOf<&Candidate> {

@@ -6,7 +6,8 @@ use std::io::Write;
 use uplift::sweep::{SweepReport, VariantReport};
 use uplift::text::{Table, metres, nearest, risk_in_words};
 
-use super::shown_path;
+use super::alarms::{SHOWN, warning};
+use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -30,7 +31,8 @@ pub(crate) fn print_sweep(report: &SweepReport, terminal: &Terminal) -> Result<(
     let is_repaired = spectra().any(|spectrum| spectrum.repaired_m.is_some());
     let u_m = if is_repaired { "m (repaired)" } else { "m" };
     header.extend(["risk", "strength", u_m, "strength", u_m, "strength", u_m]);
-    for im in measures {
+    let shown = if terminal.shows_details() { usize::MAX } else { 1 };
+    for im in measures.into_iter().rev().take(shown) {
         for site in &sites {
             let rows = report.variants.iter().map(|variant| row(variant, im, site));
             let table = Table::new(header.iter().copied(), rows);
@@ -38,30 +40,34 @@ pub(crate) fn print_sweep(report: &SweepReport, terminal: &Terminal) -> Result<(
         }
     }
     if !terminal.is_quiet() {
-        print_cautions(out, report)?;
-        writeln!(out, "\nAll spectra of all variants: {}", shown_path(&report.table).display())?;
+        print_cautions(out, report, shown)?;
+        writeln!(out, "\nTable    {}", shown_path(&report.table).display())?;
     }
-    Ok(())
+    print_more(out, terminal)
 }
 
 /// What is to be seen to before the numbers are used, once for all variants of which it is to be said.
-fn print_cautions(out: &mut impl Write, report: &SweepReport) -> Result<(), CommandError> {
+fn print_cautions(out: &mut impl Write, report: &SweepReport, shown: usize) -> Result<(), CommandError> {
     let mut said: Vec<(String, Vec<&str>)> = Vec::new();
     for variant in &report.variants {
         for alarm in &variant.alarms {
-            let line = format!("{}: {alarm}", alarm.severity.word());
+            let line = warning(alarm);
             match said.iter_mut().find(|(known, _)| *known == line) {
                 Some((_, variants)) => variants.push(&variant.name),
                 None => said.push((line, vec![&variant.name])),
             }
         }
     }
-    for (line, variants) in said {
+    if !said.is_empty() {
+        writeln!(out, "\nWarnings")?;
+    }
+    let (count, shown) = (said.len(), shown.max(SHOWN));
+    for (line, variants) in said.into_iter().take(shown) {
         let all = variants.len() == report.variants.len();
         let of = if all { "all variants".to_owned() } else { variants.join(", ") };
-        writeln!(out, "\n{line} ({of})")?;
+        writeln!(out, "  {line} ({of})")?;
     }
-    Ok(())
+    if count > shown { Ok(writeln!(out, "  {} more: --details", count - shown)?) } else { Ok(()) }
 }
 
 /// One variant: its values, and its displacements at the strengths nearest to those shown.

@@ -10,7 +10,7 @@ use uplift::table::{
 };
 use uplift::text::{Table, kind_of_risks, risk_name, spectrum_words};
 
-use super::alarms::print_alarms;
+use super::alarms::print_warnings;
 use super::shake_table;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -25,7 +25,7 @@ pub(crate) fn print_table(report: &TableReport, terminal: &Terminal) -> Result<(
         TableRows::Tests(tests) => shake_table::print_order(&mut out, tests),
     }?;
     // a quiet terminal gets what was asked for alone
-    if terminal.is_quiet() { Ok(()) } else { print_alarms(&mut out, &report.alarms) }
+    if terminal.is_quiet() { Ok(()) } else { print_warnings(&mut out, &report.alarms, None) }
 }
 
 fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result<(), CommandError> {

@@ -5,16 +5,43 @@ use std::io::Write;
 use uplift::structure::{Drawn, TargetBand, TargetReport};
 use uplift::text::{Table, per_cent, short, thousands};
 
-use super::alarms::print_alarms;
-use super::shown_path;
+use super::alarms::print_warnings;
 use super::structure::{lines, rate, risk_cells};
 use super::uncertainty::{kind_in_words, print_quantities};
+use super::{print_more, shown_path};
 use crate::error::CommandError;
-use crate::terminal::output;
+use crate::terminal::{Terminal, output};
 
-/// The value that was found, how sure it is, and what stands beside it.
-pub(crate) fn print_target(report: &TargetReport) -> Result<(), CommandError> {
+/// The value that was found; in detail how sure it is, and what stands beside it.
+pub(crate) fn print_target(report: &TargetReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
+    print_answer(out, report)?;
+    if terminal.shows_details() {
+        print_details(out, report)?;
+    }
+    print_warnings(out, &report.alarms, None)?;
+    print_more(out, terminal)
+}
+
+/// The least value with its band, and what it is for.
+fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
+    let TargetReport { event, site, im, quantity, target_per_year, value, .. } = report;
+    let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
+    let own = report.own_value.map_or_else(String::new, |own| format!("; the structure has {}", unit(short(own))));
+    let [lower, _, upper] =
+        report.band.value.map(|of| if of.is_finite() { short(of) } else { "beyond the range".to_owned() });
+    let confidence = per_cent(report.band.confidence);
+    writeln!(out, "Least     {quantity} {} ({confidence} band {lower} to {upper}){own}", unit(short(*value)))?;
+    let years = 1.0 / target_per_year;
+    writeln!(out, "Target    {event} at most {target_per_year:.3e} per year (once in {years:.0} years)")?;
+    let [per_year, ..] = risk_cells(&report.risk);
+    writeln!(out, "There     {per_year} per year; missed at {}", unit(short(report.missed_at)))?;
+    writeln!(out, "At        {site} by {im}; {}", report.source.record_set)?;
+    Ok(())
+}
+
+fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
+    writeln!(out)?;
     for line in lines(&report.structure) {
         writeln!(out, "{line}")?;
     }
@@ -72,8 +99,7 @@ pub(crate) fn print_target(report: &TargetReport) -> Result<(), CommandError> {
         print_quantities(out, &uncertain.quantities)?;
     }
     print_crossings(out, report)?;
-    print_beside(out, report)?;
-    print_alarms(out, &report.alarms)
+    print_beside(out, report)
 }
 
 fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) -> Result<(), CommandError> {

@@ -6,17 +6,42 @@ use uplift::text::{Table, share};
 use uplift::validate::{GroupReport, PRule, ValidateReport};
 use uplift_validation::{Pairs, Quantiles};
 
-use super::{print_files, shown_path};
+use super::{print_files, print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
 /// Of what is not defined.
 const NONE: &str = "-";
 
-/// What is compared, the tests, the sizes of differences, the other distances, and what to know.
+/// Test and medians of each group; in detail all tests, sizes of differences, distances and notes.
 pub(crate) fn print_validation(report: &ValidateReport, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
-    writeln!(out, "measured   {}", shown_path(&report.measured).display())?;
+    print_answer(&mut out, report)?;
+    if terminal.shows_details() {
+        print_details(&mut out, report)?;
+    }
+    print_more(&mut out, terminal)?;
+    drop(out);
+    print_files(&report.files, terminal)
+}
+
+/// Whether each group's peaks are distributed alike, by a test and by their medians.
+fn print_answer(out: &mut impl Write, report: &ValidateReport) -> Result<(), CommandError> {
+    let unit = if report.unit.is_empty() { String::new() } else { format!(", {}", report.unit) };
+    let table = Table::of(&report.groups)
+        .left("group", ValidateReport::name)
+        .right("n", |group| group.measured)
+        .right("D", |group| digits(group.kolmogorov_smirnov.distance))
+        .right("p", |group| digits(group.kolmogorov_smirnov.p_exact))
+        .right("evidence of a difference", |group| group.evidence.words())
+        .right(format!("median measured{unit}"), |group| median(group.median_measured, group.median_measured_above))
+        .right("computed", |group| median(group.median_computed, group.median_computed_above))
+        .right("error", |group| group.median_error.map_or_else(dash, signed));
+    Ok(writeln!(out, "{table}")?)
+}
+
+fn print_details(mut out: &mut impl Write, report: &ValidateReport) -> Result<(), CommandError> {
+    writeln!(out, "\nmeasured   {}", shown_path(&report.measured).display())?;
     writeln!(out, "computed   {}", shown_path(&report.computed).display())?;
     let joined = if report.key.is_empty() {
         "two samples, not joined".to_owned()
@@ -30,8 +55,7 @@ pub(crate) fn print_validation(report: &ValidateReport, terminal: &Terminal) -> 
     for note in &report.notes {
         writeln!(out, "note       {note}")?;
     }
-    drop(out);
-    print_files(&report.files, terminal)
+    Ok(())
 }
 
 fn print_tests(out: &mut impl Write, report: &ValidateReport) -> Result<(), CommandError> {

@@ -1,16 +1,18 @@
 //! What a run of a study of uniform risk tells.
 
 use std::path::PathBuf;
+use std::time::Instant;
 
 use serde::Serialize;
-use uplift_job::Array;
-use uplift_job::alarm::Alarm;
+use uplift_alarms::alarms;
 use uplift_job::frame::RunHead;
-use uplift_motion::IntensityMeasure;
+use uplift_result::{ResultFile, Spectrum, SpreadOver, StoredSpread};
+use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::ConsistencyReport;
-use uplift_uniform_risk::{BranchSpectra, Coefficients, Precision, Spectra, SpectrumReport, Stripes};
+use uplift_uniform_risk::{DisplacementOptions, DisplacementReport, Precision, Stripes, displacements};
 
 use super::Outcome;
+use crate::error::StudiesError;
 
 /// What a run tells.
 #[derive(Debug, Clone, Serialize)]
@@ -26,21 +28,12 @@ pub struct RunReport {
     pub precision: Vec<Precision>,
     /// Whether the records bring the hazard of the other measure.
     pub consistency: ConsistencyReport,
-    /// The spectra of weights by which they do, where the study asks for them.
+    /// Displacements with their confidence bands, of the smallest probability by the first measure; none without sites.
     #[serde(skip)]
-    pub repaired: Vec<SpectrumReport>,
-    /// Strengths of the spectra.
+    pub displacements: Option<DisplacementReport>,
+    /// The same of the repaired spectra, where the study asks for them.
     #[serde(skip)]
-    pub strengths: Vec<f64>,
-    /// Probabilities of exceedance.
-    #[serde(skip)]
-    pub poes: Vec<f64>,
-    /// Years that they refer to.
-    #[serde(skip)]
-    pub years: f64,
-    /// The spectra, one a measure, site and probability.
-    #[serde(skip)]
-    pub spectra: Vec<SpectrumReport>,
+    pub repaired: Option<DisplacementReport>,
     /// Their spread over weighted hazard curves, for the sites that have some.
     #[serde(skip)]
     pub branches: Vec<BranchReport>,
@@ -85,9 +78,6 @@ pub struct BranchReport {
     pub site: String,
     /// `PGV` or `PGA`.
     pub im: &'static str,
-    /// Position of the probability.
-    #[serde(skip)]
-    pub poe: usize,
     /// The probability of exceedance.
     #[serde(rename = "poe")]
     pub probability: f64,
@@ -102,89 +92,78 @@ pub struct BranchReport {
 }
 
 impl RunReport {
-    /// The report on what was computed and written.
-    pub(super) fn from_outcome(outcome: &Outcome<'_>, alarms: Vec<Alarm>, files: Vec<PathBuf>, seconds: f64) -> Self {
-        let study = outcome.study;
-        let fits = |coefficients: &Coefficients| -> Vec<CoefficientsReport> {
-            let im = coefficients.measure.label();
-            let report = |([site, poe], fit): ([usize; 2], &[Result<uplift_regression::ExponentialFit, _>])| {
-                let fit = fit[0].as_ref().ok();
-                CoefficientsReport {
-                    site: study.sites[site].name.clone(),
-                    im,
-                    poe: study.risk.poe[poe],
-                    c0: fit.map(|fit| fit.c0),
-                    c1: fit.map(|fit| fit.c1),
-                    c2: fit.map(|fit| fit.c2),
-                    rmse: fit.map(|fit| fit.rmse),
-                    bound_active: fit.map(|fit| fit.bound_active),
-                }
-            };
-            coefficients.fits.blocks().map(report).collect()
+    /// The report on what was computed and written, as far as it can be read off the `file` of the result.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub(super) fn read(
+        file: &ResultFile,
+        outcome: &Outcome<'_>,
+        files: Vec<PathBuf>,
+        start: Instant,
+    ) -> Result<Self, StudiesError> {
+        let (study, spectra) = (outcome.study, file.spectra()?);
+        let shown = |repaired: bool| -> Result<Option<DisplacementReport>, StudiesError> {
+            let asked = DisplacementOptions { repaired, ..DisplacementOptions::default() };
+            let is_there = !study.sites.is_empty() && (!repaired || file.has_repair());
+            Ok(is_there.then(|| displacements(file, &asked)).transpose()?)
         };
+        let spreads = if study.sites.is_empty() { Vec::new() } else { file.spreads()? };
+        let spread_over = |over: SpreadOver| {
+            let of_kind = spreads.iter().filter(|own| own.over == over);
+            of_kind.flat_map(|own| (0..study.risk.poe.len()).map(|poe| BranchReport::new(study, own, poe))).collect()
+        };
+        let plain_m: Vec<_> = spectra.measures.iter().map(|own| (own.measure, own.u_m.clone())).collect();
+        let (displacements, repaired) = (shown(false)?, shown(true)?);
         let records = (outcome.records.description.as_str(), outcome.records.synthetic);
-        Self {
+        let (alarms, seconds) = (alarms(file)?, start.elapsed().as_secs_f64());
+        Ok(Self {
             head: outcome.provenance.head(&study.title, records, alarms, files, seconds),
-            measures: outcome.stripes.iter().map(MeasureReport::from_outcome).collect(),
-            coefficients: outcome.coefficients.iter().flat_map(fits).collect(),
+            measures: outcome.stripes.iter().map(MeasureReport::new).collect(),
+            coefficients: spectra.rows().map(|own| CoefficientsReport::new(&own)).collect(),
             precision: outcome.precision.to_vec(),
-            consistency: outcome.consistency.report(&plain_m(outcome)),
-            repaired: outcome.consistency.repaired_spectra(),
-            strengths: study.strengths.to_vec(),
-            poes: study.risk.poe.clone(),
-            years: study.risk.years,
-            spectra: spectra(outcome),
-            branches: branches(outcome, |spectra| &spectra.branches),
-            structures: branches(outcome, |spectra| &spectra.structures),
+            consistency: outcome.consistency.report(&plain_m),
+            displacements,
+            repaired,
+            branches: spread_over(SpreadOver::HazardCurves),
+            structures: spread_over(SpreadOver::Structures),
+        })
+    }
+}
+
+impl CoefficientsReport {
+    fn new(spectrum: &Spectrum<'_>) -> Self {
+        let fit = spectrum.fit;
+        let number = |of: f64| fit.curve().map(|_| of);
+        Self {
+            site: spectrum.site.to_owned(),
+            im: spectrum.measure.label(),
+            poe: spectrum.poe,
+            c0: number(fit.c0_m),
+            c1: number(fit.c1),
+            c2: number(fit.c2_m),
+            rmse: number(fit.rmse_m),
+            bound_active: fit.curve().map(|_| fit.bound_active),
         }
     }
 }
 
-/// The displacements `[site, poe, strength]` of each measure, m.
-fn plain_m(outcome: &Outcome<'_>) -> Vec<(IntensityMeasure, Array<3>)> {
-    let displacements = |spectra: &Spectra| spectra.ordinates.map(|ordinate| ordinate.displacement_m);
-    outcome.spectra.iter().map(|spectra| (spectra.measure, displacements(spectra))).collect()
-}
-
-fn spectra(outcome: &Outcome<'_>) -> Vec<SpectrumReport> {
-    let mut reports = Vec::new();
-    for spectra in outcome.spectra {
-        for ([site, poe], spectrum) in spectra.ordinates.blocks() {
-            reports.push(SpectrumReport {
-                site: outcome.study.sites[site].name.clone(),
-                im: spectra.measure.label(),
-                poe,
-                u_m: spectrum.iter().map(|ordinate| ordinate.displacement_m).collect(),
-            });
+impl BranchReport {
+    fn new(study: &UniformRiskStudy, spread: &StoredSpread, poe: usize) -> Self {
+        let [mean, low, .., high] = spread.limits_m(poe);
+        Self {
+            site: study.sites[spread.site].name.clone(),
+            im: spread.measure.label(),
+            probability: study.risk.poe[poe],
+            low_m: low.to_vec(),
+            mean_m: mean.to_vec(),
+            high_m: high.to_vec(),
         }
     }
-    reports
-}
-
-fn branches(outcome: &Outcome<'_>, of: fn(&Spectra) -> &[BranchSpectra]) -> Vec<BranchReport> {
-    let mut reports = Vec::new();
-    for spectra in outcome.spectra {
-        for branches in of(spectra) {
-            for poe in 0..outcome.study.risk.poe.len() {
-                let of_poe = |values: &Array<2>| values.block([poe]).to_vec();
-                let [low, .., high] = &branches.spread.fractiles_m;
-                reports.push(BranchReport {
-                    site: outcome.study.sites[branches.site].name.clone(),
-                    im: spectra.measure.label(),
-                    poe,
-                    probability: outcome.study.risk.poe[poe],
-                    low_m: of_poe(low),
-                    mean_m: of_poe(&branches.spread.mean_m),
-                    high_m: of_poe(high),
-                });
-            }
-        }
-    }
-    reports
 }
 
 impl MeasureReport {
-    fn from_outcome(stripes: &Stripes) -> Self {
+    fn new(stripes: &Stripes) -> Self {
         Self {
             im: stripes.measure.label(),
             analyses: stripes.analyses,

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_alarms::alarms;
 use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use uplift_ida::Shard;
 use uplift_inputs::{input_checksums, read_hazard, read_other_hazard};
@@ -103,6 +102,5 @@ pub fn run(
     }
     files.extend(sites.finish()?);
     // the summary says what every other look at the file says
-    let alarms = alarms(&ResultFile::open(path)?)?;
-    Ok(RunReport::from_outcome(&outcome, alarms, files, place.start.elapsed().as_secs_f64()))
+    RunReport::read(&ResultFile::open(path)?, &outcome, files, place.start)
 }

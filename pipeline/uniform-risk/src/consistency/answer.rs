@@ -4,13 +4,11 @@ use uplift_inputs::{OtherHazard, RecordSet, SiteHazard};
 use uplift_job::Array;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
-use uplift_risk::Ordinate;
 use uplift_study::{Repair, UniformRiskStudy};
 
 use super::spectra::{Repairs, repaired_spectra};
 use super::write::{Keep, add};
 use super::{ConsistencyReport, Finding, Question};
-use crate::SpectrumReport;
 use crate::error::UniformRiskError;
 use crate::spectra::pooled_demand;
 use crate::stripes::Stripes;
@@ -72,23 +70,6 @@ impl Answer {
     /// A file that cannot be written.
     pub fn add(&self, writer: &mut LabelledWriter, keep: Keep) -> Result<(), LabelledError> {
         add(writer, &self.question, &self.findings, &self.repairs, keep)
-    }
-
-    /// The repaired spectra; NaN where a set could not be repaired.
-    pub fn repaired_spectra(&self) -> Vec<SpectrumReport> {
-        let mut reports = Vec::new();
-        for repairs in &self.repairs {
-            for ([site, poe], spectrum) in repairs.ordinates.blocks() {
-                let displacement = |ordinate: &Option<Ordinate>| ordinate.map_or(f64::NAN, |own| own.displacement_m);
-                reports.push(SpectrumReport {
-                    site: self.question.sites[site].clone(),
-                    im: repairs.measure.label(),
-                    poe,
-                    u_m: spectrum.iter().map(displacement).collect(),
-                });
-            }
-        }
-        reports
     }
 
     /// What is told of it beside the plain spectra.

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use uplift::bootstrap::{BootstrapOptions, bootstrap as run, read_reference};
+use uplift::spectrum::spectrum;
+use uplift::uniform_risk::DisplacementOptions;
 use uplift_bootstrap::{Interval, Unit};
 
 use crate::command::arguments::ResultArguments;
@@ -70,5 +72,9 @@ pub(crate) fn bootstrap(arguments: &BootstrapArguments, terminal: &Terminal) -> 
         force: arguments.result.force(),
     };
     let report = run(&found.path, &options, terminal)?;
-    if arguments.json { print_json(&report) } else { print_bootstrap(&report, terminal) }
+    if arguments.json {
+        return print_json(&report);
+    }
+    let shown = spectrum(&report.result, &DisplacementOptions::default())?.found;
+    print_bootstrap(&report, &shown, terminal)
 }

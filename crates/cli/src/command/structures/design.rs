@@ -78,7 +78,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
         write_design_sheet(&structure, &report, file)?;
     }
     arguments.structure.keeping.keep(|| Ok(report.finding(&structure)?), urs, terminal)?;
-    if arguments.json { print_json(&report) } else { print_design(&report) }?;
+    if arguments.json { print_json(&report) } else { print_design(&report, terminal) }?;
     if let Some(file) = &arguments.report {
         terminal.say(&file.display().to_string());
     }

@@ -66,7 +66,7 @@ pub(crate) fn overturning(arguments: &OverturningArguments, terminal: &Terminal)
         plot_overturning(&report, figure)?;
     }
     arguments.structure.keeping.keep(|| Ok(report.finding(&structure, &options)?), urs, terminal)?;
-    if arguments.json { print_json(&report) } else { print_overturning(&report) }?;
+    if arguments.json { print_json(&report) } else { print_overturning(&report, terminal) }?;
     for file in arguments.plot.iter().chain(&report.files) {
         terminal.say(&file.display().to_string());
     }

@@ -71,7 +71,7 @@ pub(crate) fn risk(arguments: &FrameRiskArguments, terminal: &Terminal) -> Resul
         plot_frame_risk(&report, figure)?;
     }
     arguments.structure.keeping.keep(|| Ok(report.finding(&structure)?), urs, terminal)?;
-    if arguments.json { print_json(&report) } else { print_frame_risk(&report) }?;
+    if arguments.json { print_json(&report) } else { print_frame_risk(&report, terminal) }?;
     for file in arguments.plot.iter().chain(&report.files) {
         terminal.say(&file.display().to_string());
     }

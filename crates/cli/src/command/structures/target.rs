@@ -141,7 +141,7 @@ pub(crate) fn target(arguments: &TargetArguments, terminal: &Terminal) -> Result
     let structure = Structure::load(&arguments.structure)?;
     let report = run(&structure, &arguments.urs, &options, terminal)?;
     arguments.keeping.keep(|| Ok(report.finding(&structure, &options)?), &arguments.urs, terminal)?;
-    if arguments.json { print_json(&report) } else { print_target(&report) }?;
+    if arguments.json { print_json(&report) } else { print_target(&report, terminal) }?;
     for file in &report.files {
         terminal.say(&file.display().to_string());
     }

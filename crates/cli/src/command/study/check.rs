@@ -5,13 +5,16 @@ use uplift::plan;
 
 use crate::command::arguments::{StudyArguments, run_options};
 use crate::error::{CommandError, is_stopped};
-use crate::show::{print_json, print_plan};
+use crate::show::{print_json, print_plan, print_study};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArguments {
     #[command(flatten)]
     study: StudyArguments,
+    /// Print the study with every default filled in, as TOML
+    #[arg(long, conflicts_with = "json")]
+    print_study: bool,
     /// Print the plan as JSON
     #[arg(long)]
     json: bool,
@@ -22,9 +25,12 @@ const STOPPED: &str = "a check writes nothing. Run the same command to start aga
 
 pub(crate) fn check(arguments: &CheckArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let study = arguments.study.load_any()?;
+    if arguments.print_study {
+        return print_study(&study);
+    }
     terminal.set_interruption_message(format!("interrupted: {STOPPED}"));
     let plan = plan(&study, &run_options(&arguments.study, None, false), terminal)
         .map_err(|error| if is_stopped(&error) { CommandError::Interrupted(STOPPED) } else { error.into() })?;
-    if arguments.json { print_json(&plan) } else { print_plan(&plan, &study, terminal) }?;
+    if arguments.json { print_json(&plan) } else { print_plan(&plan, terminal) }?;
     Ok(plan.head().room.refuse(terminal)?)
 }

@@ -1,0 +1,29 @@
+//! `uplift warnings`: all that is to be known before the numbers of a result are used.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use uplift::alarms::alarms;
+use uplift::result::{ResultFile, at};
+
+use crate::command::arguments::RiskArguments;
+use crate::error::CommandError;
+use crate::show::{print_all_warnings, print_json};
+
+#[derive(Debug, Args)]
+pub(crate) struct WarningsArguments {
+    /// Result file of `uplift run`
+    result: PathBuf,
+    #[command(flatten)]
+    risk: RiskArguments,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn warnings(arguments: &WarningsArguments) -> Result<(), CommandError> {
+    let file = ResultFile::open(&arguments.result).map_err(uplift::UpliftError::from)?;
+    let file = at(file, &arguments.risk.asked()).map_err(uplift::UpliftError::from)?;
+    let alarms = alarms(&file).map_err(uplift::UpliftError::from)?;
+    if arguments.json { print_json(&alarms) } else { print_all_warnings(&alarms) }
+}

@@ -1,0 +1,78 @@
+//! Displacements of uniform risk with their confidence bands.
+
+use std::io::Write;
+
+use uplift::UpliftError;
+use uplift::spectrum::SpectrumReport;
+use uplift::text::{Table, cell_with_band, metres_with_band, per_cent, risk_in_words, risk_name, rounded};
+use uplift::uniform_risk::{CONFIDENCE, Displacement, DisplacementReport};
+
+use super::alarms::print_warnings;
+use crate::error::CommandError;
+use crate::terminal::{Terminal, output};
+
+/// Displacements that were asked for: a line each for one strength, else a table.
+pub(crate) fn print_spectrum(report: &SpectrumReport, terminal: &Terminal) -> Result<(), CommandError> {
+    let out = &mut output();
+    match &report.found.displacements[..] {
+        [first, rest @ ..] if rest.iter().all(|own| own.strength == first.strength) => {
+            print_answers(out, &report.found)?;
+        }
+        _ => print_displacements(out, &report.found, terminal)?,
+    }
+    if terminal.is_quiet() { Ok(()) } else { print_warnings(out, &report.alarms, None) }
+}
+
+/// The number first, then what it is of.
+fn print_answers(out: &mut impl Write, report: &DisplacementReport) -> Result<(), CommandError> {
+    for own in &report.displacements {
+        let Displacement { site, im, strength, u_m, band_m, .. } = own;
+        let band = format!("({} band ", per_cent(CONFIDENCE));
+        let displacement = metres_with_band(*u_m, *band_m).replacen('(', &band, 1);
+        let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
+        writeln!(out, "{displacement}  {site}, strength {strength}, {}, by {im}{capacity}", risk(own))?;
+    }
+    Ok(())
+}
+
+/// A return period where one was asked for, else the probability.
+fn risk(own: &Displacement) -> String {
+    risk_in_words(own.poe, own.years).split(" (").next().unwrap_or_default().to_owned()
+}
+
+/// A row a site and risk, a column a strength; a quiet terminal gets the table alone.
+pub(super) fn print_displacements(
+    out: &mut impl Write,
+    report: &DisplacementReport,
+    terminal: &Terminal,
+) -> Result<(), CommandError> {
+    let [first, ..] = &report.displacements[..] else { return Ok(()) };
+    let of_row = |own: &Displacement| (own.site.clone(), own.poe);
+    let rows: Vec<&[Displacement]> = report.displacements.chunk_by(|a, b| of_row(a) == of_row(b)).collect();
+    let sites = rows.chunk_by(|a, b| a[0].site == b[0].site).count();
+    let risks = rows.len() / sites.max(1);
+    if !terminal.is_quiet() {
+        let several = if sites == 1 { "site" } else { "sites" };
+        let made = if report.synthetic { " synthetic" } else { "" };
+        let kind = if report.repaired { "Repaired uniform risk spectra" } else { "Uniform risk spectra" };
+        let risk = if risks == 1 { format!("{}, ", risk(first)) } else { String::new() };
+        writeln!(out, "\n{kind}, {sites} {several}, {}{made} records, {risk}by {}", report.records, first.im)?;
+        let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
+        let band = if report.repaired { String::new() } else { format!(" ({} confidence band)", per_cent(CONFIDENCE)) };
+        writeln!(out, "Displacement, m{band}, at strength{capacity}")?;
+    }
+    let name = |row: &&[Displacement]| risk_name(row[0].poe, row[0].years);
+    let table = Table::of(&rows)
+        .left("site", |row| row[0].site.clone())
+        .when(risks > 1, |table| table.right("risk", name))
+        .each(0..rows[0].len(), |table, column| {
+            let heading = rounded(rows[0][column].strength, 6).to_string();
+            table.right(heading, move |row| cell_with_band(row[column].u_m, row[column].band_m))
+        });
+    Ok(writeln!(out, "{table}")?)
+}
+
+/// The displacements as CSV, with all their digits.
+pub(crate) fn print_spectrum_csv(report: &DisplacementReport) -> Result<(), CommandError> {
+    Ok(output().write_all(&report.csv().map_err(UpliftError::from)?)?)
+}

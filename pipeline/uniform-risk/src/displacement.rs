@@ -1,0 +1,341 @@
+//! Displacements of uniform risk with their confidence bands, read off a result at any strength and risk.
+
+use std::path::Path;
+
+use polars::prelude::Column;
+use rayon::prelude::*;
+use serde::Serialize;
+use uplift_bootstrap::{inferred_limits, units};
+use uplift_hazard::rate_from_probability;
+use uplift_job::table::table_text;
+use uplift_job::text::nearest;
+use uplift_job::{Array, JobError};
+use uplift_motion::IntensityMeasure;
+use uplift_result::{MeasureSpectra, ResultFile};
+use uplift_structure::{Capacity, Rule};
+
+use crate::asked::{AskedRisk, RiskTargets};
+use crate::consistency::Question;
+use crate::error::UniformRiskError;
+use crate::stored_stripes::{StoredMeasure, StoredStripes, poe_index};
+
+/// How often a band is to hold the displacement of all records like those at hand.
+pub const CONFIDENCE: f64 = 0.9;
+/// The strengths that are shown where none are asked for, or the nearest that a result has.
+pub(crate) const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
+
+/// What displacements are asked for.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct DisplacementOptions {
+    /// Uplift strengths; the nearest of the result to 0.1, 0.2 and 0.4 where none are given.
+    pub strengths: Vec<f64>,
+    /// Risks; the smallest probability of the study where none are given.
+    pub risk: AskedRisk,
+    /// Sites; all where none are given.
+    pub sites: Vec<String>,
+    /// Intensity measure of the stripes; the first of the result where none is given.
+    pub measure: Option<IntensityMeasure>,
+    /// Displacement capacity of an oscillator of negative stiffness, m; without it the stiffness after uplift is zero.
+    pub capacity_m: Option<f64>,
+    /// Whether the spectra of repaired weights are read, which have no band here.
+    pub repaired: bool,
+}
+
+/// A displacement of uniform risk.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Displacement {
+    /// The site.
+    pub site: String,
+    /// `PGV` or `PGA`: what the records are scaled by.
+    pub im: &'static str,
+    /// Uplift strength.
+    pub strength: f64,
+    /// Probability of exceedance.
+    pub poe: f64,
+    /// Years that it refers to.
+    pub years: f64,
+    /// Return period, years (Eq. 4.8).
+    pub return_period_years: f64,
+    /// The displacement, m; infinite where overturning is more frequent than the return period allows.
+    pub u_m: f64,
+    /// Limits of its 90 % confidence band, m: where it lies for all records like those at hand. None of a single
+    /// record.
+    pub band_m: Option<[f64; 2]>,
+}
+
+/// Displacements of a result, by site, then risk, then strength.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DisplacementReport {
+    /// Where the records come from, in a line.
+    pub record_set: String,
+    /// Number of records.
+    pub records: usize,
+    /// Whether they are synthetic.
+    pub synthetic: bool,
+    /// What they are scaled by.
+    #[serde(skip)]
+    pub measure: IntensityMeasure,
+    /// Whether they are weighted for hazard consistency.
+    pub repaired: bool,
+    /// The displacement capacity asked for, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub capacity_m: Option<f64>,
+    /// The displacements; of a structure with a capacity by the rule of equal energy (Eq. 3.11).
+    pub displacements: Vec<Displacement>,
+}
+
+/// Reads displacements off the result `file`, which is [`at`](crate::at) the risks asked for, linear between its
+/// strengths.
+///
+/// The band is that of [`inferred_limits`] over pairs of records, the same as `truth` in `/bootstrap`.
+///
+/// # Errors
+/// A file that is damaged, of another kind, or without sites; strengths, risks, sites or a measure that it does not
+/// have.
+pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<DisplacementReport, UniformRiskError> {
+    let is_of_study = asked.risk.targets == RiskTargets::OfStudy;
+    let (stored, spectra, head) = (StoredStripes::read(file)?, file.spectra()?, file.head()?);
+    let poes = if is_of_study { vec![poe_index(&spectra.poes, None)?] } else { (0..spectra.poes.len()).collect() };
+    let places = strengths(&asked.strengths, &spectra.strengths)?;
+    let sites = sites(&asked.sites, &spectra.sites)?;
+    let measure = stored_measure(&stored.measures, asked.measure)?;
+    let reading = Reading {
+        targets_per_year: poes.iter().map(|&poe| stored.targets_per_year[poe]).collect(),
+        u_m: ordinates(file, spectra.measures, measure.measure, asked.repaired)?,
+        pairs: (!asked.repaired).then_some(units(&Question::from_result(file)?.pair_of())),
+        measure,
+        poes: &poes,
+    };
+    let rule = capacity_rule(asked.capacity_m, stored.uplift_displacement_m)?;
+
+    let mut looked_at: Vec<usize> = places.iter().flat_map(|place| [place.left, place.right]).collect();
+    looked_at.sort_unstable();
+    looked_at.dedup();
+    let rows = looked_at.par_iter().map(|&strength| reading.limits(strength, &sites));
+    let limits_m = rows.collect::<Result<Vec<_>, UniformRiskError>>()?;
+    let row = |strength: usize| &limits_m[looked_at.partition_point(|&own| own < strength)];
+
+    let mut displacements = Vec::new();
+    for (of_site, &site) in sites.iter().enumerate() {
+        for (of_poe, &poe) in poes.iter().enumerate() {
+            for place in &places {
+                let [left, right] = [place.left, place.right].map(|strength| row(strength)[of_site][of_poe]);
+                let [u_m, lower_m, upper_m] = [0, 1, 2].map(|value| rule(place.between(left[value], right[value])));
+                let target = rate_from_probability(spectra.poes[poe], spectra.years)?;
+                displacements.push(Displacement {
+                    site: spectra.sites[site].clone(),
+                    im: measure.measure.label(),
+                    strength: place.strength,
+                    poe: spectra.poes[poe],
+                    years: spectra.years,
+                    return_period_years: 1.0 / target,
+                    u_m,
+                    band_m: (!upper_m.is_nan()).then_some([lower_m, upper_m]),
+                });
+            }
+        }
+    }
+    Ok(DisplacementReport {
+        record_set: head.record_set,
+        records: stored.records.len(),
+        synthetic: head.synthetic,
+        measure: measure.measure,
+        repaired: asked.repaired,
+        capacity_m: asked.capacity_m,
+        displacements,
+    })
+}
+
+impl DisplacementReport {
+    /// The displacements as a table of comma-separated values, with all their digits.
+    ///
+    /// # Errors
+    /// None for a report that was read.
+    pub fn csv(&self) -> Result<Vec<u8>, JobError> {
+        let number = |name: &str, of: fn(&Displacement) -> f64| {
+            Column::new(name.into(), self.displacements.iter().map(of).collect::<Vec<f64>>())
+        };
+        let text = |name: &str, of: fn(&Displacement) -> &str| {
+            Column::new(name.into(), self.displacements.iter().map(of).collect::<Vec<&str>>())
+        };
+        let columns = vec![
+            text("site", |own| &own.site),
+            text("im", |own| own.im),
+            number("strength", |own| own.strength),
+            number("poe", |own| own.poe),
+            number("years", |own| own.years),
+            number("return_period_years", |own| own.return_period_years),
+            number("u_m", |own| own.u_m),
+            number("lower_m", |own| own.band_m.map_or(f64::NAN, |[lower_m, _]| lower_m)),
+            number("upper_m", |own| own.band_m.map_or(f64::NAN, |[_, upper_m]| upper_m)),
+        ];
+        table_text(Path::new("standard output"), "", columns)
+    }
+}
+
+/// What displacements are read from.
+struct Reading<'a> {
+    measure: &'a StoredMeasure,
+    /// The spectra `[site, poe, strength]`, m.
+    u_m: Array<3>,
+    /// The records of each pair: two components of one are not independent. None without bands.
+    pairs: Option<Vec<Vec<usize>>>,
+    /// Positions of the probabilities.
+    poes: &'a [usize],
+    targets_per_year: Vec<f64>,
+}
+
+impl Reading<'_> {
+    /// The ordinate and both limits of its band at a strength of the result, `[site][poe]`, m; NaN without a band.
+    fn limits(&self, strength: usize, sites: &[usize]) -> Result<Vec<Vec<[f64; 3]>>, UniformRiskError> {
+        let demand = self.measure.demand(strength)?;
+        let of_site = |&site: &usize| -> Result<Vec<[f64; 3]>, UniformRiskError> {
+            let bands = self.pairs.as_ref().map(|pairs| {
+                let weights = &self.measure.weights[site];
+                inferred_limits(&demand, weights, pairs, &self.targets_per_year, (&[pairs.len()], CONFIDENCE))
+            });
+            let bands = bands.transpose()?.unwrap_or_default();
+            let of_poe = |(at, &poe): (usize, &usize)| {
+                let [lower_m, upper_m] = bands.get(at).map_or([f64::NAN; 2], |limits| limits.truth_m);
+                [self.u_m[[site, poe, strength]], lower_m, upper_m]
+            };
+            Ok(self.poes.iter().enumerate().map(of_poe).collect())
+        };
+        sites.iter().map(of_site).collect()
+    }
+}
+
+/// The spectra by `measure`, `[site, poe, strength]`, m: the plain or the repaired ones.
+fn ordinates(
+    file: &ResultFile,
+    plain: Vec<MeasureSpectra>,
+    measure: IntensityMeasure,
+    repaired: bool,
+) -> Result<Array<3>, UniformRiskError> {
+    let found = if repaired {
+        file.consistency()?.into_iter().find(|own| own.scaled_to == measure).and_then(|own| own.u_m)
+    } else {
+        plain.into_iter().find(|own| own.measure == measure).map(|own| own.u_m)
+    };
+    Ok(found.ok_or_else(|| {
+        JobError::Usage(format!(
+            "--repaired: the result has no repaired spectra by {}; add them: uplift consistency {} --repair",
+            measure.label(),
+            file.path().display()
+        ))
+    })?)
+}
+
+/// A strength between two of a result.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrengthPlace {
+    /// The strength.
+    pub strength: f64,
+    /// Position of the largest strength of the result that is not above it.
+    pub left: usize,
+    /// Position of the smallest one that is not below it.
+    pub right: usize,
+    /// How far it lies from the left to the right one, 0 to 1.
+    share: f64,
+}
+
+impl StrengthPlace {
+    /// Where `strength` lies among `strengths`, which ascend; none outside them.
+    pub fn among(strengths: &[f64], strength: f64) -> Option<Self> {
+        let right = strengths.iter().position(|&value| value >= strength)?;
+        let left = if strengths[right] == strength { right } else { right.checked_sub(1)? };
+        let (a, b) = (strengths[left], strengths[right]);
+        let share = if b > a { (strength - a) / (b - a) } else { 0.0 };
+        Some(Self { strength, left, right, share })
+    }
+
+    /// The value at the strength, linear between those at its neighbours.
+    pub fn between(&self, left: f64, right: f64) -> f64 {
+        if self.left == self.right { left } else { left + self.share * (right - left) }
+    }
+}
+
+fn strengths(asked: &[f64], known: &[f64]) -> Result<Vec<StrengthPlace>, JobError> {
+    if asked.is_empty() {
+        let shown = nearest(known, &SHOWN_STRENGTHS).into_iter();
+        return Ok(shown.filter_map(|index| StrengthPlace::among(known, known[index])).collect());
+    }
+    let [first, last] = [known.first(), known.last()].map(|value| value.copied().unwrap_or(f64::NAN));
+    let place = |&strength: &f64| {
+        StrengthPlace::among(known, strength).ok_or_else(|| {
+            JobError::Usage(format!(
+                "--strength {strength}: the result has strengths from {first} to {last}; to go further, add \
+                 strengths.values to the study and run it again"
+            ))
+        })
+    };
+    asked.iter().map(place).collect()
+}
+
+/// Positions of the sites `asked` for.
+fn sites(asked: &[String], known: &[String]) -> Result<Vec<usize>, JobError> {
+    if asked.is_empty() {
+        return Ok((0..known.len()).collect());
+    }
+    let place = |wanted: &String| {
+        known.iter().position(|site| site.to_lowercase() == wanted.to_lowercase()).ok_or_else(|| JobError::Choice {
+            option: "--site",
+            wanted: Some(wanted.clone()),
+            known: known.to_vec(),
+        })
+    };
+    asked.iter().map(place).collect()
+}
+
+fn stored_measure(known: &[StoredMeasure], asked: Option<IntensityMeasure>) -> Result<&StoredMeasure, JobError> {
+    let found = known.iter().find(|own| asked.is_none_or(|wanted| own.measure == wanted));
+    found.ok_or_else(|| JobError::Choice {
+        option: "--measure",
+        wanted: asked.map(|measure| measure.key().to_owned()),
+        known: known.iter().map(|own| own.measure.key().to_owned()).collect(),
+    })
+}
+
+/// From the displacement of an oscillator without stiffness after uplift to that of one with a capacity (Eq. 3.11).
+fn capacity_rule(capacity_m: Option<f64>, uplift_displacement_m: f64) -> Result<impl Fn(f64) -> f64, JobError> {
+    let usage = |error| JobError::Usage(format!("--capacity-m: {error}"));
+    let capacity =
+        capacity_m.map(|capacity_m| Capacity::new(uplift_displacement_m, capacity_m)).transpose().map_err(usage)?;
+    Ok(move |zero_m: f64| match &capacity {
+        // not a number: no band; infinite: it overturns
+        Some(capacity) if zero_m.is_finite() => {
+            Rule::EqualEnergy.demand(capacity, zero_m).map_or(f64::NAN, |demand| demand.displacement_m())
+        }
+        _ => zero_m,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn a_strength_is_read_between_its_neighbours_only() {
+        let read = |strength: f64| {
+            let u_m = [1.0, 0.5, f64::INFINITY];
+            let place = StrengthPlace::among(&[0.1, 0.2, 0.4], strength)?;
+            Some(place.between(u_m[place.left], u_m[place.right]))
+        };
+        assert_eq!([read(0.1), read(0.2), read(0.125)], [Some(1.0), Some(0.5), Some(0.875)]);
+        assert_eq!([read(0.3), read(0.4)], [Some(f64::INFINITY); 2]);
+        assert_eq!([read(0.09), read(0.5)], [None; 2]);
+        assert!(strengths(&[0.5], &[0.1, 0.2]).unwrap_err().to_string().contains("from 0.1 to 0.2"));
+    }
+
+    #[test]
+    fn equal_energy_raises_a_displacement_and_ends_in_overturning() {
+        let rule = capacity_rule(Some(1.6), 0.0005).unwrap();
+        // Table 3.5, near-field pulse-like, 1.0 PGA
+        assert!((rule(0.472) - 0.576).abs() < 0.001);
+        assert_eq!(rule(1.0), f64::INFINITY);
+        assert!(rule(f64::NAN).is_nan());
+        assert_eq!(capacity_rule(None, 0.0005).unwrap()(0.472), 0.472);
+        assert!(capacity_rule(Some(0.0001), 0.0005).is_err_and(|error| error.to_string().contains("--capacity-m")));
+    }
+}
