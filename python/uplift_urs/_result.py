@@ -268,6 +268,50 @@ class Result(StructureCommands):
         """Looks whether every byte is as it was written; a `ValueError` where one is not."""
         call(["verify", self.path])
 
+    def displacement(
+        self,
+        *,
+        strength: float | Sequence[float] | None = None,
+        return_period: float | Sequence[float] | None = None,
+        poe: float | Sequence[float] | None = None,
+        site: str | Sequence[str] | None = None,
+        capacity_m: float | None = None,
+        repaired: bool = False,
+    ) -> list[dict[str, Any]]:
+        """Reads displacements with their 90 % confidence band, as ``uplift spectrum`` does.
+
+        Parameters
+        ----------
+        strength : float or sequence of float, optional
+            Uplift strengths; about 0.1, 0.2 and 0.4 by default.
+        return_period, poe : float or sequence of float, optional
+            Return periods in years or probabilities of exceedance; the smallest probability of the study by default.
+        site : str or sequence of str, optional
+            Sites; all by default.
+        capacity_m : float, optional
+            Displacement capacity, m: stiffness is negative after uplift (equal energy).
+        repaired : bool
+            Whether the spectra repaired for hazard consistency are read, which have no band.
+
+        Returns
+        -------
+        list of dict
+            "site", "im", "strength", "poe", "years", "return_period_years", "u_m" in m (None where it overturns), and
+            "band_m", lower and upper limit in m.
+        """
+        options = {
+            "strength": strength,
+            "return_period": return_period,
+            "poe": poe,
+            "site": site,
+            "capacity_m": capacity_m,
+            "repaired": repaired,
+            "measure": self.measure,
+        }
+        told = json.loads(call(["spectrum", self.path, "--json", *command_options(options)]))
+        rows: list[dict[str, Any]] = told["displacements"]
+        return rows
+
     def compute_bootstrap(
         self,
         *,

@@ -24,6 +24,8 @@ pub struct RunOptions {
     pub overrides: Vec<String>,
     /// Whether whatever is at the places of the result and its tables gives way.
     pub force: bool,
+    /// Whether the study is run although its result is there and whole.
+    pub again: bool,
     /// Further results of which stripes are taken, where they are of the same motion, intensity, oscillator, strength
     /// and level.
     pub earlier: Vec<PathBuf>,
@@ -90,6 +92,8 @@ pub struct RunHead {
     pub alarms: Vec<Alarm>,
     /// Wall time, s.
     pub seconds: f64,
+    /// Whether the result was there, whole and of this study, so that nothing was computed.
+    pub done_already: bool,
 }
 
 /// Where a run writes, and since when it runs.

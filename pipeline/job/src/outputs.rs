@@ -76,6 +76,11 @@ impl Output {
         Self { path: path.into(), kind, result: None }
     }
 
+    /// Where it is written.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// The same, of which the file says that it is of the result, or the structure, at `result`.
     #[must_use]
     pub fn with_result(mut self, result: &Path) -> Self {

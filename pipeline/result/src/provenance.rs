@@ -85,6 +85,7 @@ impl Provenance {
             files,
             alarms,
             seconds,
+            done_already: false,
         }
     }
 

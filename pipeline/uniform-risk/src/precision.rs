@@ -6,19 +6,15 @@ use rayon::prelude::*;
 use serde::Serialize;
 use uplift_bootstrap::{inferred_limits, units};
 use uplift_fragility::quantile;
-use uplift_inputs::SiteHazard;
 use uplift_job::text::{nearest, per_cent, risk_in_words};
-use uplift_risk::{PooledDemand, RiskCurve, RiskError};
+use uplift_motion::IntensityMeasure;
+use uplift_risk::{PooledDemand, RiskCurve, RiskError, StripeWeights};
 use uplift_study::UniformRiskStudy;
 
-use super::{Stripes, pooled_demand};
 use crate::consistency::Question;
+use crate::displacement::{CONFIDENCE, SHOWN_STRENGTHS};
 use crate::error::UniformRiskError;
 
-/// Strengths that are looked at.
-const STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
-/// How often a band is to hold the ordinate of all records there could be.
-const CONFIDENCE: f64 = 0.9;
 /// Bands shrink as one over the root of the records (Section 4.5.1): half as wide takes so many times as many.
 const TIMES_FOR_HALF: usize = 4;
 
@@ -47,17 +43,20 @@ pub struct Precision {
     pub records_for_half: usize,
 }
 
-/// The precision of the spectra by the measure of `stripes`; none without sites, for a single record, and where no
-/// ordinate is finite and above 0.
+/// The precision of the spectra by `measure`; none without sites, for a single record, and where no ordinate is finite
+/// and above 0.
 ///
+/// - `demand`: all demands of a strength, by its position.
+/// - `sites`: what the stripes weigh at each site.
 /// - `question`: knows the earthquakes of the records.
 ///
 /// # Errors
 /// Numbers that do not fit together, which the checks of study and inputs rule out.
 pub fn precision(
     study: &UniformRiskStudy,
-    stripes: &Stripes,
-    hazard: &[SiteHazard],
+    measure: IntensityMeasure,
+    demand: impl Fn(usize) -> Result<PooledDemand, UniformRiskError>,
+    sites: &[&StripeWeights],
     question: &Question,
 ) -> Result<Option<Precision>, UniformRiskError> {
     let event_of = question.event_of();
@@ -68,12 +67,10 @@ pub fn precision(
     let counted = if study.keeps_pairs_together() { pairs.len() } else { records };
     let Some(&poe) = study.risk.poe.iter().min_by(|a, b| a.total_cmp(b)) else { return Ok(None) };
     let target = uplift_hazard::rate_from_probability(poe, study.risk.years)?;
-    let shown = nearest(&study.strengths, &STRENGTHS);
-    let demands: Vec<PooledDemand> =
-        shown.into_iter().map(|strength| pooled_demand(stripes, strength)).collect::<Result<_, _>>()?;
+    let shown = nearest(&study.strengths, &SHOWN_STRENGTHS);
+    let demands: Vec<PooledDemand> = shown.into_iter().map(demand).collect::<Result<_, _>>()?;
     let widths = |units: &[Vec<usize>]| -> Result<Vec<f64>, UniformRiskError> {
-        let of_site = |demand: &PooledDemand, site: &SiteHazard| -> Result<Option<f64>, RiskError> {
-            let weights = &site.curve.weights;
+        let of_site = |demand: &PooledDemand, weights: &StripeWeights| -> Result<Option<f64>, RiskError> {
             let ordinate = RiskCurve::new(demand, weights)?.exact_ordinate(target)?;
             let limits = inferred_limits(demand, weights, units, &[target], (&[units.len()], CONFIDENCE))?;
             Ok(limits.first().and_then(|limits| half_width(ordinate.displacement_m, limits.truth_m)))
@@ -81,7 +78,7 @@ pub fn precision(
         let mut all = Vec::new();
         for demand in &demands {
             let of_sites: Result<Vec<Option<f64>>, RiskError> =
-                hazard.par_iter().map(|site| of_site(demand, site)).collect();
+                sites.par_iter().map(|weights| of_site(demand, weights)).collect();
             all.extend(of_sites?.into_iter().flatten());
         }
         all.sort_by(f64::total_cmp);
@@ -93,7 +90,7 @@ pub fn precision(
     let by_event = if is_shared { widths(&earthquakes)? } else { Vec::new() };
     let squares: f64 = earthquakes.iter().map(|of_event| (of_event.len() as f64 / records as f64).powi(2)).sum();
     Ok(Some(Precision {
-        im: stripes.measure.label(),
+        im: measure.label(),
         poe,
         years: study.risk.years,
         records: counted,

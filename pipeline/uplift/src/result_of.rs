@@ -1,13 +1,18 @@
 //! The result of a study: the one that is there if it is the study's, else the study is run.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
+use uplift_alarms::alarms;
 use uplift_engine::checkpoint::oscillator_key;
 use uplift_inputs::{Record, input_checksums, motion_keys, read_hazard, read_other_hazard, read_records};
-use uplift_job::JobError;
 use uplift_job::events::{Events, Silent};
-use uplift_job::frame::RunOptions;
-use uplift_result::{Kind, Provenance, ResultFile, replaces_another, what_counts};
+use uplift_job::frame::{RunHead, RunOptions};
+use uplift_job::{COMMIT, JobError, VERSION};
+use uplift_labelled::verify as verify_file;
+use uplift_motion::IntensityMeasure;
+use uplift_result::{Kind, Overview, Provenance, ResultFile, replaces_another, what_counts};
+use uplift_studies::uniform_risk::{self, MeasureReport};
 use uplift_study::{AnyStudy, UniformRiskStudy};
 
 use crate::error::UpliftError;
@@ -35,6 +40,50 @@ pub fn result_of(study: &UniformRiskStudy, options: &RunOptions, events: &dyn Ev
         run(&of_kind, options, events)?;
     }
     Ok(path.to_owned())
+}
+
+/// The report on the result of `study` where it is there, whole, and all that the study asks of a run; none where the
+/// study has to be run.
+///
+/// # Errors
+/// Inputs that cannot be used; a result that changes while it is read.
+pub(crate) fn finished(
+    study: &UniformRiskStudy,
+    options: &RunOptions,
+    start: Instant,
+) -> Result<Option<uniform_risk::RunReport>, UpliftError> {
+    let path = options.result_file(&study.output.file);
+    let tables: Vec<PathBuf> = uniform_risk::tables(study, path).iter().map(|table| table.path().to_owned()).collect();
+    let is_there = path.is_file() && tables.iter().all(|table| table.is_file());
+    if !is_there || !verify_file(path).is_ok_and(|verdict| verdict.is_sound()) || !is_result_of(study, path)? {
+        return Ok(None);
+    }
+    let file = ResultFile::open(path)?;
+    let kept = file.stored_study()?.consistency;
+    if !study.consistency.differing_keys(&kept).is_empty() || study.consistency.repair != kept.repair {
+        return Ok(None);
+    }
+    let (stored, alarms) = (file.head()?, alarms(&file)?);
+    let mut files = vec![path.to_owned()];
+    files.extend(tables);
+    let head = RunHead {
+        program: "uplift",
+        version: VERSION,
+        commit: COMMIT,
+        study: options.study_file.display().to_string(),
+        title: stored.title,
+        record_set: stored.record_set,
+        synthetic: stored.synthetic,
+        files,
+        alarms,
+        seconds: start.elapsed().as_secs_f64(),
+        done_already: true,
+    };
+    let Overview::UniformRisk { analyses, .. } = file.overview()? else { return Ok(None) };
+    let of_measure = |im: &str| analyses.iter().find(|(own, _)| *own == im).map_or(0, |(_, count)| *count);
+    let labels = file.measures().into_iter().map(IntensityMeasure::label);
+    let measures = labels.map(|im| MeasureReport::stored(im, of_measure(im))).collect();
+    Ok(Some(uniform_risk::RunReport::read(&file, head, measures, None)?))
 }
 
 /// Whether the file at `path` holds the stripes and spectra of `study`, made of the same records and hazard curves.

@@ -16,6 +16,7 @@ use uplift_job::frame::Place;
 use uplift_study::AnyStudy;
 
 use crate::error::UpliftError;
+use crate::result_of::finished;
 pub use uplift_job::frame::{RunHead, RunOptions};
 use uplift_job::lock::ResultLock;
 use uplift_job::outputs;
@@ -48,6 +49,9 @@ impl RunReport {
 /// Carries out a study: records and hazard are read and checked, everything that is not known from before is computed,
 /// and the result file and its tables are written.
 ///
+/// A study of uniform risk whose result is there and whole is done already, unless it is run
+/// [`again`](RunOptions::again).
+///
 /// Finished rows of the analysis outlive whatever stops the run, in a checkpoint beside the result; an earlier result
 /// stays until the new one is complete.
 ///
@@ -55,6 +59,11 @@ impl RunReport {
 /// Inputs that cannot be used; a result that cannot be written; [`JobError::Paused`] or [`JobError::Interrupted`]
 /// where `events` say so.
 pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Result<RunReport, UpliftError> {
+    if let (AnyStudy::UniformRisk(study), false) = (study, options.again)
+        && let Some(report) = finished(study, options, Instant::now())?
+    {
+        return Ok(RunReport::UniformRisk(Box::new(report)));
+    }
     run_with(study, options, FinishedRows::default(), events)
 }
 

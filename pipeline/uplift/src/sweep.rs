@@ -215,7 +215,7 @@ fn ready(options: &SweepOptions, folder: &Path) -> Result<Vec<Ready>, UpliftErro
                     command: options.command.clone(),
                     overrides,
                     force: options.force,
-                    earlier: Vec::new(),
+                    ..RunOptions::default()
                 };
                 ready.push(Ready { name, study, options });
             }

@@ -31,7 +31,12 @@ fn print_end(out: &mut impl Write, head: &RunHead) -> Result<(), CommandError> {
     let Some((result, tables)) = head.files.split_first() else { return Ok(()) };
     print_warnings(out, &head.alarms, Some(result))?;
     let result = shown_path(result).display();
-    writeln!(out, "\nResult   {result} ({:.1} s)", head.seconds)?;
+    let time = if head.done_already {
+        "done already; --again runs the study anew".to_owned()
+    } else {
+        format!("{:.1} s", head.seconds)
+    };
+    writeln!(out, "\nResult   {result} ({time})")?;
     for table in tables {
         writeln!(out, "Table    {}", shown_path(table).display())?;
     }

@@ -1,17 +1,14 @@
 //! What a run of a study of uniform risk tells.
 
-use std::path::PathBuf;
-use std::time::Instant;
-
 use serde::Serialize;
-use uplift_alarms::alarms;
 use uplift_job::frame::RunHead;
 use uplift_result::{ResultFile, Spectrum, SpreadOver, StoredSpread};
 use uplift_study::UniformRiskStudy;
-use uplift_uniform_risk::consistency::ConsistencyReport;
-use uplift_uniform_risk::{DisplacementOptions, DisplacementReport, Precision, Stripes, displacements};
+use uplift_uniform_risk::consistency::{Answer, ConsistencyReport};
+use uplift_uniform_risk::{
+    DisplacementOptions, DisplacementReport, Precision, StoredStripes, Stripes, displacements, precision,
+};
 
-use super::Outcome;
 use crate::error::StudiesError;
 
 /// What a run tells.
@@ -92,17 +89,19 @@ pub struct BranchReport {
 }
 
 impl RunReport {
-    /// The report on what was computed and written, as far as it can be read off the `file` of the result.
+    /// The report on the result in `file`, with a `head` and the analyses by each of its `measures`.
+    ///
+    /// - `known`: consistency and precision of a run that has just computed them; read off the file else.
     ///
     /// # Errors
     /// A file that is damaged.
-    pub(super) fn read(
+    pub fn read(
         file: &ResultFile,
-        outcome: &Outcome<'_>,
-        files: Vec<PathBuf>,
-        start: Instant,
+        head: RunHead,
+        measures: Vec<MeasureReport>,
+        known: Option<(&Answer, &[Precision])>,
     ) -> Result<Self, StudiesError> {
-        let (study, spectra) = (outcome.study, file.spectra()?);
+        let (study, spectra) = (file.stored_study()?, file.spectra()?);
         let shown = |repaired: bool| -> Result<Option<DisplacementReport>, StudiesError> {
             let asked = DisplacementOptions { repaired, ..DisplacementOptions::default() };
             let is_there = !study.sites.is_empty() && (!repaired || file.has_repair());
@@ -111,24 +110,42 @@ impl RunReport {
         let spreads = if study.sites.is_empty() { Vec::new() } else { file.spreads()? };
         let spread_over = |over: SpreadOver| {
             let of_kind = spreads.iter().filter(|own| own.over == over);
-            of_kind.flat_map(|own| (0..study.risk.poe.len()).map(|poe| BranchReport::new(study, own, poe))).collect()
+            of_kind.flat_map(|own| (0..study.risk.poe.len()).map(|poe| BranchReport::new(&study, own, poe))).collect()
         };
         let plain_m: Vec<_> = spectra.measures.iter().map(|own| (own.measure, own.u_m.clone())).collect();
+        let (answer, precision) = match known {
+            Some((answer, precision)) => (answer.clone(), precision.to_vec()),
+            None => again(file, &study)?,
+        };
         let (displacements, repaired) = (shown(false)?, shown(true)?);
-        let records = (outcome.records.description.as_str(), outcome.records.synthetic);
-        let (alarms, seconds) = (alarms(file)?, start.elapsed().as_secs_f64());
         Ok(Self {
-            head: outcome.provenance.head(&study.title, records, alarms, files, seconds),
-            measures: outcome.stripes.iter().map(MeasureReport::new).collect(),
+            head,
+            measures,
             coefficients: spectra.rows().map(|own| CoefficientsReport::new(&own)).collect(),
-            precision: outcome.precision.to_vec(),
-            consistency: outcome.consistency.report(&plain_m),
+            precision,
+            consistency: answer.report(&plain_m),
             displacements,
             repaired,
             branches: spread_over(SpreadOver::HazardCurves),
             structures: spread_over(SpreadOver::Structures),
         })
     }
+}
+
+/// Consistency and precision of a result, as its run had them.
+fn again(file: &ResultFile, study: &UniformRiskStudy) -> Result<(Answer, Vec<Precision>), StudiesError> {
+    if study.sites.is_empty() {
+        return Ok((Answer::from_result(file, None)?, Vec::new()));
+    }
+    let stored = StoredStripes::read(file)?;
+    let answer = Answer::from_result(file, Some(&stored))?;
+    let mut precisions = Vec::new();
+    for of in &stored.measures {
+        let weights: Vec<_> = of.weights.iter().collect();
+        let demand = |strength| of.demand(strength);
+        precisions.extend(precision(study, of.measure, demand, &weights, answer.question())?);
+    }
+    Ok((answer, precisions))
 }
 
 impl CoefficientsReport {
@@ -163,7 +180,12 @@ impl BranchReport {
 }
 
 impl MeasureReport {
-    fn new(stripes: &Stripes) -> Self {
+    /// Analyses by a measure that were all known from before.
+    pub fn stored(im: &'static str, analyses: u64) -> Self {
+        Self { im, analyses, analyses_computed: 0, seconds: 0.0, analyses_per_second: 0 }
+    }
+
+    pub(super) fn new(stripes: &Stripes) -> Self {
         Self {
             im: stripes.measure.label(),
             analyses: stripes.analyses,

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use uplift_alarms::alarms;
 use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use uplift_ida::Shard;
 use uplift_inputs::{input_checksums, read_hazard, read_other_hazard};
@@ -11,10 +12,10 @@ use uplift_result::earlier::Earlier;
 use uplift_result::{Provenance, ResultFile};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::Answer;
-use uplift_uniform_risk::{Coefficients, Stripes, fit_spectra, precision, uniform_risk_spectra};
+use uplift_uniform_risk::{Coefficients, Stripes, fit_spectra, pooled_demand, precision, uniform_risk_spectra};
 
 use super::plan::tell_mistaken_curves;
-use super::report::RunReport;
+use super::report::{MeasureReport, RunReport};
 use super::{Inputs, Outcome, csv_paths, needs, site_table, write_csv, write_result};
 use crate::error::StudiesError;
 
@@ -61,7 +62,9 @@ pub fn run(
     let consistency = Answer::from_run(study, records, (&hazard, &other_hazard), &stripes)?;
     let mut precisions = Vec::new();
     for (stripes, hazard) in stripes.iter().zip(&hazard) {
-        precisions.extend(precision(study, stripes, hazard, consistency.question())?);
+        let weights: Vec<_> = hazard.iter().map(|site| &site.curve.weights).collect();
+        let demand = |strength| pooled_demand(stripes, strength);
+        precisions.extend(precision(study, stripes.measure, demand, &weights, consistency.question())?);
     }
     let mut warnings = notes;
     warnings.extend(site_list.iter().flat_map(|list| list.notes.iter().cloned()));
@@ -102,5 +105,10 @@ pub fn run(
     }
     files.extend(sites.finish()?);
     // the summary says what every other look at the file says
-    RunReport::read(&ResultFile::open(path)?, &outcome, files, place.start)
+    let file = ResultFile::open(path)?;
+    let (of_records, seconds) =
+        ((records.description.as_str(), records.synthetic), place.start.elapsed().as_secs_f64());
+    let head = provenance.head(&study.title, of_records, alarms(&file)?, files, seconds);
+    let measures = stripes.iter().map(MeasureReport::new).collect();
+    RunReport::read(&file, head, measures, Some((&consistency, &precisions)))
 }

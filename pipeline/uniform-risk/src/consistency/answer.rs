@@ -4,13 +4,15 @@ use uplift_inputs::{OtherHazard, RecordSet, SiteHazard};
 use uplift_job::Array;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
+use uplift_result::ResultFile;
 use uplift_study::{Repair, UniformRiskStudy};
 
-use super::spectra::{Repairs, repaired_spectra};
+use super::spectra::{Repairs, repaired_spectra, repairs_of};
 use super::write::{Keep, add};
 use super::{ConsistencyReport, Finding, Question};
 use crate::error::UniformRiskError;
 use crate::spectra::pooled_demand;
+use crate::stored_stripes::StoredStripes;
 use crate::stripes::Stripes;
 
 /// All that consistency makes of a study.
@@ -57,6 +59,21 @@ impl Answer {
             }
         }
         Ok(answer)
+    }
+
+    /// For a result, with its stripes where it has sites.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub fn from_result(file: &ResultFile, stored: Option<&StoredStripes>) -> Result<Self, UniformRiskError> {
+        let question = Question::from_result(file)?;
+        let is_repaired = file.stored_study()?.consistency.repair == Repair::Weights;
+        let findings = question.findings(is_repaired)?;
+        let repairs = match stored {
+            Some(stored) if is_repaired && !findings.is_empty() => repairs_of(file, stored, &question, &findings)?,
+            _ => Vec::new(),
+        };
+        Ok(Self { question, findings, repairs })
     }
 
     /// What was asked.

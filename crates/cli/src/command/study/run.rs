@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use uplift::analysis::shard_path;
-use uplift::run_shard;
+use uplift::{RunOptions, run_shard};
 use uplift_ida::Shard;
 
 use crate::command::arguments::{ForceArgument, StudyArguments, run_options, shard};
@@ -33,6 +33,9 @@ pub(crate) struct RunArguments {
                 the shards"
     )]
     shard: Option<Shard>,
+    /// Run the study although its result is there
+    #[arg(long)]
+    again: bool,
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
@@ -57,6 +60,7 @@ pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), C
         return print_shard(&run_shard(&study, &path, shard, None, terminal)?, terminal);
     }
     let options = run_options(&arguments.study, arguments.output.clone(), arguments.overwriting.force);
+    let options = RunOptions { again: arguments.again, ..options };
     let report = uplift::run(&study, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
 }
