@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// The operating system refused.
-    #[error("{}: cannot {action}: {source}", path.display())]
+    #[error("{}: cannot {action}: {}", path.display(), reason(source))]
     Io {
         /// File or folder.
         path: PathBuf,
@@ -32,6 +32,12 @@ pub enum FileError {
         /// The most that is read, bytes.
         limit_bytes: u64,
     },
+}
+
+/// The operating system's reason, without its number.
+pub fn reason(error: &io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or_default().to_owned()
 }
 
 /// Attaches the path and the action to an error of the operating system.

@@ -17,12 +17,13 @@ mod validate;
 
 use std::fmt::Write as _;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::error::ContextKind;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use uplift_oscillator::InstructionSet;
 
 use crate::error::CommandError;
-use crate::terminal::{Form, Terminal};
+use crate::terminal::{Form, Terminal, tell};
 use result::{
     bootstrap, consistency, export, influence, measures, plot, report, spectrum, status, table, verify, warnings,
 };
@@ -194,6 +195,26 @@ pub(crate) fn execute(arguments: &Arguments, terminal: &Terminal) -> Result<(), 
         Command::Schema(arguments) => schema::schema(arguments),
         Command::Manual(arguments) => manual::manual(arguments),
     }
+}
+
+/// Options that people give to a command which has none of the kind, and what to type instead.
+const ELSEWHERE: [(&str, &str, &str); 2] = [
+    ("run", "--site", "a run computes every site; read one by `uplift spectrum RESULT --site NAME`"),
+    ("overturning", "--poe", "it reports annual rates, of no probability; `uplift target --poe` sizes for one"),
+];
+
+/// What was typed; a mistake ends the program with its message.
+pub(crate) fn typed() -> Arguments {
+    let typed = program().try_get_matches().and_then(|found| Arguments::from_arg_matches(&found));
+    typed.unwrap_or_else(|error| {
+        let option = error.get(ContextKind::InvalidArg).map(ToString::to_string);
+        let command = std::env::args().nth(1);
+        let hint =
+            ELSEWHERE.iter().find(|(of, name, _)| command.as_deref() == Some(of) && option.as_deref() == Some(name));
+        let Some((of, name, hint)) = hint else { error.exit() };
+        tell(&format!("uplift: {of} has no {name}: {hint}"));
+        std::process::exit(error.exit_code())
+    })
 }
 
 #[cfg(test)]

@@ -3,14 +3,11 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::FromArgMatches;
-
 mod command;
 mod error;
 mod show;
 mod terminal;
 
-use command::Arguments;
 use terminal::Terminal;
 
 /// A panic is a bug of the program; everything a user can cause is an error with a message.
@@ -35,7 +32,7 @@ fn main() -> ExitCode {
         );
         end_at_once();
     }));
-    let arguments = Arguments::from_arg_matches(&command::program().get_matches()).unwrap_or_else(|error| error.exit());
+    let arguments = command::typed();
     let terminal = Terminal::new(arguments.quiet, arguments.details, arguments.progress);
     match command::execute(&arguments, &terminal) {
         Ok(()) => ExitCode::SUCCESS,

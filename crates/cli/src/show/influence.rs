@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::influence::InfluenceReport;
+use uplift::influence::{InfluenceReport, IntensityShares};
 use uplift::text::{Table, metres, risk_in_words, spectrum_words};
 
 use super::shown_path;
@@ -16,8 +16,8 @@ pub(crate) fn print_influence(report: &InfluenceReport, terminal: &Terminal) -> 
     print_records(out, report, &name)?;
     print_intensities(out, report, &name)?;
     if !terminal.is_quiet() {
-        writeln!(out, "\nAll of it: /influence and /disaggregation in {}", shown_path(&report.result).display())?;
-        writeln!(out, "           {}", shown_path(&report.table).display())?;
+        writeln!(out, "\nResult   /influence and /disaggregation in {}", shown_path(&report.result).display())?;
+        writeln!(out, "Table    {}", shown_path(&report.table).display())?;
     }
     Ok(())
 }
@@ -34,8 +34,7 @@ fn shown_site<'a>(above: &mut Option<(Spectrum<'a>, &'a str)>, of: Spectrum<'a>,
 fn print_records(out: &mut impl Write, report: &InfluenceReport, name: &str) -> Result<(), CommandError> {
     writeln!(
         out,
-        "\nRecords that carry the spectra of {name}: change of the ordinates without the record, per cent,\n\
-         on average over the strengths that rock, and at most"
+        "\nRecords with the largest influence, {name}: change of the displacement without the record, per cent"
     )?;
     let mut above = None;
     let of_poe = report.records.iter().filter(|row| row.poe.to_bits() == report.poe.to_bits());
@@ -57,10 +56,15 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, name: &str) -> 
 fn print_intensities(out: &mut impl Write, report: &InfluenceReport, name: &str) -> Result<(), CommandError> {
     writeln!(
         out,
-        "\nIntensities that make the risk of {name}: levels below which 5, 50 and 95 % of it lie, and its shares \
-         outside the stripes"
+        "\nIntensities behind the risk, {name}: levels below which 5, 50 and 95 % of it lie, and shares outside the levels"
     )?;
     let level = |level: f64| if level.is_nan() { "-".to_owned() } else { format!("{level:.3}") };
+    // a level outside the stripes is known to be no more than that
+    let outside = |row: &IntensityShares, share: f64, value: f64| match level(value) {
+        text if row.share_above_stripes > 1.0 - share => format!("> {text}"),
+        text if row.share_below_stripes > share => format!("< {text}"),
+        text => text,
+    };
     let percent = |share: f64| if share.is_nan() { "-".to_owned() } else { format!("{:.1} %", 100.0 * share) };
     let mut above = None;
     let table = Table::of(&report.intensities)
@@ -68,9 +72,9 @@ fn print_intensities(out: &mut impl Write, report: &InfluenceReport, name: &str)
         .right("im", |row| format!("{}, {}", spectrum_words(row.im, row.repaired), row.unit))
         .right("strength", |row| format!("{:.3}", row.strength))
         .right("u, m", |row| metres(row.u_m))
-        .right("5 %", |row| level(row.level_05))
-        .right("50 %", |row| level(row.level_50))
-        .right("95 %", |row| level(row.level_95))
+        .right("5 %", |row| outside(row, 0.05, row.level_05))
+        .right("50 %", |row| outside(row, 0.5, row.level_50))
+        .right("95 %", |row| outside(row, 0.95, row.level_95))
         .right("below", |row| percent(row.share_below_stripes))
         .right("above", |row| percent(row.share_above_stripes));
     writeln!(out, "{table}")?;

@@ -54,7 +54,9 @@ impl Paths {
             Origin::File(_) | Origin::Study => "the folder of the study file",
             Origin::Override(_) => "the current directory",
         };
+        let is_folder = path.is_dir();
         let reason = match fs::metadata(&path) {
+            Ok(_) if is_folder => "this is a folder".to_owned(),
             // Opening what is no file, a pipe for one, may wait forever.
             Ok(metadata) if !metadata.is_file() => "this is not a file".to_owned(),
             Ok(_) => match fs::File::open(&path) {
@@ -68,6 +70,8 @@ impl Paths {
         let backslash = path.to_string_lossy().contains(char::is_control);
         let help = if backslash {
             BACKSLASH.to_owned()
+        } else if is_folder {
+            "give a file; a manifest of a folder of records: uplift records import FOLDER -o records.csv".to_owned()
         } else {
             format!("give an existing file; a relative path starts from {from}")
         };

@@ -1,5 +1,6 @@
 //! A file as text, and the text as TOML.
 
+use std::borrow::Cow;
 use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
@@ -60,7 +61,7 @@ pub(crate) fn parse_table(file: &Path, text: &str) -> Result<Table, StudyError> 
             key: String::new(),
             place: place(text, error.span().unwrap_or_default()),
             message: format!("not TOML: {}", error.message()),
-            help: Some(syntax_help(error.message(), line_at(text, error.span())).to_owned()),
+            help: Some(syntax_help(error.message(), line_at(text, error.span())).into_owned()),
         });
         let listed: Vec<_> = listed.collect();
         let left_out = errors.len() - listed.len();
@@ -78,14 +79,25 @@ fn line_at(text: &str, span: Option<std::ops::Range<usize>>) -> &str {
 }
 
 /// What to do about a mistake of TOML syntax in this `line`.
-fn syntax_help(message: &str, line: &str) -> &'static str {
+fn syntax_help(message: &str, line: &str) -> Cow<'static, str> {
     if message.contains("duplicate") {
-        "each key and each [section] may stand once; write [[sites]] for one site more"
+        "each key and each [section] may stand once; write [[sites]] for one site more".into()
+    } else if let Some(pointed) = decimal_comma(line) {
+        format!("the decimal mark is a point: write {pointed}").into()
     } else if line.split('#').next().is_some_and(|line| line.contains('"') && line.contains('\\')) {
-        BACKSLASH
+        BACKSLASH.into()
     } else {
-        "put texts, paths and grids in double quotes, lists in [ ]"
+        "put texts, paths and grids in double quotes, lists in [ ]".into()
     }
+}
+
+/// The number of a line `key = 0,95`, with a point.
+fn decimal_comma(line: &str) -> Option<String> {
+    let (_, value) = line.split('#').next()?.split_once('=')?;
+    let (whole, decimals) = value.trim().split_once(',')?;
+    let is_number =
+        whole.parse::<i64>().is_ok() && !decimals.is_empty() && decimals.bytes().all(|c| c.is_ascii_digit());
+    is_number.then(|| format!("{whole}.{decimals}"))
 }
 
 /// What to do about a path of Windows.

@@ -146,8 +146,8 @@ fn check_distance(
     // a NaN is no distance to be within
     if !(distance_km <= options.within_km) {
         return Err(JobError::input(format!(
-            "the nearest site, {site}, is {distance_km:.1} km away: give a nearer place, or --within-km {:.0} if it \
-             will do",
+            "the nearest site, {site}, is {distance_km:.1} km away: is the longitude first, then the latitude? Give a \
+             nearer place, or --within-km {:.0}",
             distance_km.ceil()
         ))
         .into());

@@ -40,6 +40,14 @@ pub(super) struct Component {
     pub(super) samples_sha256: String,
 }
 
+impl Component {
+    /// Its file, with its channel in a file of several.
+    fn place(&self) -> String {
+        let channel = self.channel.map_or_else(String::new, |channel| format!(", channel {channel}"));
+        format!("{}{channel}", self.path.display())
+    }
+}
+
 /// A pair ready for a row of a manifest.
 #[derive(Debug, Clone)]
 pub(super) struct ImportedPair {
@@ -171,7 +179,7 @@ fn without_duplicates(components: Vec<Component>, warnings: &mut Vec<Warning>) -
         match kept.get(first) {
             Some(same) => warnings.push(Warning {
                 kind: "duplicate",
-                text: format!("{}: the same motion as {}; left out", component.path.display(), same.path.display()),
+                text: format!("{}: the same motion as {}; left out", component.place(), same.place()),
             }),
             None => kept.push(component),
         }
