@@ -117,7 +117,7 @@ fn a_result_gives_way_to_its_own_study() {
     study.write("study.toml", &changed);
     study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
     study.write("same.toml", &changed);
-    study.uplift(&["run", "same.toml", "-o", "r.h5"]).ok();
+    study.uplift(&["run", "same.toml", "--again", "-o", "r.h5"]).ok();
     // another one
     study
         .write("b.toml", &changed.replace("title = \"small\"", "title = \"b\"").replace("values = [0, ", "values = ["));

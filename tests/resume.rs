@@ -286,7 +286,7 @@ fn bands_are_not_written_into_another_result() {
     bootstrap.wait_until_said("plan");
     bootstrap.hold();
     // a run does not take the place of what is being added to
-    study.uplift(&["run", "study.toml"]).fails(4, &["study.h5 is being written by another run"]);
+    study.uplift(&["run", "study.toml", "--again"]).fails(4, &["study.h5 is being written by another run"]);
     // another program may
     let written = content(&study.path().join("other.h5"));
     std::fs::rename(study.path().join("other.h5"), study.path().join("results/study.h5")).unwrap();
@@ -454,7 +454,7 @@ fn a_full_disk_loses_nothing() {
         println!("skipped: no right to mount a small file system");
         return;
     }
-    let run = ["run", "study.toml", "-o", "small/a.h5", "--set", "output.csv=false"];
+    let run = ["run", "study.toml", "--again", "-o", "small/a.h5", "--set", "output.csv=false"];
     // found before anything is computed, unless whoever asks knows better
     study.uplift(&run).fails(4, &["of disk are needed", "make room"]);
     let full = common::uplift_where(study.path(), ("UPLIFT_LIMITS", "warn"), &run);
