@@ -12,6 +12,9 @@ use super::file::ResultFile;
 use super::spectra::{flag_number, flag_of};
 use crate::error::ResultError;
 
+/// The flag of an ordinate that does not exist, of records that could not be repaired.
+const NO_ORDINATE: u8 = 3;
+
 /// What stands in a result for the names in angle brackets of a declaration: `<im>`, `<site>`.
 pub type Names<'a> = &'a [(&'a str, &'a str)];
 
@@ -162,10 +165,19 @@ impl<T> Quantity<T> {
         }
     }
 
+    /// Its axes; a name in angle brackets may be of several axes, or of none.
+    fn axes(&self, names: Names<'_>) -> Vec<String> {
+        let names = self.axes.iter().map(|axis| named(axis, names));
+        names
+            .flat_map(|axis| axis.split(", ").map(str::to_owned).collect::<Vec<_>>())
+            .filter(|axis| !axis.is_empty())
+            .collect()
+    }
+
     /// Its axes with their lengths.
-    fn shape(&self, names: Names<'_>, lengths: Lengths<'_>) -> Vec<(Cow<'static, str>, usize)> {
+    fn shape(&self, names: Names<'_>, lengths: Lengths<'_>) -> Vec<(String, usize)> {
         let length = |axis: &str| lengths.iter().find(|(name, _)| *name == axis).map_or(0, |(_, length)| *length);
-        self.axes.iter().map(|axis| named(axis, names)).map(|axis| (axis.clone(), length(&axis))).collect()
+        self.axes(names).into_iter().map(|axis| (axis.clone(), length(&axis))).collect()
     }
 
     fn write(
@@ -173,39 +185,40 @@ impl<T> Quantity<T> {
         writer: &mut LabelledWriter,
         path: &str,
         (names, lengths): (Names<'_>, Lengths<'_>),
-        value: &T,
+        rows: &[Option<&T>],
     ) -> Result<(), LabelledError> {
-        fn all<T, V, W>(value: &T, place: Place<T, V>, count: usize, of: impl Fn(&V) -> W) -> Vec<W> {
-            (0..count).map(|index| of((place.get)(value, index))).collect()
+        fn all<T, V: Clone>(rows: &[Option<&T>], each: usize, of: impl Fn(&T, usize) -> V, none: &V) -> Vec<V> {
+            let value = |row: &Option<&T>, at| row.map_or_else(|| none.clone(), |row| of(row, at));
+            rows.iter().flat_map(|row| (0..each).map(move |at| value(row, at))).collect()
         }
         let shape = self.shape(names, lengths);
         let dims: &[&str] = &shape.iter().map(|(name, _)| name.as_ref()).collect::<Vec<_>>();
-        let count = shape.iter().map(|(_, length)| length).product();
+        let each = shape.iter().map(|(_, length)| length).product::<usize>() / rows.len().max(1);
         let (unit, long_name) = (&*named(self.unit, names), &*named(self.long_name, names));
         match self.field {
-            Field::F64(place) => writer.array_f64(path, dims, &all(value, place, count, Clone::clone), unit, long_name),
-            Field::U32(place) => writer.array_u32(path, dims, &all(value, place, count, Clone::clone), unit, long_name),
-            Field::Bool(place) => {
-                writer.array_u8(path, dims, &all(value, place, count, |&is| u8::from(is)), unit, long_name)
+            Field::F64(Place { get, .. }) => {
+                let values = all(rows, each, |row, at| *get(row, at), &f64::NAN);
+                writer.array_f64(path, dims, &values, unit, long_name)
             }
-            Field::Flag(place) => {
-                writer.array_u8(path, dims, &all(value, place, count, |&flag| flag_number(flag)), unit, long_name)
+            Field::Made(number) => writer.array_f64(path, dims, &all(rows, each, number, &f64::NAN), unit, long_name),
+            Field::U32(Place { get, .. }) => {
+                writer.array_u32(path, dims, &all(rows, each, |row, at| *get(row, at), &0), unit, long_name)
             }
-            Field::Text(place) => writer.array_text(path, dims, &all(value, place, count, Clone::clone), long_name),
-            Field::Made(number) => {
-                let numbers: Vec<f64> = (0..count).map(|index| number(value, index)).collect();
-                writer.array_f64(path, dims, &numbers, unit, long_name)
+            Field::Bool(Place { get, .. }) => {
+                writer.array_u8(path, dims, &all(rows, each, |row, at| u8::from(*get(row, at)), &0), unit, long_name)
+            }
+            Field::Flag(Place { get, .. }) => {
+                let flags = all(rows, each, |row, at| flag_number(*get(row, at)), &NO_ORDINATE);
+                writer.array_u8(path, dims, &flags, unit, long_name)
+            }
+            Field::Text(Place { get, .. }) => {
+                let texts = all(rows, each, |row, at| get(row, at).clone(), &String::new());
+                writer.array_text(path, dims, &texts, long_name)
             }
         }
     }
 
-    fn read(
-        &self,
-        file: &ResultFile,
-        path: &str,
-        shape: &[(Cow<'_, str>, usize)],
-        value: &mut T,
-    ) -> Result<(), ResultError> {
+    fn read(&self, file: &ResultFile, path: &str, shape: &[(String, usize)], value: &mut T) -> Result<(), ResultError> {
         fn fill<T, V>(value: &mut T, place: Place<T, V>, values: impl IntoIterator<Item = V>) {
             for (index, own) in values.into_iter().enumerate() {
                 *(place.get_mut)(value, index) = own;
@@ -246,7 +259,7 @@ impl<const N: usize> Group<Array<N>> {
         values: &[f64],
     ) -> Result<(), LabelledError> {
         let own = &self.quantities[0];
-        let axes: Vec<_> = own.axes.iter().map(|axis| named(axis, names)).collect();
+        let axes = own.axes(names);
         let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
         writer.array_f64(&self.path(own, names), &dims, values, &named(own.unit, names), &named(own.long_name, names))
     }
@@ -274,7 +287,7 @@ impl<const N: usize> Group<Array<N, u32>> {
         values: &[u32],
     ) -> Result<(), LabelledError> {
         let own = &self.quantities[0];
-        let axes: Vec<_> = own.axes.iter().map(|axis| named(axis, names)).collect();
+        let axes = own.axes(names);
         let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
         writer.array_u32(&self.path(own, names), &dims, values, &named(own.unit, names), &named(own.long_name, names))
     }
@@ -321,9 +334,24 @@ impl<T> Group<T> {
         lengths: Lengths<'_>,
         value: &T,
     ) -> Result<(), LabelledError> {
+        self.write_rows(writer, names, lengths, [Some(value)])
+    }
+
+    /// Writes every array, each value of `rows` being a row of them along their first axes; of none NaN.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write_rows<'a>(
+        &self,
+        writer: &mut LabelledWriter,
+        names: Names<'_>,
+        lengths: Lengths<'_>,
+        rows: impl IntoIterator<Item = Option<&'a T>>,
+    ) -> Result<(), LabelledError> {
+        let rows: Vec<_> = rows.into_iter().collect();
         self.quantities
             .iter()
-            .try_for_each(|quantity| quantity.write(writer, &self.path(quantity, names), (names, lengths), value))
+            .try_for_each(|quantity| quantity.write(writer, &self.path(quantity, names), (names, lengths), &rows))
     }
 
     /// Reads every array into `value`, which has a place for every value.
@@ -410,9 +438,13 @@ mod tests {
             regression::GROUP,
             REPAIRED_FITS,
             CONSISTENCY,
+            DIAGNOSES,
             REPAIRED_LEVEL,
+            REPAIRS,
+            WEIGHTS,
             EFFECTIVE_RECORDS,
             REPAIRED_U_M,
+            REPAIRED_ORDINATES,
             BANDS,
             SIMULTANEOUS_BANDS,
             INFERRED_BANDS,

@@ -34,48 +34,6 @@ in_group! {
 /// The sentence on how well the records know the spectra of a measure, an attribute of its group in `/urs`.
 pub const URS_PRECISION: &str = "precision";
 
-/// Whether the records bring the hazard of the other measure.
-pub mod consistency {
-    use uplift_motion::IntensityMeasure;
-
-    /// The group of all measures.
-    pub const ROOT: &str = "/consistency";
-    /// The arrays of a measure but for those of the other one ([`OF_OTHER`]).
-    pub const ARRAYS: &[&str] = &[
-        "scale_factor_05",
-        "scale_factor_50",
-        "scale_factor_95",
-        "scale_factors_outside",
-        "effective_events",
-        "exponent",
-        "knot",
-        "iterations",
-        "mean_ln_ratio",
-        "sd_ln_ratio",
-        "weight",
-        "flag",
-        "lower_tail_share",
-        "upper_tail_share",
-    ];
-    /// What the names of the arrays of the other measure end with: `pga_site`.
-    pub const OF_OTHER: &[&str] = &["rms", "times_as_often"];
-
-    /// The group of the analysis by a measure.
-    pub fn group(measure: IntensityMeasure) -> String {
-        format!("{ROOT}/{}", measure.key())
-    }
-
-    /// An array of the analysis by a measure.
-    pub fn array(measure: IntensityMeasure, name: &str) -> String {
-        format!("{}/{name}", group(measure))
-    }
-
-    /// The name of an array that is about the `other` measure.
-    pub fn of_other(other: IntensityMeasure, name: &str) -> String {
-        format!("{}_{name}", other.key())
-    }
-}
-
 /// What structures were asked, and the answers.
 pub mod structures {
     /// The group of all structures.
@@ -370,9 +328,8 @@ mod tests {
         let documented = |group: &str, name: &str| {
             page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
         };
-        let groups: [(&str, &[&str]); 7] = [
+        let groups: [(&str, &[&str]); 6] = [
             ("`/records/", records::ARRAYS),
-            ("`/consistency/pgv/", consistency::ARRAYS),
             ("`/hazard/<site>/pgv/", &["maf_per_year"]),
             ("`/spectra/", spectra::ARRAYS),
             ("`/sets/<set>/", set::ARRAYS),

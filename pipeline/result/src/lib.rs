@@ -38,8 +38,10 @@ pub use bands::{
     StoredRepairedBands, StoredSpectraBands, WidestInferred, band_lengths, band_names,
 };
 pub use consistency::{
-    CONSISTENCY, EFFECTIVE_RECORDS, REPAIRED_FITS, REPAIRED_LEVEL, REPAIRED_U_M, StoredConsistency, consistency_names,
+    CONSISTENCY, DIAGNOSES, EFFECTIVE_RECORDS, REPAIRED_FITS, REPAIRED_LEVEL, REPAIRED_ORDINATES, REPAIRED_U_M,
+    REPAIRS, WEIGHTS,
 };
+pub use consistency::{StoredConsistency, consistency_names};
 pub use design::{BOUNDS, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
 pub use displacements::{
