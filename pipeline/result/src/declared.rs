@@ -299,9 +299,14 @@ impl<T> Group<T> {
         self.path.split_once("/<").map_or(self.path, |(root, _)| root)
     }
 
+    /// Its path with names for what stands in angle brackets.
+    pub fn group(&self, names: Names<'_>) -> String {
+        named(self.path, names).into_owned()
+    }
+
     /// The group of one measure.
     pub fn of_measure(&self, measure: IntensityMeasure) -> String {
-        named(self.path, &of_measure(measure)).into_owned()
+        self.group(&of_measure(measure))
     }
 
     /// The path of an array of one measure.
@@ -384,6 +389,10 @@ impl<T> Group<T> {
 /// The names that `docs/hdf5-layout.md` shows.
 #[cfg(test)]
 const EXAMPLES: Names<'_> = &[
+    ("<curve>", "<site>/pgv"),
+    ("<axis>", "hazard_<site>_pgv"),
+    ("<quantity>", "strength_factor`, `restitution`, `uplift_displacement_m`, `capacity_m"),
+    ("<quantity_unit>", "1, 1, m, m"),
     ("<lower>", "u05_m"),
     ("<median>", "u50_m"),
     ("<upper>", "u95_m"),
@@ -429,6 +438,9 @@ mod tests {
             RECORDS,
             MOTION_KEYS,
             INTENSITY,
+            DRAWN_STRUCTURE,
+            DRAWN_QUANTITY,
+            HAZARD_CURVE,
             PEAKS,
             IMPACTS,
             FACTORS,
@@ -470,6 +482,9 @@ mod tests {
             FINDINGS,
             TABLE_EXCITATIONS,
             TABLE_TESTS,
+            TABLE_ORDER,
+            TABLE_SPECTRA,
+            DESIGN_SPECTRUM,
         ]
         .into_iter()
     }

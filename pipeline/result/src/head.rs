@@ -8,8 +8,8 @@ use uplift_study::Kind;
 
 use super::digest::UNSAID_NUMERICS;
 use super::file::ResultFile;
-use super::layout::{axis, design, set, shake_table, spectra, structures};
-use super::{BANDS, EFFICIENCY, INFLUENCE, PEAKS};
+use super::layout::{axis, design, set, spectra, structures};
+use super::{BANDS, EFFICIENCY, INFLUENCE, PEAKS, TABLE_EXCITATIONS};
 use crate::error::ResultError;
 
 /// Where the numbers of a result come from: what results of every kind say at their root.
@@ -152,8 +152,8 @@ impl ResultFile {
         }
         if self.kind() == Kind::ShakeTable {
             return Ok(Overview::ShakeTable {
-                structure: reader.attribute_text(shake_table::GROUP, "structure")?,
-                analyses: reader.attribute_u64(shake_table::GROUP, "analyses")?,
+                structure: reader.attribute_text(TABLE_EXCITATIONS.path, "structure")?,
+                analyses: reader.attribute_u64(TABLE_EXCITATIONS.path, "analyses")?,
                 levels: reader.axis_text(axis::LEVEL)?,
                 excitations: reader.axis_text(axis::EXCITATION)?.len(),
             });

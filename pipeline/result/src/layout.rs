@@ -24,13 +24,6 @@ macro_rules! in_group {
     };
 }
 
-in_group! {
-    /// The structures that records shake, where these are not known exactly.
-    records:
-    STRUCTURE = "structure", STRENGTH_FACTOR = "strength_factor", RESTITUTION = "restitution",
-    UPLIFT_DISPLACEMENT_M = "uplift_displacement_m", CAPACITY_M = "capacity_m",
-}
-
 /// The sentence on how well the records know the spectra of a measure, an attribute of its group in `/urs`.
 pub const URS_PRECISION: &str = "precision";
 
@@ -50,36 +43,9 @@ pub mod structures {
     }
 }
 
-/// Hazard curves as used.
-pub mod hazard {
-    use uplift_motion::IntensityMeasure;
-
-    /// The curve of a site: its mean where it has branches.
-    pub fn group(site: &str, measure: IntensityMeasure) -> String {
-        format!("/hazard/{site}/{}", measure.key())
-    }
-
-    /// The weighted curve of a site at `index`.
-    pub fn branch(site: &str, measure: IntensityMeasure, index: usize) -> String {
-        format!("{}/branches/{}", group(site, measure), index + 1)
-    }
-
-    /// Mean annual frequencies of the curve in `group`.
-    pub fn maf_per_year(group: &str) -> String {
-        format!("{group}/maf_per_year")
-    }
-}
-
 in_group! {
     /// Percentiles of displacement spectra.
     spectra: U_M = "u_m", U_M_ROUNDING = "u_m_rounding", OVERTURNED = "overturned", CRITICAL = "critical",
-}
-
-in_group! {
-    /// The tests of a shaking table.
-    shake_table:
-    ORDER = "order",
-    SPECTRAL_ACCELERATION_M_S2 = "spectral_acceleration_m_s2", DESIGN_SPECTRUM_M_S2 = "design_spectrum_m_s2",
 }
 
 /// The motions of a set of records.
@@ -328,14 +294,8 @@ mod tests {
         let documented = |group: &str, name: &str| {
             page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
         };
-        let groups: [(&str, &[&str]); 6] = [
-            ("`/records/", records::ARRAYS),
-            ("`/hazard/<site>/pgv/", &["maf_per_year"]),
-            ("`/spectra/", spectra::ARRAYS),
-            ("`/sets/<set>/", set::ARRAYS),
-            ("`/design/", design::ARRAYS),
-            ("`/shake_table/", shake_table::ARRAYS),
-        ];
+        let groups: [(&str, &[&str]); 3] =
+            [("`/spectra/", spectra::ARRAYS), ("`/sets/<set>/", set::ARRAYS), ("`/design/", design::ARRAYS)];
         for (group, arrays) in groups {
             for name in arrays {
                 assert!(documented(group, name), "docs/hdf5-layout.md has no {group}{name}`");

@@ -54,6 +54,7 @@ pub use extend::{Addition, sign};
 pub use file::{ResultFile, RiskAxes};
 pub use findings::{DOCUMENT, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST};
 pub use findings::{FINDINGS, Finding, FindingRow, Inquiry, StoredFinding};
+pub use hazard::{HAZARD_CURVE, branch_curve_name, curve_name};
 pub use hazard::{StoredBranch, StoredCurves, StoredHazard};
 pub use head::{Head, Overview};
 pub use influence::{DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, StoredInfluence};
@@ -61,10 +62,10 @@ pub use peaks::{FACTORS, IMPACTS, PEAKS, RISK_SURFACE, SHARES};
 pub use peaks::{SetsOfLevels, StoredPeaks};
 pub use provenance::Origin;
 pub use provenance::Provenance;
-pub use records::{INTENSITY, MOTION_KEYS, RECORDS, StoredRecords, intensity_names};
-pub use shake_table::{
-    DIRECTIONS, Excitation, ShakeTable, TABLE_EXCITATIONS, TABLE_TESTS, TableLevel, TableSpectra, TableTest,
-};
+pub use records::{DRAWN_QUANTITY, DRAWN_STRUCTURE, INTENSITY, MOTION_KEYS, RECORDS};
+pub use records::{StoredRecords, drawn_names, intensity_names};
+pub use shake_table::{DESIGN_SPECTRUM, TABLE_EXCITATIONS, TABLE_ORDER, TABLE_SPECTRA, TABLE_TESTS};
+pub use shake_table::{DIRECTIONS, Excitation, ShakeTable, TableLevel, TableSpectra, TableTest};
 pub use spectra::{Fit, Fits, MeasureSpectra, Spectrum, StoredSpectra, regression, urs};
 pub use spectra::{flag_number, flag_word};
 pub use spread::{
