@@ -165,13 +165,10 @@ impl<T> Quantity<T> {
         }
     }
 
-    /// Its axes; a name in angle brackets may be of several axes, or of none.
+    /// Its axes; those with an empty name are not there.
     fn axes(&self, names: Names<'_>) -> Vec<String> {
-        let names = self.axes.iter().map(|axis| named(axis, names));
-        names
-            .flat_map(|axis| axis.split(", ").map(str::to_owned).collect::<Vec<_>>())
-            .filter(|axis| !axis.is_empty())
-            .collect()
+        let axes = self.axes.iter().map(|axis| named(axis, names).into_owned());
+        axes.filter(|axis| !axis.is_empty()).collect()
     }
 
     /// Its axes with their lengths.
@@ -224,18 +221,17 @@ impl<T> Quantity<T> {
                 *(place.get_mut)(value, index) = own;
             }
         }
-        let axes: Vec<(&str, usize)> = shape.iter().map(|(name, length)| (name.as_ref(), *length)).collect();
         let reader = &file.reader;
         match self.field {
-            Field::F64(place) => fill(value, place, file.checked(path, reader.array_f64(path)?, &axes)?),
-            Field::U32(place) => fill(value, place, file.checked(path, reader.array_u32(path)?, &axes)?),
-            Field::Text(place) => fill(value, place, file.checked(path, reader.array_text(path)?, &axes)?),
+            Field::F64(place) => fill(value, place, file.checked(path, reader.array_f64(path)?, shape)?),
+            Field::U32(place) => fill(value, place, file.checked(path, reader.array_u32(path)?, shape)?),
+            Field::Text(place) => fill(value, place, file.checked(path, reader.array_text(path)?, shape)?),
             Field::Bool(place) => {
-                let numbers = file.checked(path, reader.array_u8(path)?, &axes)?;
+                let numbers = file.checked(path, reader.array_u8(path)?, shape)?;
                 fill(value, place, numbers.into_iter().map(|number| number == 1));
             }
             Field::Flag(place) => {
-                let numbers = file.checked(path, reader.array_u8(path)?, &axes)?;
+                let numbers = file.checked(path, reader.array_u8(path)?, shape)?;
                 if let Some(unknown) = numbers.iter().find(|&&number| flag_of(number).is_none()) {
                     return Err(file.damaged(format!("{path} has the unknown flag {unknown}")));
                 }
@@ -359,6 +355,19 @@ impl<T> Group<T> {
             .try_for_each(|quantity| quantity.write(writer, &self.path(quantity, names), (names, lengths), &rows))
     }
 
+    /// The values of its array at `at`, which holds floats.
+    pub(super) fn read_floats(
+        &self,
+        at: usize,
+        file: &ResultFile,
+        names: Names<'_>,
+        lengths: Lengths<'_>,
+    ) -> Result<Vec<f64>, ResultError> {
+        let quantity = &self.quantities[at];
+        let (path, shape) = (self.path(quantity, names), quantity.shape(names, lengths));
+        file.checked(&path, file.reader.array_f64(&path)?, &shape)
+    }
+
     /// Reads every array into `value`, which has a place for every value.
     pub(super) fn read(
         &self,
@@ -376,10 +385,10 @@ impl<T> Group<T> {
     #[cfg(test)]
     pub(super) fn rows(&self) -> String {
         let row = |quantity: &Quantity<T>| {
-            let Quantity { name, axes, unit, long_name, .. } = *quantity;
+            let Quantity { name, unit, long_name, .. } = *quantity;
             let note = if quantity.note.is_empty() { long_name } else { quantity.note };
             let unit = if quantity.element() == "text" { String::new() } else { format!(" {unit}") };
-            let (path, axes, element) = (self.path, axes.join(", "), quantity.element());
+            let (path, axes, element) = (self.path, quantity.axes(EXAMPLES).join(", "), quantity.element());
             named(&format!("| `{path}/{name}` | {axes} | {element} |{unit} | {note} |\n"), EXAMPLES).into_owned()
         };
         self.quantities.iter().map(row).collect()
@@ -393,6 +402,13 @@ const EXAMPLES: Names<'_> = &[
     ("<axis>", "hazard_<site>_pgv"),
     ("<quantity>", "strength_factor`, `restitution`, `uplift_displacement_m`, `capacity_m"),
     ("<quantity_unit>", "1, 1, m, m"),
+    ("<line>", "LINE"),
+    ("<of_line>", ""),
+    ("<abscissa>", "ABSCISSA"),
+    ("<printed>", "printed_ABSCISSA"),
+    ("<motion>", "motion_<set>"),
+    ("<rounding>", ""),
+    ("<rounded>", ""),
     ("<lower>", "u05_m"),
     ("<median>", "u50_m"),
     ("<upper>", "u95_m"),
@@ -480,6 +496,13 @@ mod tests {
             EFFICIENCY,
             TRENDS,
             FINDINGS,
+            SPECTRA,
+            ROUNDED_SPECTRA,
+            SET_SPECTRA,
+            MOTIONS,
+            RESTRAINED_DESIGN,
+            SOLITARY_DESIGN,
+            SOLITARY_CAPACITY,
             TABLE_EXCITATIONS,
             TABLE_TESTS,
             TABLE_ORDER,

@@ -7,23 +7,6 @@ use uplift_motion::IntensityMeasure;
 /// Version of the layout of the result file.
 pub const LAYOUT: i64 = 1;
 
-/// Arrays with fixed paths.
-macro_rules! in_group {
-    ($(#[$doc:meta])* $module:ident: $($constant:ident = $name:literal),+ $(,)?) => {
-        $(#[$doc])*
-        pub mod $module {
-            /// The group.
-            pub const GROUP: &str = concat!("/", stringify!($module));
-            /// The arrays in it.
-            pub const ARRAYS: &[&str] = &[$($name),+];
-            $(
-                #[doc = concat!("`", $name, "`.")]
-                pub const $constant: &str = concat!("/", stringify!($module), "/", $name);
-            )+
-        }
-    };
-}
-
 /// The sentence on how well the records know the spectra of a measure, an attribute of its group in `/urs`.
 pub const URS_PRECISION: &str = "precision";
 
@@ -40,82 +23,6 @@ pub mod structures {
     /// The answer of a command to the question of this key.
     pub fn answer(structure: &str, command: &str, key: &str) -> String {
         format!("{}/{command}/{key}", group(structure))
-    }
-}
-
-in_group! {
-    /// Percentiles of displacement spectra.
-    spectra: U_M = "u_m", U_M_ROUNDING = "u_m_rounding", OVERTURNED = "overturned", CRITICAL = "critical",
-}
-
-/// The motions of a set of records.
-pub mod set {
-    /// The group of all sets.
-    pub const ROOT: &str = "/sets";
-    /// The arrays of a set.
-    pub const ARRAYS: &[&str] = &[
-        "u_m",
-        "factor",
-        "pga_g",
-        "pgv_cm_s",
-        "record_pga_g",
-        "record_pgv_cm_s",
-        "record",
-        "component",
-        "event",
-        "station",
-        "magnitude",
-        "rrup_km",
-        "vs30",
-        "dt_s",
-        "samples",
-        "checksum",
-    ];
-
-    /// The group of a set.
-    pub fn group(set: &str) -> String {
-        format!("{ROOT}/{set}")
-    }
-
-    /// An array of a set, by its name.
-    pub fn array(set: &str, name: &str) -> String {
-        format!("{ROOT}/{set}/{name}")
-    }
-}
-
-/// The design example of a study of displacement spectra.
-pub mod design {
-    /// The group.
-    pub const GROUP: &str = "/design";
-    /// The arrays of oscillators and of blocks.
-    pub const ARRAYS: &[&str] = &[
-        "u_dem_zs_m",
-        "u_cap_m",
-        "u_dem_th_m",
-        "u_dem_rule_m",
-        "error",
-        "tan_alpha",
-        "u_endless_m",
-        "u_block_m",
-        "capacity_m",
-        "u_dem_zs_m_rounding",
-        "u_cap_m_rounding",
-        "u_dem_th_m_rounding",
-        "u_dem_rule_m_rounding",
-        "error_rounding",
-        "tan_alpha_rounding",
-        "u_endless_m_rounding",
-        "u_block_m_rounding",
-    ];
-
-    /// What rounding does to the values of an array, by its name.
-    pub fn rounding(name: &str) -> String {
-        format!("{GROUP}/{name}_rounding")
-    }
-
-    /// An array, by its name.
-    pub fn array(name: &str) -> String {
-        format!("{GROUP}/{name}")
     }
 }
 
@@ -287,20 +194,10 @@ mod tests {
         assert_eq!(limit_names(0.68), ["u16_m", "u50_m", "u84_m"]);
     }
 
-    /// The page that describes the file names every group, array and axis.
+    /// The page that describes the file names every axis.
     #[test]
-    fn the_documentation_has_every_array_and_axis() {
+    fn the_documentation_has_every_axis() {
         let page = include_str!("../../../docs/hdf5-layout.md");
-        let documented = |group: &str, name: &str| {
-            page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
-        };
-        let groups: [(&str, &[&str]); 3] =
-            [("`/spectra/", spectra::ARRAYS), ("`/sets/<set>/", set::ARRAYS), ("`/design/", design::ARRAYS)];
-        for (group, arrays) in groups {
-            for name in arrays {
-                assert!(documented(group, name), "docs/hdf5-layout.md has no {group}{name}`");
-            }
-        }
         for name in axis::ALL {
             assert!(page.contains(&format!("| `{name}` |")), "docs/hdf5-layout.md has no axis {name}");
         }

@@ -42,10 +42,12 @@ pub use consistency::{
     REPAIRS, WEIGHTS,
 };
 pub use consistency::{StoredConsistency, consistency_names};
-pub use design::{BOUNDS, bounds, rule_names};
+pub use design::{BOUNDS, RESTRAINED_DESIGN, ROUNDING, SOLITARY_CAPACITY, SOLITARY_DESIGN, VALUES, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
+pub use displacements::{MOTIONS, ROUNDED_SPECTRA, SET_SPECTRA, SPECTRA};
 pub use displacements::{
-    SpectrumPlace, StoredDisplacements, StoredMotions, StoredRounding, StoredSet, StoredStructures,
+    SetSpectra, SpectrumPlace, StoredDisplacements, StoredMotion, StoredMotions, StoredRounding, StoredSet,
+    StoredStructures,
 };
 pub use efficiency::{EFFICIENCY, EFFICIENCY_OF_STRIPES, REACHING, TRENDS};
 pub use efficiency::{StoredEfficiency, StoredTrend};
