@@ -89,16 +89,26 @@ group! {
 }
 
 group! {
+    /// Levels that the weighted records of each site bring.
+    pub const REPAIRED_LEVELS: Repaired = CONSISTENCY.path;
+    "<other>_repaired" [SITE, RATE] Made "<other_unit>" "level that the weighted records bring, <label>"
+        = |of, at| of.diagnosis.deviation.as_ref().map_or(f64::NAN, |deviation| deviation.implied_levels[at]);
+}
+
+group! {
     /// The weights of each site's repair, and what the records are under them.
     pub const REPAIRS: Repaired = CONSISTENCY.path;
-    "exponent" [SITE, KNOT] Made "1" "exponent of the weights"
-        ("exponents of the weights; after a repair, as all that follows") = |of, at| of.fit.exponents[at];
+    "effective_records" [SITE, "<im>_level"] Made "1" "effective records under the weights"
+        ("effective records under the weights; after a repair, as all that follows")
+        = |of, at| of.diagnosis.stripes[at].effective_records;
+    "exponent" [SITE, KNOT] Made "1" "exponent of the weights" = |of, at| of.fit.exponents[at];
     "knot" [SITE, KNOT] Made "<other_unit>" "<label> of the knots"
         ("levels of the other measure at which the exponents hold") = |of, at| of.knot_levels[at];
     "iterations" [SITE] Made "1" "steps of the fit" = |of, _at| f64::from(of.fit.iterations);
     "mean_ln_ratio" [SITE, "<im>_level"] Made "1" "mean of ln(other measure/measure scaled to) under the weights"
         = |of, at| of.diagnosis.stripes[at].mean_ln_ratio;
-    "sd_ln_ratio" [SITE, "<im>_level"] Made "1" "standard deviation of it" = |of, at| of.diagnosis.stripes[at].sd_ln_ratio;
+    "sd_ln_ratio" [SITE, "<im>_level"] Made "1" "standard deviation of it"
+        = |of, at| of.diagnosis.stripes[at].sd_ln_ratio;
 }
 
 group! {
@@ -109,34 +119,17 @@ group! {
 }
 
 group! {
-    /// What each ordinate of the spectra of weighted records is.
-    pub const REPAIRED_ORDINATES: Ordinate = CONSISTENCY.path;
+    /// The spectra of weighted records, a row each ordinate.
+    pub const REPAIRED_SPECTRA: Ordinate = CONSISTENCY.path;
+    "u_m" [SITE, POE, STRENGTH] F64 "m" "uniform risk displacement of the weighted records"
+        ("the spectra of the weighted records, as `/urs`; NaN where there is no repair") = |of, _at| of.displacement_m;
     "lower_tail_share" [SITE, POE, STRENGTH] Made "1" "share of its risk from below the first stripe"
         ("as that of `/urs`; NaN where there is no repair") = |of, _at| of.lower_tail_share;
     "upper_tail_share" [SITE, POE, STRENGTH] Made "1" "share of its risk from above the last stripe"
         ("as that of `/urs`; NaN where there is no repair") = |of, _at| of.upper_tail_share;
-    "flag" [SITE, POE, STRENGTH] Flag "1" "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored, 3 no repair"
+    "flag" [SITE, POE, STRENGTH] Flag "1"
+        "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored, 3 no repair"
         ("as that of `/urs`, and 3: no repair") = |of, _at| of.flag;
-}
-
-group! {
-    /// Levels that weighted records bring.
-    pub const REPAIRED_LEVEL: Array<2> = CONSISTENCY.path;
-    "<other>_repaired" [SITE, RATE] F64 "<other_unit>" "level that the weighted records bring, <label>"
-        = |of, at| of[at];
-}
-
-group! {
-    /// Effective records under the weights.
-    pub const EFFECTIVE_RECORDS: Array<2> = CONSISTENCY.path;
-    "effective_records" [SITE, "<im>_level"] F64 "1" "effective records under the weights" = |of, at| of[at];
-}
-
-group! {
-    /// The spectra of weighted records.
-    pub const REPAIRED_U_M: Array<3> = CONSISTENCY.path;
-    "u_m" [SITE, POE, STRENGTH] F64 "m" "uniform risk displacement of the weighted records"
-        ("the spectra of the weighted records, as `/urs`; NaN where there is no repair") = |of, at| of[at];
 }
 
 /// Names of the arrays of the analysis by a measure, about another one.
@@ -191,7 +184,7 @@ impl ResultFile {
 
     /// Whether there are spectra of weighted records.
     pub fn has_repair(&self) -> bool {
-        self.measures().into_iter().any(|own| REPAIRED_U_M.is_in(self, &of_measure(own)))
+        self.measures().into_iter().any(|own| REPAIRED_SPECTRA.is_in(self, &of_measure(own)))
     }
 
     fn consistency_of(
@@ -227,13 +220,13 @@ impl ResultFile {
             fits: None,
         };
         CONSISTENCY.read(self, &names, &lengths, &mut found)?;
-        if REPAIRED_U_M.is_in(self, &names) {
-            let records = EFFECTIVE_RECORDS.read_array(self, &names, [(SITE, sites), (&level, levels)])?;
+        if REPAIRED_SPECTRA.is_in(self, &names) {
+            let records = REPAIRS.read_array(self, &names, [(SITE, sites), (&level, levels)])?;
             let least = self.least_effective(scaled_to, &axes.sites, &found.rate_per_year, &records)?;
             (found.effective_records, found.least_effective) = (Some(records), Some(least));
-            found.repaired_level = Some(REPAIRED_LEVEL.read_array(self, &names, [(SITE, sites), (RATE, rates)])?);
+            found.repaired_level = Some(REPAIRED_LEVELS.read_array(self, &names, [(SITE, sites), (RATE, rates)])?);
             let spectrum = [(SITE, sites), (POE, poes), (STRENGTH, strengths)];
-            found.u_m = Some(REPAIRED_U_M.read_array(self, &names, spectrum)?);
+            found.u_m = Some(REPAIRED_SPECTRA.read_array(self, &names, spectrum)?);
             found.fits = Some(self.repaired_fits(scaled_to, by_poe)?);
         }
         Ok(found)

@@ -185,8 +185,8 @@ impl<T> Quantity<T> {
         rows: &[Option<&T>],
     ) -> Result<(), LabelledError> {
         fn all<T, V: Clone>(rows: &[Option<&T>], each: usize, of: impl Fn(&T, usize) -> V, none: &V) -> Vec<V> {
-            let value = |row: &Option<&T>, at| row.map_or_else(|| none.clone(), |row| of(row, at));
-            rows.iter().flat_map(|row| (0..each).map(move |at| value(row, at))).collect()
+            let value = |row: Option<&T>, at| row.map_or_else(|| none.clone(), |row| of(row, at));
+            rows.iter().flat_map(|row| (0..each).map(|at| value(*row, at))).collect()
         }
         let shape = self.shape(names, lengths);
         let dims: &[&str] = &shape.iter().map(|(name, _)| name.as_ref()).collect::<Vec<_>>();
@@ -258,16 +258,6 @@ impl<const N: usize> Group<Array<N>> {
         let axes = own.axes(names);
         let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
         writer.array_f64(&self.path(own, names), &dims, values, &named(own.unit, names), &named(own.long_name, names))
-    }
-
-    /// Reads its only array.
-    pub(super) fn read_array(
-        &self,
-        file: &ResultFile,
-        names: Names<'_>,
-        lengths: [(&str, usize); N],
-    ) -> Result<Array<N>, ResultError> {
-        file.array(&self.first_path(names), lengths)
     }
 }
 
@@ -355,7 +345,17 @@ impl<T> Group<T> {
             .try_for_each(|quantity| quantity.write(writer, &self.path(quantity, names), (names, lengths), &rows))
     }
 
-    /// The values of its array at `at`, which holds floats.
+    /// Reads the first of its arrays, of floats.
+    pub(super) fn read_array<const N: usize>(
+        &self,
+        file: &ResultFile,
+        names: Names<'_>,
+        lengths: [(&str, usize); N],
+    ) -> Result<Array<N>, ResultError> {
+        file.array(&self.first_path(names), lengths)
+    }
+
+    /// The values of its array at `at`, of floats.
     pub(super) fn read_floats(
         &self,
         at: usize,
@@ -467,12 +467,10 @@ mod tests {
             REPAIRED_FITS,
             CONSISTENCY,
             DIAGNOSES,
-            REPAIRED_LEVEL,
+            REPAIRED_LEVELS,
             REPAIRS,
             WEIGHTS,
-            EFFECTIVE_RECORDS,
-            REPAIRED_U_M,
-            REPAIRED_ORDINATES,
+            REPAIRED_SPECTRA,
             BANDS,
             SIMULTANEOUS_BANDS,
             INFERRED_BANDS,

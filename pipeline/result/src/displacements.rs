@@ -120,7 +120,7 @@ impl From<&Structures> for StoredStructures {
         match structures {
             Structures::Oscillators(family) => Self::Oscillators {
                 uplift_displacement_m: family.uplift_displacement_m.to_vec(),
-                capacity_m: family.capacity_m.to_vec(),
+                capacity_m: family.capacity_m.clone(),
             },
             Structures::Blocks(family) => Self::Blocks { height_m: family.height_m.to_vec() },
         }

@@ -42,7 +42,8 @@ group! {
     /// A curve as used, of the name `<curve>`, over levels of its own.
     pub const HAZARD_CURVE: HazardCurve = "/hazard/<curve>";
     "maf_per_year" ["<axis>"] Made "1/yr" "mean annual frequency of exceedance"
-        ("mean annual frequency of exceedance; of the n-th weighted curve in `branches/<n>`, over `hazard_<site>_pgv_<n>`")
+        ("mean annual frequency of exceedance; of the n-th weighted curve in `branches/<n>`, over \
+          `hazard_<site>_pgv_<n>`")
         = |of, at| of.maf()[at];
 }
 

@@ -37,10 +37,7 @@ pub use bands::{
     BandMethod, InferredBands, MeasureBands, SiteJointBands, StoredBands, StoredDraws, StoredJointBands,
     StoredRepairedBands, StoredSpectraBands, WidestInferred, band_lengths, band_names,
 };
-pub use consistency::{
-    CONSISTENCY, DIAGNOSES, EFFECTIVE_RECORDS, REPAIRED_FITS, REPAIRED_LEVEL, REPAIRED_ORDINATES, REPAIRED_U_M,
-    REPAIRS, WEIGHTS,
-};
+pub use consistency::{CONSISTENCY, DIAGNOSES, REPAIRED_FITS, REPAIRED_LEVELS, REPAIRED_SPECTRA, REPAIRS, WEIGHTS};
 pub use consistency::{StoredConsistency, consistency_names};
 pub use design::{BOUNDS, RESTRAINED_DESIGN, ROUNDING, SOLITARY_CAPACITY, SOLITARY_DESIGN, VALUES, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};

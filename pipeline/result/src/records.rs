@@ -95,7 +95,8 @@ group! {
     /// Which structure each record shakes, where structures are not known exactly.
     pub const DRAWN_STRUCTURE: Array<1, u32> = RECORDS.path;
     "structure" [RECORD] U32 "1" "number of the structure that the record shakes"
-        ("number of the structure that the record shakes; only where structures are not known exactly, as the next ones")
+        ("number of the structure that the record shakes; only where structures are not known exactly, as the \
+          next ones")
         = |of, at| of[at];
 }
 

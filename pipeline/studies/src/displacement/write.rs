@@ -102,10 +102,9 @@ pub fn write_displacements(path: &Path, outcome: &DisplacementOutcome<'_>) -> Re
 
 fn write_root(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) -> Result<(), StudiesError> {
     let DisplacementOutcome { study, records, .. } = outcome;
-    let study_toml = study.to_toml()?;
     let origin = Origin {
         title: &study.title,
-        study_toml: &study_toml,
+        study_toml: &study.to_toml()?,
         gravity_m_s2: study.gravity_m_s2,
         record_set: &records.description,
         synthetic: records.synthetic,

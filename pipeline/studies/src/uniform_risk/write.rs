@@ -41,10 +41,9 @@ pub fn write_result(path: &Path, outcome: &Outcome<'_>) -> Result<(), StudiesErr
 
 fn write_root(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), StudiesError> {
     let Outcome { study, records, .. } = outcome;
-    let study_toml = study.to_toml()?;
     let origin = Origin {
         title: &study.title,
-        study_toml: &study_toml,
+        study_toml: &study.to_toml()?,
         gravity_m_s2: study.gravity_m_s2,
         record_set: &records.description,
         synthetic: records.synthetic,

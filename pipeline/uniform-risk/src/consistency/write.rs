@@ -11,8 +11,8 @@ use uplift_motion::IntensityMeasure;
 use uplift_result::declared::of_measure;
 use uplift_result::layout::axis;
 use uplift_result::{
-    CONSISTENCY, DIAGNOSES, EFFECTIVE_RECORDS, Fit, REPAIRED_EPISTEMIC, REPAIRED_EPISTEMIC_SPECTRA, REPAIRED_FITS,
-    REPAIRED_LEVEL, REPAIRED_ORDINATES, REPAIRED_U_M, REPAIRS, WEIGHTS, consistency_names, sign,
+    CONSISTENCY, DIAGNOSES, Fit, REPAIRED_EPISTEMIC, REPAIRED_EPISTEMIC_SPECTRA, REPAIRED_FITS, REPAIRED_LEVELS,
+    REPAIRED_SPECTRA, REPAIRS, WEIGHTS, consistency_names, sign,
 };
 
 use super::asked::{by_site, stored};
@@ -96,21 +96,13 @@ fn write_measure(
     let diagnoses = findings.iter().map(|finding| finding.map(|finding| &finding.diagnosis));
     DIAGNOSES.write_rows(writer, &names, &lengths, diagnoses)?;
     let repaired = || findings.iter().map(|finding| finding.and_then(Finding::repaired));
-    let levels = repaired().flat_map(|repaired| {
-        let deviation = repaired.and_then(|repaired| repaired.diagnosis.deviation.as_ref());
-        deviation.map_or([f64::NAN; DEVIATION_RATES], |deviation| deviation.implied_levels)
-    });
-    REPAIRED_LEVEL.write_array(writer, &names, &levels.collect::<Vec<_>>())?;
+    REPAIRED_LEVELS.write_rows(writer, &names, &lengths, repaired())?;
     let Some(repairs) = repairs else { return Ok(()) };
     REPAIRS.write_rows(writer, &names, &lengths, repaired())?;
     if keep == Keep::Weights {
         WEIGHTS.write_rows(writer, &names, &lengths, repaired())?;
     }
-    if let Some((records, u_m)) = stored.effective_records.as_ref().zip(stored.u_m.as_ref()) {
-        EFFECTIVE_RECORDS.write_array(writer, &names, records.values())?;
-        REPAIRED_U_M.write_array(writer, &names, u_m.values())?;
-    }
-    REPAIRED_ORDINATES.write_rows(writer, &names, &lengths, repairs.ordinates.values().iter().map(Option::as_ref))?;
+    REPAIRED_SPECTRA.write_rows(writer, &names, &lengths, repairs.ordinates.values().iter().map(Option::as_ref))?;
     let fits = repairs.fits.map(|fit| Fit::of(fit.as_ref().ok()));
     REPAIRED_FITS.write(writer, &names, &lengths, &fits)?;
     write_branches(writer, question, repairs)
