@@ -51,7 +51,7 @@ pub enum Field<T: 'static> {
     Flag(Place<T, OrdinateFlag>),
     /// Texts.
     Text(Place<T, String>),
-    /// Floats made of the value as they are written; nothing reads them back.
+    /// Floats made of the value as they are written; read back as an array alone, if at all.
     Made(fn(&T, usize) -> f64),
 }
 
@@ -328,7 +328,8 @@ impl<T> Group<T> {
         self.write_rows(writer, names, lengths, [Some(value)])
     }
 
-    /// Writes every array, each value of `rows` being a row of them along their first axes; of none NaN.
+    /// Writes every array, each value of `rows` being a row of them along their first axes; a missing one is a row of
+    /// NaN, of 0 for counts, of empty texts.
     ///
     /// # Errors
     /// Whatever keeps the file from being written.

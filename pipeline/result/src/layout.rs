@@ -1,4 +1,4 @@
-//! Where things are in a result file: every group, array and axis by its name (docs/hdf5-layout.md).
+//! Names in a result file that are declared beside no array: of axes and of answers (docs/hdf5-layout.md).
 
 use std::collections::BTreeSet;
 

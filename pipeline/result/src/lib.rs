@@ -1,6 +1,7 @@
 //! The result of a study: one HDF5 file, and tidy tables beside it; how both are opened, extended and read.
 //!
-//! [`ResultFile`] opens a result and reads it part by part; [`layout`] knows where everything is.
+//! [`ResultFile`] opens a result and reads it part by part; arrays are [`declared`] beside the values that they hold,
+//! and [`layout`] names the axes.
 
 mod asked_spectra;
 mod bands;
