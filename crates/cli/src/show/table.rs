@@ -8,7 +8,7 @@ use std::io::Write;
 use uplift::table::{
     COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, ReferenceFit, TableReport, TableRows,
 };
-use uplift::text::{Table, kind_of_risks, risk_name, spectrum_words};
+use uplift::text::{Table, kind_of_risks, risk_name, rounded, spectrum_words};
 
 use super::alarms::print_warnings;
 use super::shake_table;
@@ -41,6 +41,10 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
         row.reference.as_ref().and_then(value).map_or_else(|| "-".to_owned(), |value| format!("{value:.4}"))
     };
     let ratio = |row: &CoefficientRow| row.reference.as_ref().and(row.median_ratio).map(|ratio| format!("{ratio:.2}"));
+    let within = |row: &CoefficientRow| match row.reach.and_then(|reach| reach.within_ten_percent) {
+        Some((from, to)) => format!("{} to {}", rounded(from, 4), rounded(to, 4)),
+        None => "-".to_owned(),
+    };
     let table = Table::of(&report.rows)
         .left("site", |row| &row.site)
         .right("im", measure)
@@ -49,6 +53,7 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
         .right("c1", |row| fitted(row, row.c1))
         .right("c2  ", c2)
         .right("rmse", |row| fitted(row, row.rmse_m))
+        .right("within 10 %", within)
         .when(report.compared, |table| {
             table
                 .bar("c0", |row| printed(row, |of| Some(of.c0_m)))
@@ -61,15 +66,15 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
     let starred = if report.rows.iter().any(|row| row.bound_active) { "* c2 held at 0; " } else { "" };
     let poes: Vec<f64> = report.rows.iter().map(|row| row.poe).collect();
     let kind = kind_of_risks(&poes, report.years).map_or_else(String::new, |kind| kind + "; ");
-    writeln!(out, "{starred}{kind}rmse with n - 3 degrees of freedom")?;
+    writeln!(out, "{starred}{kind}rmse with n - 3 degrees of freedom; within 10 %: strengths where the curve is")?;
     if report.rows.iter().any(|row| row.repaired) {
-        writeln!(out, "repaired: of records weighted so that they bring the site's hazard of both measures")?;
+        writeln!(out, "repaired: records weighted for hazard consistency")?;
     }
     if report.compared {
         writeln!(
             out,
-            "right of the bars: the reference, and the median ratio of our spectrum to its curve over strengths in \
-             ({COMPARED_ABOVE}, 1] where that exceeds {} mm",
+            "Right of the bars: the reference, and the median ratio of the spectrum to its curve, at strengths above \
+             {COMPARED_ABOVE} where it exceeds {} mm",
             1000.0 * COMPARED_FROM_M
         )?;
     }
