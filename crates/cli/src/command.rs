@@ -30,6 +30,9 @@ use result::{
 use structures::{design, overturning, risk, target};
 use study::{check, init, merge, run, sweep};
 
+/// What every command takes.
+const GENERAL: &str = "General options";
+
 /// Uniform risk spectra for rocking structures.
 ///
 /// From ground motions and site hazard to the displacement that a structure of a given uplift strength must survive so
@@ -40,16 +43,16 @@ use study::{check, init, merge, run, sweep};
     Exit codes: 0 done, 2 usage, 3 study or structure file, 4 input data or disk, 5 interrupted, 1 a bug")]
 pub(crate) struct Arguments {
     /// Number of threads; results do not depend on it [default: all cores]
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    #[arg(long, global = true, help_heading = GENERAL, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     threads: Option<u16>,
     /// Print only results and errors
-    #[arg(long, short, global = true)]
+    #[arg(long, short, global = true, help_heading = GENERAL)]
     pub(crate) quiet: bool,
     /// Show every table
-    #[arg(long, global = true)]
+    #[arg(long, global = true, help_heading = GENERAL)]
     pub(crate) details: bool,
     /// Form of progress and errors on standard error
-    #[arg(long, global = true, value_name = "FORM", value_enum, default_value = "text")]
+    #[arg(long, global = true, help_heading = GENERAL, value_name = "FORM", value_enum, default_value = "text")]
     pub(crate) progress: Form,
     #[command(subcommand)]
     command: Command,

@@ -29,7 +29,7 @@ const FILES: [&str; 6] = ["h5", "svg", "png", "csv", "html", "json"];
 /// Whether files that are there give way.
 #[derive(Debug, Args)]
 pub(crate) struct ForceArgument {
-    /// Replace files that this command did not write for the same input; an input is never replaced
+    /// Overwrite existing outputs (never an input)
     #[arg(long)]
     pub(crate) force: bool,
 }

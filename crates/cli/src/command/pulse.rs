@@ -91,7 +91,7 @@ pub(super) struct PulseArguments {
     figures: FigureArguments,
     #[command(flatten)]
     overwriting: ForceArgument,
-    /// Print the summary as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

@@ -52,7 +52,7 @@ pub(super) struct PushoverArguments {
     /// Draw force over displacement as SVG or PNG
     #[arg(long, value_name = "FILE.svg|png", help_heading = "Output")]
     plot: Option<PathBuf>,
-    /// Print everything as JSON
+    /// Print JSON
     #[arg(long, help_heading = "Output")]
     json: bool,
     #[command(flatten, next_help_heading = "Output")]

@@ -65,7 +65,7 @@ pub(super) struct ValidateArguments {
     /// Draw computed over measured peaks as SVG or PNG (Figure 6.19)
     #[arg(long, value_name = "FILE.svg|png", help_heading = OUTPUT)]
     plot_pairs: Option<PathBuf>,
-    /// Print everything as JSON
+    /// Print JSON
     #[arg(long, help_heading = OUTPUT)]
     json: bool,
     #[command(flatten, next_help_heading = OUTPUT)]

@@ -12,13 +12,13 @@ const WIDTHS_MM: RangeInclusive<i64> = 60..=500;
 /// How figures are written.
 #[derive(Debug, Args)]
 pub(crate) struct FigureArguments {
-    /// Format of the files
+    /// File format
     #[arg(long, value_enum, default_value_t = Format::Svg)]
     format: Format,
-    /// Width of a journal's column (90 mm) or page (190 mm)
+    /// Width: one column (90 mm) or a page (190 mm)
     #[arg(long, value_enum, default_value_t = Columns::Double)]
     width: Columns,
-    /// Any other width, mm, for instance 84 or 174; below 140 the panels stand below each other
+    /// Other width, mm; below 140 mm panels are stacked
     #[arg(
         long,
         value_name = "MM",
@@ -26,7 +26,7 @@ pub(crate) struct FigureArguments {
         value_parser = clap::value_parser!(u16).range(WIDTHS_MM)
     )]
     width_mm: Option<u16>,
-    /// Resolution of a PNG, dots an inch
+    /// Resolution of a PNG, dots per inch
     #[arg(
         long,
         value_name = "N",
@@ -34,7 +34,7 @@ pub(crate) struct FigureArguments {
         value_parser = clap::value_parser!(u16).range(72..=1200)
     )]
     dpi: u16,
-    /// Write the title into the figure; left out, it is for the caption to say
+    /// Write the title into the figure
     #[arg(long)]
     title: bool,
 }

@@ -12,8 +12,7 @@ use crate::terminal::Terminal;
 /// Whether the answer is kept.
 #[derive(Debug, Args)]
 pub(crate) struct KeepArgument {
-    /// Leave the result as it is: by default the answer is kept in it, in place of an earlier one to the same question,
-    /// for `uplift report`, `export` and `status`
+    /// Do not keep the answer in the result
     #[arg(long)]
     no_keep: bool,
 }

@@ -16,10 +16,10 @@ use crate::terminal::Terminal;
 /// A result, or a study that has or makes one.
 #[derive(Debug, Args)]
 pub(crate) struct ResultArguments {
-    /// Result file of `uplift run`, or a study file, which is run first unless its result is there
+    /// Result file, or a study file, which is run first if needed
     #[arg(value_name = "STUDY|RESULT")]
     input: PathBuf,
-    /// Change a key of the study for this run, for instance --set records.first=20
+    /// Set a key of the study, e.g. records.first=20
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
     #[command(flatten)]

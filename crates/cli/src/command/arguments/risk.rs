@@ -8,7 +8,7 @@ use super::{number, number_or_per_cent};
 /// The risks of the spectra, any: computed from the stripes of the result, without a new run.
 #[derive(Debug, Args)]
 pub(crate) struct RiskArguments {
-    /// Probabilities of exceedance, any, 0.1 or 10%, from the stripes of the result [default: those of its study]
+    /// Probabilities of exceedance, 0.1 or 10% [default: the study's]
     #[arg(
         long,
         value_name = "P[,P…]",
@@ -18,10 +18,10 @@ pub(crate) struct RiskArguments {
         conflicts_with = "return_period"
     )]
     poe: Vec<f64>,
-    /// Return periods in years, in place of probabilities
+    /// Return periods in years instead
     #[arg(long, value_name = "YEARS[,…]", value_delimiter = ',', allow_negative_numbers = true, value_parser = number)]
     return_period: Vec<f64>,
-    /// Years that the probabilities refer to [default: those of the study]
+    /// Years of the probabilities [default: the study's]
     #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number)]
     years: Option<f64>,
 }
@@ -41,16 +41,16 @@ impl RiskArguments {
 /// One risk of the spectra, any: computed from the stripes of the result, without a new run.
 #[derive(Debug, Args)]
 pub(crate) struct OneRiskArguments {
-    /// Probability of exceedance, any, 0.1 or 10%, from the stripes of the result [default: the smallest of its study]
+    /// Probability of exceedance, 0.1 or 10% [default: the smallest]
     #[arg(
         long, value_name = "P", allow_negative_numbers = true, value_parser = number_or_per_cent,
         conflicts_with = "return_period"
     )]
     poe: Option<f64>,
-    /// Return period in years, in place of a probability
+    /// Return period in years instead
     #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number)]
     return_period: Option<f64>,
-    /// Years that the probability refers to [default: those of the study]
+    /// Years of the probability [default: the study's]
     #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number)]
     years: Option<f64>,
 }

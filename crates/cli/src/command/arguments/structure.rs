@@ -13,18 +13,18 @@ use crate::error::CommandError;
 
 #[derive(Debug, Args)]
 pub(crate) struct StructureArguments {
-    /// Structure file (TOML), for instance configs/structures/pier.toml
+    /// Structure file, e.g. configs/structures/pier.toml
     pub(crate) structure: PathBuf,
-    /// Result file of `uplift run`: its spectra, and the records and hazard that they were made from
+    /// Result file with the spectra, records and hazard
     #[arg(long, value_name = "RESULT")]
     pub(crate) urs: PathBuf,
-    /// Manifest of the records, where it is no longer where the study says
+    /// Manifest of the records, if it was moved
     #[arg(long, value_name = "CSV")]
     pub(crate) manifest: Option<PathBuf>,
-    /// Compute only shard I of N of the structure's own analyses, into a file beside the result; nothing else is told
+    /// Compute only shard I of N of the structure's analyses
     #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["shards", "json"])]
     pub(crate) shard: Option<Shard>,
-    /// Every shard of these analyses, as --shard wrote them, instead of computing them here
+    /// All shards of these analyses, from --shard
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub(crate) shards: Vec<PathBuf>,
     #[command(flatten)]

@@ -13,10 +13,9 @@ use crate::error::CommandError;
 /// A study file and what is changed of it.
 #[derive(Debug, Args)]
 pub(crate) struct StudyArguments {
-    /// Study file (TOML), for instance configs/europe.toml; - is standard input
+    /// Study file, e.g. configs/europe.toml; - reads standard input
     pub(crate) study: PathBuf,
-    /// Change a key of the study for this run, for instance --set records.first=20; paths are relative to the current
-    /// directory
+    /// Set a key of the study, e.g. records.first=20
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
 }

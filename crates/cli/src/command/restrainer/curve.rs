@@ -30,7 +30,7 @@ pub(super) struct CurveArguments {
     /// Draw springs and restrainer as SVG or PNG
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
-    /// Print everything as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
     #[command(flatten)]

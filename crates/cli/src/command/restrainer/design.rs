@@ -53,12 +53,12 @@ pub(super) struct DesignArguments {
     /// Travel of the deck at which a stiffness counts, m [default: twice the width of a column]
     #[arg(long, value_name = "M", help_heading = TARGET, allow_negative_numbers = true, value_parser = number)]
     at_m: Option<f64>,
-    /// Site of the result [default: its only one]
+    /// Site [default: the only one]
     #[arg(long, requires = "urs", help_heading = SPECTRUM)]
     site: Option<String>,
     #[command(flatten, next_help_heading = "By a spectrum")]
     risk: OneRiskArguments,
-    /// Intensity measure of the spectrum: pgv, pga or any other [default: pgv if the result has it]
+    /// Intensity measure [default: pgv]
     #[arg(long, requires = "urs", help_heading = SPECTRUM)]
     measure: Option<IntensityMeasure>,
     /// Safety factor on the demand (Eq. 3.15)
@@ -93,7 +93,7 @@ pub(super) struct DesignArguments {
     /// Write every stack to this CSV file
     #[arg(short, long, value_name = "FILE.csv", help_heading = OUTPUT)]
     output: Option<PathBuf>,
-    /// Print everything as JSON
+    /// Print JSON
     #[arg(long, help_heading = OUTPUT)]
     json: bool,
     #[command(flatten, next_help_heading = "Output")]

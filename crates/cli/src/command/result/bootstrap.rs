@@ -14,44 +14,38 @@ use crate::show::{print_bootstrap, print_json};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  uplift bootstrap results/study.h5\n  uplift bootstrap results/study.h5 --sizes 20,40 --details"
+)]
 pub(crate) struct BootstrapArguments {
     #[command(flatten)]
     result: ResultArguments,
-    /// Records in a sample, for instance 20,40,60 [default: the study's, else 20,40,60,80 and the whole set]
+    /// Records in a resample, e.g. 20,40,60 [default: the study's, else 20,40,60,80 and all]
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=100_000))]
     sizes: Option<Vec<u32>>,
-    /// Samples of each size [default: the study's, else 1000]
+    /// Number of resamples of each size [default: the study's, else 1000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     replicates: Option<u64>,
-    /// Seed of the draws [default: the study's]
+    /// Random seed [default: the study's]
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     seed: Option<u64>,
-    /// How limits are read: percentile or bca (bias-corrected and accelerated)
+    /// Method of the limits: percentile or bca
     #[arg(long, value_parser = ["percentile", "bca"])]
     interval: Option<String>,
-    /// What is drawn: record, or pair or event (pairs or earthquakes with all their records)
+    /// Unit of a resample: record, pair or event (earthquake)
     #[arg(long, value_parser = ["record", "pair", "event"], conflicts_with = "plan")]
     unit: Option<String>,
-    /// Also bands that hold whole spectra
+    /// Add simultaneous bands, which hold for whole spectra
     #[arg(long)]
     simultaneous: bool,
-    /// Draw the records as another result did, from its stored plan
+    /// Draw the same resamples as another result
     #[arg(long, value_name = "RESULT.h5", conflicts_with_all = ["sizes", "replicates", "seed"])]
     plan: Option<PathBuf>,
     /// Table to compare with
-    #[arg(
-        long,
-        value_name = "FILE.csv",
-        help = "Table to compare with: CSV with the columns of Table 4.1 (site, sample_size, pgv_e_median_pct, \
-                pgv_r_90ci_pct, …)"
-    )]
+    #[arg(long, value_name = "FILE.csv")]
     reference: Option<PathBuf>,
-    /// Print the rows as JSON
-    #[arg(
-        long,
-        help = "Print the rows as JSON: site, im, poe, sample_size, e_median and r_90ci in per cent, inferred: \
-                limits of the truth and of another set, per cent from the ordinate"
-    )]
+    /// Print JSON
+    #[arg(long)]
     json: bool,
 }
 

@@ -11,28 +11,29 @@ use crate::show::{print_consistency, print_json};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  uplift consistency results/study.h5\n  uplift consistency results/study.h5 --repair"
+)]
 pub(crate) struct ConsistencyArguments {
     #[command(flatten)]
     result: ResultArguments,
-    /// Weigh the records so that they bring the site's hazard of both measures, and add the spectra of these weights
+    /// Weight the records to match both hazard curves, and add the repaired spectra
     #[arg(long)]
     repair: bool,
-    /// Keep the weight of every run in the result; implies --repair
+    /// Keep every weight in the result; implies --repair
     #[arg(long)]
     keep_weights: bool,
-    /// What the site's hazard is made of, shown beside the magnitudes and distances of the records
+    /// OpenQuake disaggregation to compare with the records
     #[arg(
         long = "disaggregation",
         value_name = "[SITE=]FILE",
-        value_parser = site_and_file,
-        help = "Table Mag_Dist of an OpenQuake disaggregation: its mean magnitude and distance are shown beside those \
-                of the records; given several times, with the site where the result has several"
+        value_parser = site_and_file
     )]
     disaggregations: Vec<(Option<String>, PathBuf)>,
-    /// Fail with exit code 4 where a verdict is worse than this
+    /// Fail with exit code 4 if any verdict is worse than this
     #[arg(long, value_name = "VERDICT")]
     require: Option<Required>,
-    /// Print the rows as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

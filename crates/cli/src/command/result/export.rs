@@ -13,26 +13,21 @@ use crate::terminal::Terminal;
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "a switch for each format")]
 pub(crate) struct ExportArguments {
-    /// Result file of `uplift run`
+    /// Result file
     result: PathBuf,
-    /// A tidy table, a row each ordinate, with fit, flag and bands
-    #[arg(
-        long,
-        help = "A tidy table, a row each ordinate: site, im, poe, years, strength, u_m, fit_m, return_period_years, \
-                flag, bands"
-    )]
+    /// CSV table, one row an ordinate, with fit, flag and bands
+    #[arg(long)]
     csv: bool,
-    /// One object with the spectra, bands, coefficients and warnings
+    /// JSON with spectra, bands, coefficients and warnings
     #[arg(long)]
     json: bool,
-    /// A file that MATLAB and scipy.io load; `u_pgv_m` is strength x probability x site
-    #[arg(long, help = "A file that MATLAB and scipy.io load; u_pgv_m is strength x probability x site")]
+    /// MATLAB file; u_pgv_m is strength x probability x site
+    #[arg(long)]
     mat: bool,
-    /// A workbook of Excel: spectra, bands, coefficients, hazard, and where they come from
+    /// Excel workbook with spectra, bands, coefficients and hazard
     #[arg(long)]
     xlsx: bool,
-    /// The file, if one format is asked for [default: the result with .spectra.csv, .json, .mat or
-    /// .xlsx]
+    /// Output file, for one format [default: beside the result]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]

@@ -9,19 +9,20 @@ use crate::show::{print_influence, print_json};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift influence results/study.h5")]
 pub(crate) struct InfluenceArguments {
     #[command(flatten)]
     result: ResultArguments,
-    /// Records shown for each site
+    /// Number of records shown for each site
     #[arg(long, value_name = "N", default_value_t = InfluenceOptions::default().top)]
     top: usize,
-    /// Probability of exceedance shown, 0.1 or 10% [default: the smallest]
+    /// Probability of exceedance, 0.1 or 10% [default: the smallest]
     #[arg(long, value_parser = probability)]
     poe: Option<f64>,
-    /// The same by its return period in years, for instance 475
+    /// Return period in years instead
     #[arg(long, value_name = "YEARS", conflicts_with = "poe", value_parser = number)]
     return_period: Option<f64>,
-    /// Print the rows as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

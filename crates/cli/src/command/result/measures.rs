@@ -10,14 +10,14 @@ use crate::show::{print_efficiency, print_json};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift measures results/study.h5")]
 pub(crate) struct MeasuresArguments {
     #[command(flatten)]
     result: ResultArguments,
-    /// Measures to compare beside those of the stripes, given several times [default: ten with PGV, PGA, SA(0.5),
-    /// SA(1), SA(2), AvgSA(0.2-2), PGD, CAV, Arias intensity and spectrum intensity]
+    /// Further measure to compare; repeat for several [default: eight usual ones]
     #[arg(long = "measure", value_name = "MEASURE")]
     measures: Vec<IntensityMeasure>,
-    /// Print the rows as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

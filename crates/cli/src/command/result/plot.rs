@@ -14,13 +14,16 @@ use crate::show::print_files;
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  uplift plot results/study.h5 --only urs\n  uplift plot configs/structures/column-j.toml"
+)]
 pub(crate) struct PlotArguments {
     #[command(flatten)]
     result: ResultArguments,
-    /// Folder for the figures [default: beside the result, named after it]
+    /// Folder for the figures [default: beside the result]
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// Only figures whose name contains this, for instance urs
+    /// Draw only figures whose name contains this, e.g. urs
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
     #[command(flatten)]

@@ -11,11 +11,12 @@ use crate::show::print_files;
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift report results/study.h5")]
 pub(crate) struct ReportArguments {
-    /// Result files of `uplift run`; several stand side by side
+    /// Result files; several are compared
     #[arg(required = true, value_name = "RESULT")]
     results: Vec<PathBuf>,
-    /// The page [default: the first result with .html]
+    /// Page to write [default: the first result with .html]
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
     #[command(flatten)]

@@ -9,6 +9,7 @@ use crate::error::CommandError;
 use crate::show::print_status;
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift status results/study.h5")]
 pub(crate) struct StatusArguments {
     /// Result file, study file, or shard
     #[arg(value_name = "RESULT|STUDY|SHARD")]

@@ -12,25 +12,21 @@ use crate::show::{print_json, print_table};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  uplift table results/study.h5\n  uplift table results/study.h5 --im pga --return-period 475"
+)]
 pub(crate) struct TableArguments {
-    /// Result file of `uplift run`, or a structure file with columns
+    /// Result file, or a structure file with columns
     result: PathBuf,
     /// Table to compare with
-    #[arg(
-        long,
-        value_name = "FILE.csv",
-        help = "Table to compare with: CSV with the columns site, poe_50y (or poe), c0_m, c1, c2_m, rmse_m; for \
-                displacement spectra record_set, scaling, quantity, value and, for oscillators, rule (ED, EE); for a \
-                shaking table level, exc_id in the order of the tests; for a structure quantity, value"
-    )]
+    #[arg(long, value_name = "FILE.csv")]
     reference: Option<PathBuf>,
-    /// Which intensity measure, with the warnings of it alone; not for displacement spectra [default: pgv, with every
-    /// warning]
+    /// Intensity measure [default: pgv]
     #[arg(long, value_name = "pgv|pga|sa_1s|...|all", value_parser = which_measure)]
     im: Option<TableMeasure>,
     #[command(flatten)]
     risk: RiskArguments,
-    /// Print the rows as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

@@ -11,8 +11,9 @@ use crate::show::print_verified;
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift verify results/*.h5")]
 pub(crate) struct VerifyArguments {
-    /// Result files of `uplift run`
+    /// Result files
     #[arg(required = true, value_name = "RESULT")]
     results: Vec<PathBuf>,
 }

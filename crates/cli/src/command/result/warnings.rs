@@ -11,8 +11,9 @@ use crate::error::CommandError;
 use crate::show::{print_all_warnings, print_json};
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift warnings results/study.h5")]
 pub(crate) struct WarningsArguments {
-    /// Result file of `uplift run`
+    /// Result file
     result: PathBuf,
     #[command(flatten)]
     risk: RiskArguments,

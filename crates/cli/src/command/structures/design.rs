@@ -14,22 +14,19 @@ use crate::show::{print_design, print_json};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "Structures to start from: configs/structures/*.toml. Method and a worked example: docs/design.md"
-)]
+#[command(after_help = "Example:\n  uplift design configs/structures/pier.toml --urs results/study.h5")]
 pub(crate) struct DesignArguments {
     #[command(flatten)]
     structure: StructureArguments,
-    /// Site of the result [default: its only one]
+    /// Site [default: the only one]
     #[arg(long)]
     site: Option<String>,
     #[command(flatten)]
     risk: OneRiskArguments,
-    /// Intensity measure of the spectrum: pgv, pga or any other [default: pgv if the result has it]
+    /// Intensity measure [default: pgv]
     #[arg(long)]
     measure: Option<IntensityMeasure>,
-    /// Design by the repaired spectrum, of records weighted so that they bring the site's hazard, and weigh the
-    /// structure's own analysis alike (uplift consistency --repair)
+    /// Use records weighted for hazard consistency (uplift consistency --repair)
     #[arg(long)]
     repaired: bool,
     /// Safety factor on the demand (Eq. 3.15)
@@ -41,13 +38,13 @@ pub(crate) struct DesignArguments {
         value_parser = number,
     )]
     safety_factor: f64,
-    /// Read the spectrum and apply the rules, without analysing the structure itself
+    /// Apply the rules to the spectrum without analysing the structure
     #[arg(long)]
     spectrum_only: bool,
-    /// Print everything as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Write a page to hand over: drawing, demand, margin, risk, assumptions
+    /// Write a design sheet
     #[arg(long, value_name = "FILE.html", conflicts_with = "shard")]
     report: Option<PathBuf>,
     #[command(flatten)]

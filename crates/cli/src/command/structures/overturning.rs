@@ -14,29 +14,26 @@ use crate::show::{print_json, print_overturning, print_shard};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "Structures to start from: configs/structures/*.toml. Method and a worked example: docs/design.md"
-)]
+#[command(after_help = "Example:\n  uplift overturning configs/structures/pier.toml --urs results/study.h5")]
 pub(crate) struct OverturningArguments {
     #[command(flatten)]
     structure: StructureArguments,
-    /// Site of the result [default: all]
+    /// Site [default: all]
     #[arg(long)]
     site: Option<String>,
-    /// Intensity measure: pgv, pga or any other [default: all of the result]
+    /// Intensity measure [default: all]
     #[arg(long)]
     measure: Option<IntensityMeasure>,
-    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
-    /// of angular momentum (block)
+    /// Coefficient of restitution of both models
     #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
     restitution: Option<f64>,
-    /// Print everything as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Draw the collapse fragility as SVG or PNG
+    /// Draw the collapse fragility
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
-    /// Write the collapse fragility to this CSV file, and the risk to one that ends in .risk.csv beside it
+    /// Write the collapse fragility, with the risk in .risk.csv beside it
     #[arg(long, short, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     #[command(flatten)]

@@ -14,33 +14,28 @@ use crate::show::{print_frame_risk, print_json, print_shard};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "Frames to start from: configs/structures/shake-table.toml, frame.toml. Method and a worked example: \
-                  docs/frames.md"
-)]
+#[command(after_help = "Example:\n  uplift risk configs/structures/frame.toml --urs results/study.h5")]
 pub(crate) struct FrameRiskArguments {
     #[command(flatten)]
     structure: StructureArguments,
-    /// Site of the result [default: its only one]
+    /// Site [default: the only one]
     #[arg(long)]
     site: Option<String>,
     #[command(flatten)]
     risk: OneRiskArguments,
-    /// Intensity measure: pgv, pga or any other [default: pgv if the result has it]
+    /// Intensity measure [default: pgv]
     #[arg(long)]
     measure: Option<IntensityMeasure>,
-    /// Model of the frame: wobbling, under both components, or planar [default: by the `column_shape` of the
-    /// structure, wobbling for cylinders]
+    /// Model of the frame: wobbling or planar [default: by its column_shape]
     #[arg(long, value_name = "MODEL", value_parser = model)]
     model: Option<Model>,
-    /// Print everything as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Draw the risk curves of frame and proxies, and the collapse fragility, as SVG or PNG
+    /// Draw risk curves and collapse fragility
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
-    /// Write the peak of every record, level and model to this CSV file, and what they come to at each level to one
-    /// that ends in .levels.csv beside it
+    /// Write the peak of every run, with those of each level in .levels.csv beside it
     #[arg(long, short, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     #[command(flatten)]

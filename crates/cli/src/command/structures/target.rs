@@ -16,59 +16,59 @@ use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Structures to start from: configs/structures/*.toml. Method and a worked example: docs/design.md",
+    after_help = "Example:\n  uplift target configs/structures/pier.toml --urs results/study.h5 --vary width --overturning 2e-4",
     group = ArgGroup::new("frequency").required(true).args(["overturning", "per_year", "poe", "return_period"])
 )]
 pub(crate) struct TargetArguments {
-    /// Structure file (TOML), for instance configs/structures/frame.toml
+    /// Structure file, e.g. configs/structures/frame.toml
     structure: PathBuf,
-    /// Result file of `uplift run`: the records and hazard that the structure meets
+    /// Result file with the records and hazard
     #[arg(long, value_name = "RESULT")]
     urs: PathBuf,
-    /// Manifest of the records, where it is no longer where the study says
+    /// Manifest of the records, if it was moved
     #[arg(long, value_name = "CSV")]
     manifest: Option<PathBuf>,
-    /// Site of the result [default: its only one]
+    /// Site [default: the only one]
     #[arg(long)]
     site: Option<String>,
-    /// Intensity measure: pgv, pga or any other [default: pgv if the result has it]
+    /// Intensity measure [default: pgv]
     #[arg(long)]
     measure: Option<IntensityMeasure>,
-    /// What is varied, all else kept
+    /// Quantity to vary
     #[arg(long, value_parser = PossibleValuesParser::new(Quantity::ALL.map(Quantity::key)))]
     vary: String,
-    /// Overturning may happen so often a year, for instance 2e-4
+    /// Target annual rate of overturning, e.g. 2e-4
     #[arg(
         long, value_name = "PER_YEAR", allow_negative_numbers = true, value_parser = number, conflicts_with = "exceed"
     )]
     overturning: Option<f64>,
-    /// In place of overturning: a displacement in m that must not be exceeded, or `capacity`, the structure's own
+    /// Target displacement, m, or `capacity`, instead of overturning
     #[arg(long, value_name = "M|capacity", allow_negative_numbers = true)]
     exceed: Option<String>,
-    /// Mean annual frequency that is allowed
+    /// Target annual rate
     #[arg(long, value_name = "PER_YEAR", allow_negative_numbers = true, value_parser = number)]
     per_year: Option<f64>,
-    /// Probability that is allowed, 0.01 or 1%, in --years
+    /// Target probability, 0.01 or 1%, in --years
     #[arg(long, value_name = "P", allow_negative_numbers = true, value_parser = number_or_per_cent)]
     poe: Option<f64>,
-    /// Return period that is asked for, years
+    /// Target return period, years
     #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number)]
     return_period: Option<f64>,
-    /// Years that the probability refers to [default: those of the study]
+    /// Years of the probability [default: the study's]
     #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number, requires = "poe")]
     years: Option<f64>,
-    /// Least value tried, in SI units [default: a quarter of the structure's own]
+    /// Smallest value to try, SI units [default: a quarter of the structure's]
     #[arg(long, value_name = "VALUE", allow_negative_numbers = true, value_parser = number)]
     from: Option<f64>,
-    /// Largest value tried [default: four times the structure's own]
+    /// Largest value to try [default: four times the structure's]
     #[arg(long, value_name = "VALUE", allow_negative_numbers = true, value_parser = number)]
     to: Option<f64>,
-    /// How near the values that meet and miss the target must lie, as a share of the value
+    /// Relative tolerance of the value
     #[arg(
         long, value_name = "SHARE", allow_negative_numbers = true, value_parser = number, default_value_t = 0.005
     )]
     tolerance: f64,
-    /// Return periods, years, at whose levels the structure that was found is looked at
+    /// Return periods, years, at whose levels the fragility is reported
     #[arg(
         long,
         value_name = "YEARS[,…]",
@@ -78,10 +78,10 @@ pub(crate) struct TargetArguments {
         default_values_t = [475.0, 2475.0]
     )]
     at: Vec<f64>,
-    /// Beside it, the level that a generic lognormal fragility of this dispersion asks for: the risk-targeted motion
+    /// Dispersion of a generic lognormal fragility to compare with
     #[arg(long, value_name = "BETA", allow_negative_numbers = true, value_parser = number)]
     generic_dispersion: Option<f64>,
-    /// Probability of that fragility at the level to design for
+    /// Probability of that fragility at the design level
     #[arg(
         long,
         value_name = "P",
@@ -91,10 +91,10 @@ pub(crate) struct TargetArguments {
         requires = "generic_dispersion"
     )]
     generic_probability: f64,
-    /// Print everything as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Write all values tried, with their risks, to this CSV file
+    /// Write all values tried with their risks
     #[arg(long, short, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     #[command(flatten)]

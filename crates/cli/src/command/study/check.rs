@@ -9,13 +9,14 @@ use crate::show::{print_json, print_plan, print_study};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  uplift check study.toml\n  uplift check study.toml --print-study")]
 pub(crate) struct CheckArguments {
     #[command(flatten)]
     study: StudyArguments,
     /// Print the study with every default filled in, as TOML
     #[arg(long, conflicts_with = "json")]
     print_study: bool,
-    /// Print the plan as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

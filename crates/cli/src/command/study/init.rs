@@ -10,6 +10,7 @@ use crate::show::{print_files, shown_path};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  uplift init first\n  uplift run first/study.toml")]
 pub(crate) struct InitArguments {
     /// Folder for the study and its hazard curves
     #[arg(default_value = "first")]

@@ -10,18 +10,19 @@ use crate::show::{print_json, print_run};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift merge study.toml results/*.part")]
 pub(crate) struct MergeArguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Every shard of the run, as `uplift run STUDY --shard I/N` wrote them
+    /// All shards of the run, from uplift run STUDY --shard I/N
     #[arg(required = true, value_name = "SHARD")]
     shards: Vec<PathBuf>,
-    /// Result file, instead of the study's output.file
+    /// Result file [default: the study's output.file]
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
     #[command(flatten)]
     overwriting: ForceArgument,
-    /// Print the summary as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

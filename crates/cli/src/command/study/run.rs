@@ -16,27 +16,28 @@ use crate::show::{print_json, print_run, print_shard};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  uplift run study.toml\n  uplift run study.toml --set records.first=20 -o results/twenty.h5"
+)]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Result file, instead of the study's output.file
+    /// Result file [default: the study's output.file]
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
     #[command(flatten)]
     overwriting: ForceArgument,
-    /// Compute only shard I of N of the analyses, into a file of its own; `uplift merge` joins the shards
+    /// Compute only shard I of N
     #[arg(
         long,
         value_name = "I/N",
-        value_parser = shard,
-        help = "Compute only shard I of N of the analyses, into a file of its own (-o names it); uplift merge joins \
-                the shards"
+        value_parser = shard
     )]
     shard: Option<Shard>,
-    /// Run the study although its result is there
+    /// Run the study even if its result is there
     #[arg(long)]
     again: bool,
-    /// Print the summary as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

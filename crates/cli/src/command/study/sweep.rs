@@ -13,28 +13,26 @@ use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "For instance: uplift sweep configs/quick.toml --over oscillator.restitution=0.85,0.95 --over \
+    after_help = "Example:\n  uplift sweep configs/quick.toml --over oscillator.restitution=0.85,0.95 --over \
                   'strengths.values=\"0:1/25:1\",\"0:1/50:1\"'",
     group = ArgGroup::new("variants").required(true).args(["over", "cases"])
 )]
 pub(crate) struct SweepArguments {
-    /// Study file (TOML) of uniform risk spectra, for instance configs/quick.toml
+    /// Study file, e.g. configs/quick.toml
     study: PathBuf,
-    /// A key of the study and its values: every combination with those of the others is run. A comma within brackets or
-    /// quotes belongs to a value
+    /// Key and its values; every combination is run
     #[arg(long, value_name = "KEY=VALUE,VALUE…")]
     over: Vec<String>,
-    /// A table of variants in place of that: a column a key, a row a variant, an empty cell the study's own value; a
-    /// column `name` names their results
+    /// Table of variants: a column a key, a row a variant, with a column `name` if wanted
     #[arg(long, value_name = "CASES.csv", conflicts_with = "over")]
     cases: Option<PathBuf>,
-    /// Change a key of the study for all variants, for instance --set records.first=20
+    /// Set a key for all variants, e.g. records.first=20
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
-    /// Folder for the results and their comparison [default: results/<study>.sweep]
+    /// Folder for the results [default: results/<study>.sweep]
     #[arg(long, short, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// Print the comparison as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
     #[command(flatten)]
