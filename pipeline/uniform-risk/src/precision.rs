@@ -109,23 +109,22 @@ fn half_width(ordinate_m: f64, [lower_m, upper_m]: [f64; 2]) -> Option<f64> {
 }
 
 impl Precision {
-    /// Whether they are enough, in a sentence.
+    /// How wide the band is, in a sentence.
     pub fn words(&self) -> String {
         let percent = |width: f64| format!("{:.0}", 100.0 * width);
         let [middle, least, most] = self.half_width.map(percent);
         let events = self.events.zip(self.effective_events).map_or_else(String::new, |(events, effective)| {
-            format!(" of {events} earthquakes, which count as {effective:.0},")
+            format!(" of {events} earthquakes (effective {effective:.0})")
         });
-        let by_event = self
-            .half_width_by_event
-            .map_or_else(String::new, |width| format!("; ±{} % if earthquakes were others", percent(width)));
+        let by_event =
+            self.half_width_by_event.map_or_else(String::new, |width| format!("; ±{} % by earthquake", percent(width)));
         format!(
-            "{} records{events} know the spectra of {} by {} within ±{middle} % ({least} to {most} by site and \
-             strength, {} bands of the truth{by_event}); half of that takes some {}",
+            "{} records{events}: half-width of the {} band, {} by {}, ±{middle} % ({least} to {most} by site and \
+             strength){by_event}; {} records would halve it",
             self.records,
+            per_cent(CONFIDENCE),
             risk_in_words(self.poe, self.years),
             self.im,
-            per_cent(CONFIDENCE),
             self.records_for_half
         )
     }
@@ -158,11 +157,10 @@ mod tests {
         };
         assert_eq!(
             precision.words(),
-            "105 records of 22 earthquakes, which count as 10, know the spectra of 2 % in 50 years by PGV within ±16 % \
-             (12 to 25 by site and strength, 90 % bands of the truth; ±24 % if earthquakes were others); half of that \
-             takes some 420"
+            "105 records of 22 earthquakes (effective 10): half-width of the 90 % band, 2 % in 50 years by PGV, ±16 % \
+             (12 to 25 by site and strength); ±24 % by earthquake; 420 records would halve it"
         );
         (precision.events, precision.effective_events, precision.half_width_by_event) = (None, None, None);
-        assert!(precision.words().starts_with("105 records know the spectra of 2 % in 50 years by PGV within"));
+        assert!(precision.words().starts_with("105 records: half-width of the 90 % band"));
     }
 }
