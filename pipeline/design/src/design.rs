@@ -306,7 +306,6 @@ fn not_repaired(source: &StudyOfResult, place: Place<'_>) -> DesignError {
     .into()
 }
 
-/// What the repaired spectrum says beside the plain one.
 fn beside(plain: Option<SpectrumDemand>, repaired: Option<SpectrumDemand>) -> Option<String> {
     let [plain_m, repaired_m] = [plain?, repaired?].map(|demand| demand.zero_stiffness_demand_m);
     Some(format!(

@@ -304,9 +304,6 @@ struct OverturningAnalysis<'a> {
 
 impl<'a> OverturningAnalysis<'a> {
     /// Of `structure` under the records of a result; `notes` gets what is left out of its models.
-    ///
-    /// # Errors
-    /// As [`overturning`].
     fn from_structure(
         structure: &'a Structure,
         source: &'a StudyOfResult,
@@ -371,9 +368,6 @@ fn uncertain_structures<'a>(
 
 /// What the stripes of the structures say by each of `measures`, with the hazard of each of the sites; `described` is
 /// the frequency for the structure as described, by the positions of measure and site.
-///
-/// # Errors
-/// Parts that do not belong together.
 fn uncertainty_report(
     uncertain: &Uncertain<'_>,
     (measures, sites): (&[(&SpectraOfResult, &[Hazard<'_>])], &[&str]),

@@ -89,7 +89,6 @@ impl Event {
     }
 }
 
-/// A site, and the questions that are asked there.
 #[derive(Debug)]
 pub(super) struct SiteQuestions<'a> {
     pub(super) name: &'a str,
@@ -101,9 +100,6 @@ pub(super) struct SiteQuestions<'a> {
 impl<'a> Uncertain<'a> {
     /// The structures that `structure` may be, whose impacts keep `restitution` of the velocity where that is known,
     /// under so many records; none where all of it is known.
-    ///
-    /// # Errors
-    /// A structure that cannot be.
     pub(super) fn from_structure(
         structure: &'a Structure,
         restitution: f64,
@@ -125,9 +121,6 @@ impl<'a> Uncertain<'a> {
     }
 
     /// The stripes of one measure, with what they cost.
-    ///
-    /// # Errors
-    /// A record that cannot be scaled.
     pub(super) fn plan<'b>(
         &'b self,
         (label, study): (&str, &UniformRiskStudy),
@@ -150,9 +143,6 @@ impl<'a> Uncertain<'a> {
     }
 
     /// What the stripes of a measure say, `[site, asked]`.
-    ///
-    /// # Errors
-    /// Parts that do not belong together.
     pub(super) fn results(
         &self,
         stripes: &Stripes,

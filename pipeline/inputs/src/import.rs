@@ -74,7 +74,6 @@ pub struct ImportReport {
 }
 
 impl ImportOptions {
-    /// The manifest.
     fn manifest(&self) -> PathBuf {
         if self.output.is_dir() { self.output.join("manifest.csv") } else { self.output.clone() }
     }

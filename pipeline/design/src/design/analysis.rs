@@ -38,9 +38,6 @@ pub(super) struct OwnAnalysis {
 
 impl OwnAnalysis {
     /// Of `structure` under `records`.
-    ///
-    /// # Errors
-    /// As [`design`](super::design).
     pub(super) fn from_structure(
         structure: &Structure,
         (file, source): (&ResultFile, &StudyOfResult),

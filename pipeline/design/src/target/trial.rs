@@ -48,9 +48,6 @@ pub(super) struct Trials<'a> {
 
 impl<'a> Trials<'a> {
     /// Of `structure`, by the stripes of the measure of `place` with its hazard, under records that scatter so.
-    ///
-    /// # Errors
-    /// Records that cannot be read.
     pub(super) fn from_structure(
         structure: &'a Structure,
         source: &'a StudyOfResult,
@@ -238,9 +235,6 @@ impl<'a> Trials<'a> {
 
     /// Which share of the runs lets it happen to the structures of `attempt` at the levels that `curve` has for the
     /// return periods asked for; one outside the curve is a note.
-    ///
-    /// # Errors
-    /// As [`attempt`](Self::attempt).
     pub(super) fn at_return_periods(
         &mut self,
         attempt: &Attempt,

@@ -34,7 +34,6 @@ const SYNC_EVERY: Duration = Duration::from_secs(5);
 /// The first line of a file of finished rows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RowFileHead {
-    /// Format with its version.
     format: String,
     /// Hash of all keys of the whole work, in order.
     pub work: String,

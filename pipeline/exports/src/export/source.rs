@@ -35,7 +35,6 @@ pub struct Export {
     pub(super) findings: Vec<StoredFinding>,
     /// Whether its records bring the site's hazard of the other measure.
     pub(super) consistency: Vec<StoredConsistency>,
-    /// Number of records.
     pub(super) records: usize,
     /// Name of the result file.
     pub(super) file: String,
@@ -235,7 +234,6 @@ pub(super) fn provenance_of(head: &Head, file: &str) -> String {
 
 /// The band of a spectrum for one size of the sample.
 pub(super) struct BandOf<'a> {
-    /// Records in a sample.
     pub(super) records: u32,
     /// Lower limit, median and upper limit over the strengths, m.
     pub(super) limits_m: [&'a [f64]; 3],

@@ -83,7 +83,6 @@ pub struct ReferenceFit {
     pub rmse_m: Option<f64>,
 }
 
-/// A row of the reference.
 struct Reference {
     site: String,
     poe: f64,

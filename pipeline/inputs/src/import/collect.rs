@@ -59,10 +59,8 @@ pub(super) struct ImportedPair {
     pub(super) warnings: Vec<Warning>,
 }
 
-/// What an import found.
 #[derive(Debug, Clone)]
 pub(super) struct Imported {
-    /// The pairs, by name.
     pub(super) pairs: Vec<ImportedPair>,
     /// What deserves a look, each with the record's or the file's name.
     pub(super) warnings: Vec<Warning>,

@@ -153,7 +153,6 @@ fn level_of(set: &SelectedSet, file: &Path, given: Option<f64>, measure: Intensi
     }
 }
 
-/// The rows of the table.
 #[derive(Debug, Default)]
 struct Rows {
     records: Vec<String>,

@@ -41,7 +41,6 @@ pub(super) fn write(report: &PushoverReport, file: &Path) -> Result<(), Laborato
     Ok(write_table(file, &provenance(&format!("{what}, structure {}", report.file.display())), columns)?)
 }
 
-/// Writes the history of a protocol.
 pub(super) fn write_protocol(
     protocol: &LoadingProtocol,
     history: &[ProtocolPoint],

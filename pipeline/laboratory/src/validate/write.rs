@@ -13,7 +13,6 @@ use crate::error::LaboratoryError;
 /// A column of every such table, and of no other.
 pub(super) const COLUMN: &str = "ks_p_kstest2";
 
-/// Writes the groups of a report.
 pub(super) fn write(report: &ValidateReport, file: &Path) -> Result<(), LaboratoryError> {
     let line = format!(
         "{}; statistics of {} of {} beside {}; {} replicates, seed {}",

@@ -26,7 +26,6 @@ const KEPT_EVERY: Duration = Duration::from_secs(30);
 
 /// What bands are made of.
 pub(super) struct Source<'a> {
-    /// The stripes of the result.
     pub(super) stored: &'a StoredStripes,
     /// What weighs the records of its repaired spectra anew; none where it has none.
     pub(super) reweighing: Option<&'a Reweighing>,

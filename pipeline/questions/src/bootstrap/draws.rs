@@ -133,9 +133,6 @@ fn kept_draws(path: &Path, stored: &StoredStripes) -> Result<ResamplingPlan, Que
 }
 
 /// Tells what is drawn from what.
-///
-/// # Errors
-/// A file that is damaged.
 pub(super) fn announce(
     (file, stored): (&ResultFile, &StoredStripes),
     plan: &ResamplingPlan,

@@ -12,9 +12,6 @@ use crate::error::QuestionsError;
 /// has it.
 ///
 /// - `pair_of`: the pair of each record, `[record]`: two components of a pair are not independent, and scatter as one.
-///
-/// # Errors
-/// Numbers that do not fit together, in a file that was changed.
 pub(super) fn inferred_bands(
     stored: &StoredStripes,
     measure: &StoredMeasure,

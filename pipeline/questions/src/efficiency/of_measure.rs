@@ -83,9 +83,6 @@ pub fn efficiency_by(
 }
 
 /// Efficiency and sufficiency of the measure that the runs `own` are told by.
-///
-/// # Errors
-/// As [`efficiency_by`].
 pub(super) fn efficiency_restated(
     stored: &StoredStripes,
     own: &StoredMeasure,

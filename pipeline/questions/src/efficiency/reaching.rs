@@ -22,9 +22,6 @@ pub(super) struct Reaching {
 
 impl Reaching {
     /// Of the runs of `own`, which the records were scaled to as `measured` says.
-    ///
-    /// # Errors
-    /// Demands that are not demands, in a file that was changed.
     pub(super) fn of(
         stored: &StoredStripes,
         own: &StoredMeasure,

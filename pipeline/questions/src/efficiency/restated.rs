@@ -24,7 +24,6 @@ impl Measured<'_> {
         self.measure.amplitude(self.of_records[record])
     }
 
-    /// The scale factor that brings a record to a level.
     pub(super) fn factor(&self, record: usize, level: f64) -> f64 {
         self.measure.amplitude(level) / self.amplitude(record)
     }
@@ -46,9 +45,6 @@ pub(super) struct Restated {
 
 /// The runs of `own`, scaled to the measure `from`, told by the measure `to`; none where there are no two levels that
 /// all records were brought to.
-///
-/// # Errors
-/// Demands that are not demands, in a file that was changed.
 pub(super) fn restated(
     stored: &StoredStripes,
     own: &StoredMeasure,

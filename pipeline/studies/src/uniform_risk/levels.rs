@@ -99,9 +99,6 @@ pub(super) struct OfEnds {
 ///
 /// Not tried where there is no hazard curve to try them by, the records are too many, or each level has records of its
 /// own; of their upper end the hazard alone says something then.
-///
-/// # Errors
-/// A record that cannot be scaled.
 pub(super) fn check_levels(
     study: &UniformRiskStudy,
     measure: &MeasurePlan,

@@ -9,7 +9,6 @@ use crate::error::UpliftError;
 /// The column by which a table of this program is known.
 pub(super) const FIRST_COLUMN: &str = "variant";
 
-/// Writes the table of `report` to its place; `digest` is what it is known by.
 pub(super) fn write(report: &SweepReport, digest: &str) -> Result<(), UpliftError> {
     let line = format!(
         "uplift {} ({}); {} variants of the study {}; study digest {digest}",

@@ -17,7 +17,6 @@ const DATABASES: [&str; 3] = ["nga_w2_", "nga_w1_", "esm_2018_"];
 /// Endings of KiK-net's borehole: tools select the surface.
 const BOREHOLE: [&str; 2] = ["ew1", "ns1"];
 
-/// The records of a manifest.
 pub(super) struct KnownRecords {
     rows: Vec<Row>,
     names: Vec<[FileName; 2]>,
