@@ -124,7 +124,7 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
             .into());
         }
         outputs::check(&outputs, &[&options.result], options.force)?;
-        let export = TestsExport::of(&result)?;
+        let export = TestsExport::from_file(&result)?;
         return write_each(&options.formats, file, events, |format, file| match format {
             ExportFormat::Csv => Ok(write_table(file, &export.provenance, export.columns())?),
             ExportFormat::Json => Ok(write_atomically(file, format!("{:#}\n", export.json()).as_bytes())?),
@@ -135,7 +135,7 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
     let result = at(result, &options.risk)?;
     outputs::check(&outputs, &[&options.result], options.force)?;
     let result = resampled(result, events)?;
-    let export = Export::of(&result)?;
+    let export = Export::from_file(&result)?;
     let mut report = write_each(&options.formats, file, events, |format, file| match format {
         ExportFormat::Csv => Ok(write_table(file, export.provenance(), export.columns())?),
         ExportFormat::Json => Ok(write_atomically(file, format!("{:#}\n", export.json()).as_bytes())?),

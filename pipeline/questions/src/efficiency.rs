@@ -1,9 +1,9 @@
 //! Which intensity measure to trust: efficiency and sufficiency.
 
 mod covariates;
+mod factors_to_reach;
 mod job;
 mod of_measure;
-mod reaching;
 mod report;
 mod restated;
 mod write;

@@ -15,7 +15,7 @@ mod write_hazard;
 pub use csv::{csv_paths, spectra_table, tables, write_csv};
 pub use earlier::EarlierStripes;
 pub use levels::{LevelCheck, LevelProposal};
-pub use outcome::Outcome;
+pub use outcome::ComputedStudy;
 pub use plan::{Plan, needs, plan};
 pub use report::{BranchReport, CoefficientsReport, MeasureReport, RunReport};
 pub use run::run;

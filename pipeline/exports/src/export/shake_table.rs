@@ -26,7 +26,7 @@ pub(super) struct TestsExport {
 
 impl TestsExport {
     /// Read `file`.
-    pub(super) fn of(file: &ResultFile) -> Result<Self, ExportsError> {
+    pub(super) fn from_file(file: &ResultFile) -> Result<Self, ExportsError> {
         let (head, table) = (file.head()?, file.shake_table()?);
         let name = file.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
         let provenance = provenance_of(&head, &name);

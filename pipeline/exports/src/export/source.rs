@@ -58,14 +58,14 @@ impl Export {
     /// # Errors
     /// A file that is missing, damaged or no result of uniform risk spectra.
     pub fn read(path: &Path) -> Result<Self, ExportsError> {
-        Self::of(&ResultFile::open(path)?)
+        Self::from_file(&ResultFile::open(path)?)
     }
 
     /// Read `file`, at the risks that it was asked for.
     ///
     /// # Errors
     /// A file that is damaged, or no result of uniform risk spectra.
-    pub fn of(file: &ResultFile) -> Result<Self, ExportsError> {
+    pub fn from_file(file: &ResultFile) -> Result<Self, ExportsError> {
         let path = file.path();
         let spectra = file.spectra()?;
         if spectra.measures.is_empty() {

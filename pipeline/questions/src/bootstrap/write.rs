@@ -10,7 +10,7 @@ use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::declared::Names;
 use uplift_result::layout::{axis, limit_names};
 use uplift_result::{
-    Addition, BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, REPAIRED_BANDS,
+    BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, LockedResult, REPAIRED_BANDS,
     SIMULTANEOUS_BANDS, SiteJointBands, StoredDraws, band_lengths, band_names, sign,
 };
 use uplift_uniform_risk::StoredStripes;
@@ -52,9 +52,9 @@ pub(super) fn tables(result: &Path) -> [Output; 2] {
 ///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
-pub(super) fn write_bands(addition: &Addition, file: &BandsFile<'_>) -> Result<(), QuestionsError> {
+pub(super) fn write_bands(locked: &LockedResult, file: &BandsFile<'_>) -> Result<(), QuestionsError> {
     let BandsFile { stored, plan, settings, .. } = file;
-    addition.write(&replaced(), |writer| add_bands(writer, file))?;
+    locked.write(&replaced(), |writer| add_bands(writer, file))?;
     let what = format!(
         "bootstrap: {}, {} replicates, {} interval, confidence {}",
         file.plan_source,

@@ -9,7 +9,7 @@ use uplift_job::text::finite;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_regression::Line;
 use uplift_result::layout::axis;
-use uplift_result::{Addition, EFFICIENCY, EFFICIENCY_OF_STRIPES, REACHING, StoredEfficiency, TRENDS, sign};
+use uplift_result::{EFFICIENCY, EFFICIENCY_OF_STRIPES, LockedResult, REACHING, StoredEfficiency, TRENDS, sign};
 use uplift_uniform_risk::StoredStripes;
 
 use super::of_measure::{Covariate, MeasureEfficiency};
@@ -33,12 +33,12 @@ pub(super) fn efficiency_path(result: &Path) -> PathBuf {
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub(super) fn write_efficiency(
-    addition: &Addition,
+    locked: &LockedResult,
     (stored, earlier): (&StoredStripes, &[StoredEfficiency]),
     covariates: &[Covariate],
     measures: &[MeasureEfficiency],
 ) -> Result<(), QuestionsError> {
-    addition.write(&replaced(earlier), |writer| add(writer, covariates, measures))?;
+    locked.write(&replaced(earlier), |writer| add(writer, covariates, measures))?;
     Ok(write_table(
         &efficiency_path(&stored.path),
         &stored.line("efficiency and sufficiency"),

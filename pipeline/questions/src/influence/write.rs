@@ -9,7 +9,7 @@ use uplift_job::table::write_table;
 use uplift_job::text::spectrum_words;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::axis;
-use uplift_result::{Addition, DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, sign};
+use uplift_result::{DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, LockedResult, sign};
 use uplift_uniform_risk::StoredStripes;
 
 use super::change::{Influence, RecordInfluence};
@@ -33,12 +33,12 @@ pub(super) fn influence_path(result: &Path) -> PathBuf {
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub(super) fn write_influence(
-    addition: &Addition,
+    locked: &LockedResult,
     stored: &StoredStripes,
     influences: &[Influence],
     rankings: &[Array<2, Vec<RecordInfluence>>],
 ) -> Result<(), QuestionsError> {
-    addition.write(&replaced(stored), |writer| add(writer, stored, influences))?;
+    locked.write(&replaced(stored), |writer| add(writer, stored, influences))?;
     Ok(write_table(
         &influence_path(&stored.path),
         &stored.line("spectra without each record"),

@@ -105,7 +105,7 @@ pub(super) fn check_levels(
     inputs: (&RecordSet, &[System]),
     hazard: &[SiteHazard],
 ) -> Result<(Option<LevelCheck>, OfEnds), StudiesError> {
-    let Some(trial) = Trial::of(study, measure, inputs, hazard)? else {
+    let Some(trial) = Trial::new(study, measure, inputs, hazard)? else {
         return Ok((None, of_ends(study, measure, &untried(study, hazard))?));
     };
     let own = trial.tails(measure.levels[0])?;
@@ -176,7 +176,7 @@ fn tried(strengths: &[f64]) -> Vec<usize> {
 
 impl<'a> Trial<'a> {
     /// The peaks of the strengths tried; none where the levels cannot be tried.
-    fn of(
+    fn new(
         study: &'a UniformRiskStudy,
         measure: &MeasurePlan,
         (records, systems): (&RecordSet, &[System]),

@@ -8,7 +8,7 @@ use uplift_uniform_risk::{Coefficients, Precision, Spectra, Stripes, stored_spec
 
 /// All that a study computed, by measure where it depends on it.
 #[derive(Debug)]
-pub struct Outcome<'a> {
+pub struct ComputedStudy<'a> {
     /// The study.
     pub study: &'a UniformRiskStudy,
     /// Its records.
@@ -33,7 +33,7 @@ pub struct Outcome<'a> {
     pub provenance: &'a Provenance,
 }
 
-impl Outcome<'_> {
+impl ComputedStudy<'_> {
     /// Its spectra and coefficients as the result file has them.
     pub(super) fn stored_spectra(&self) -> StoredSpectra {
         let stored = |(spectra, coefficients)| stored_spectra(spectra, coefficients);

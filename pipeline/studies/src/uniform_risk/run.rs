@@ -7,7 +7,7 @@ use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use uplift_ida::Shard;
 use uplift_inputs::{input_checksums, read_hazard, read_other_hazard};
 use uplift_job::events::Events;
-use uplift_job::frame::Place;
+use uplift_job::study_run::Place;
 use uplift_result::earlier::Earlier;
 use uplift_result::{Provenance, ResultFile};
 use uplift_study::UniformRiskStudy;
@@ -16,7 +16,7 @@ use uplift_uniform_risk::{Coefficients, Stripes, fit_spectra, pooled_demand, pre
 
 use super::plan::tell_mistaken_curves;
 use super::report::{MeasureReport, RunReport};
-use super::{Inputs, Outcome, csv_paths, needs, site_table, write_csv, write_result};
+use super::{ComputedStudy, Inputs, csv_paths, needs, site_table, write_csv, write_result};
 use crate::error::StudiesError;
 
 /// Carries out `study`, but for the rows of its analysis that are `known`.
@@ -81,7 +81,7 @@ pub fn run(
         site_table::compute(study, site_list.as_ref(), (&stripes, consistency.question()), path, &line, events)?;
     warnings.append(&mut sites.warnings);
     provenance.wall_time_s = place.start.elapsed().as_secs_f64();
-    let outcome = Outcome {
+    let outcome = ComputedStudy {
         study,
         records,
         hazard: &hazard,
