@@ -40,9 +40,7 @@ use uplift_inputs::TORSION;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::{Events, Silent};
 use uplift_result::ResultFile;
-use uplift_uniform_risk::EventRisk;
-use uplift_uniform_risk::consistency;
-use uplift_uniform_risk::{AskedRisk, StudyOfResult, at};
+use uplift_uniform_risk::{AskedRisk, EventRisk, StudyOfResult, at, consistency};
 
 /// What is asked of the risk of a frame.
 #[derive(Debug, Clone, Default, PartialEq)]

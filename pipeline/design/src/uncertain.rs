@@ -28,8 +28,7 @@ use uplift_engine::analysis::LabelledPlan;
 use uplift_job::JobError;
 use uplift_job::alarm::Severity;
 use uplift_job::text::thousands;
-use uplift_uniform_risk::at_most_per_year;
-use uplift_uniform_risk::{Stripes, plan_stripes};
+use uplift_uniform_risk::{Stripes, at_most_per_year, plan_stripes};
 
 /// The structures that one may be, as the oscillators that are shaken.
 #[derive(Debug)]

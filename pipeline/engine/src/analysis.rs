@@ -14,7 +14,5 @@ mod shard;
 mod work;
 
 pub use result_job::ResultJob;
-pub use shard::{MOST_SHARDS, ShardReport, join, run_shard, shard_path};
-pub use shard::{carry_out_shard, hold};
-pub use work::rate;
-pub use work::{Analysed, LabelledPlan, Work, seconds};
+pub use shard::{MOST_SHARDS, ShardReport, carry_out_shard, hold, join, run_shard, shard_path};
+pub use work::{Analysed, LabelledPlan, Work, rate, seconds};

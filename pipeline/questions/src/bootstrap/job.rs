@@ -15,8 +15,7 @@ use super::bands::BandSettings;
 use super::checkpoint::Checkpoint;
 use super::compute::{Source, compute};
 use super::draws::{announce, draws};
-use super::reference::ReferenceRow;
-use super::report::BootstrapReport;
+use super::report::{BootstrapReport, ReferenceRow};
 use super::write::{BandsFile, band_paths, tables, write_bands};
 use crate::error::QuestionsError;
 

@@ -10,9 +10,8 @@ use uplift_motion::{IntensityMeasure, Period};
 use uplift_result::{LockedResult, ResultFile};
 use uplift_uniform_risk::{StoredStripes, StudyOfResult};
 
-use super::covariates::covariates;
 use super::factors_to_reach::FactorsToReach;
-use super::of_measure::{efficiency_by, efficiency_restated};
+use super::of_measure::{covariates, efficiency_by, efficiency_restated};
 use super::report::EfficiencyReport;
 use super::restated::{Measured, restated};
 use super::write::{efficiency_path, write_efficiency};
