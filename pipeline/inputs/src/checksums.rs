@@ -1,5 +1,5 @@
-//! Checksums of everything that a study of uniform risk is given, by name; keys of motions, which tell whether a peak is
-//! that of the same shaking.
+//! Checksums of everything that a study of uniform risk is given, by name; keys of motions, which say whether a peak
+//! is that of the same shaking.
 
 use std::collections::BTreeMap;
 

@@ -1,9 +1,9 @@
 //! Finished analysis rows in a file, appended as they come.
 //!
 //! The file is a line of JSON, then one block a row, little-endian: the key (16 bytes), the number of scale factors
-//! (u32), the peak displacements in m (f64 each), the impacts (u32 each), and a CRC-32 of all that. A block that was damaged is passed over, and one that was cut off
-//! ends what is read; when the file is gone on with they are gone. Whatever stops the program, at most the rows in work
-//! are lost.
+//! (u32), the peak displacements in m (f64 each), the impacts (u32 each), and a CRC-32 of all that. A block that
+//! was damaged is passed over, and one that was cut off ends what is read; when the file is gone on with they are gone.
+//! Whatever stops the program, at most the rows in work are lost.
 
 use std::collections::HashMap;
 use std::fs::File;
