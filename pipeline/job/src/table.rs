@@ -3,13 +3,48 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use polars::prelude::{Column, DataFrame, DataType, IntoColumn, StringChunked};
+use polars::prelude::{Column, DataFrame, DataType, IntoColumn, NamedFrom, PlSmallStr, Series, StringChunked};
 use polars_io::prelude::{CsvWriter, SerWriter};
 use uplift_atomic_file::write_whole;
 
 use crate::error::JobError;
 use crate::outputs::{metadata_path, metadata_text};
 use crate::text::one_line;
+
+/// A table in the making: columns with a cell for each of its rows.
+pub struct ColumnsOf<R> {
+    rows: Vec<R>,
+    columns: Vec<Column>,
+}
+
+impl<R: Copy> ColumnsOf<R> {
+    /// A table of `rows`, without columns.
+    pub fn new(rows: impl IntoIterator<Item = R>) -> Self {
+        Self { rows: rows.into_iter().collect(), columns: Vec::new() }
+    }
+
+    /// One more column: the `cell` of each row.
+    #[must_use]
+    pub fn with<C, A: ?Sized>(mut self, name: impl Into<PlSmallStr>, cell: impl FnMut(R) -> C) -> Self
+    where
+        Series: NamedFrom<Vec<C>, A>,
+    {
+        let cells: Vec<C> = self.rows.iter().copied().map(cell).collect();
+        self.columns.push(Column::new(name.into(), cells));
+        self
+    }
+
+    /// One more column for each of `items`.
+    #[must_use]
+    pub fn each<I>(self, items: impl IntoIterator<Item = I>, more: impl FnMut(Self, I) -> Self) -> Self {
+        items.into_iter().fold(self, more)
+    }
+
+    /// The columns.
+    pub fn build(self) -> Vec<Column> {
+        self.columns
+    }
+}
 
 /// Write a table, and beside it what `line` says of it ([`metadata_path`]); each whole or not at all.
 ///

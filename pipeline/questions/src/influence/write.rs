@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_job::Array;
 use uplift_job::outputs::beside;
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_job::text::spectrum_words;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::axis;
@@ -74,30 +74,19 @@ fn ranking_table(
     influences: &[Influence],
     rankings: &[Array<2, Vec<RecordInfluence>>],
 ) -> Vec<Column> {
-    let (mut site, mut im, mut poe, mut record) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let (mut mean, mut largest, mut strength) = (Vec::new(), Vec::new(), Vec::new());
-    for (influence, rankings) in influences.iter().zip(rankings) {
-        for ([site_index, poe_index], ranking) in rankings.blocks() {
-            for entry in &ranking[0] {
-                site.push(stored.sites[site_index].as_str());
-                im.push(spectrum_words(influence.measure.label(), influence.repaired));
-                poe.push(stored.poes[poe_index]);
-                record.push(stored.units.name(entry.record));
-                mean.push(100.0 * entry.mean_change);
-                largest.push(100.0 * entry.largest_change);
-                strength.push(entry.strength);
-            }
-        }
-    }
-    let years = vec![stored.years; site.len()];
-    vec![
-        Column::new("site".into(), site),
-        Column::new("im".into(), im),
-        Column::new("poe".into(), poe),
-        Column::new("years".into(), years),
-        Column::new("record".into(), record),
-        Column::new("mean_change_pct".into(), mean),
-        Column::new("largest_change_pct".into(), largest),
-        Column::new("at_strength".into(), strength),
-    ]
+    let rows = influences.iter().zip(rankings).flat_map(|(influence, rankings)| {
+        rankings
+            .blocks()
+            .flat_map(move |(place, ranking)| ranking[0].iter().map(move |entry| (influence, place, entry)))
+    });
+    ColumnsOf::new(rows)
+        .with("site", |(_, [site, _], _)| stored.sites[site].as_str())
+        .with("im", |(influence, ..)| spectrum_words(influence.measure.label(), influence.repaired))
+        .with("poe", |(_, [_, poe], _)| stored.poes[poe])
+        .with("years", |_| stored.years)
+        .with("record", |(.., entry)| stored.units.name(entry.record))
+        .with("mean_change_pct", |(.., entry)| 100.0 * entry.mean_change)
+        .with("largest_change_pct", |(.., entry)| 100.0 * entry.largest_change)
+        .with("at_strength", |(.., entry)| entry.strength)
+        .build()
 }
