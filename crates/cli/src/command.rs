@@ -153,9 +153,6 @@ pub(crate) fn program() -> clap::Command {
 }
 
 /// Carry out what was typed.
-///
-/// # Errors
-/// Whatever the user should know; see [`CommandError::exit_code`].
 pub(crate) fn execute(arguments: &Arguments, terminal: &Terminal) -> Result<(), CommandError> {
     if let Some(threads) = arguments.threads {
         rayon::ThreadPoolBuilder::new()

@@ -64,7 +64,6 @@ use serde::Serialize;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output, visible_json};
 
-/// A report for programs.
 pub(crate) fn print_json(report: &impl Serialize) -> Result<(), CommandError> {
     let value = serde_json::to_value(report).map_err(|error| CommandError::input(error.to_string()))?;
     Ok(writeln!(output(), "{}", visible_json(&format!("{value:#}")))?)

@@ -124,7 +124,7 @@ impl Terminal {
         match (error, self.form) {
             (CommandError::OutputClosed, _) => {}
             (_, Form::Text) => tell_error(error),
-            (_, Form::Json) => Event::of_error(error).tell(),
+            (_, Form::Json) => Event::from_error(error).tell(),
         }
     }
 

@@ -24,9 +24,6 @@ pub(super) struct Scatter {
 
 impl Scatter {
     /// Of the records of a result.
-    ///
-    /// # Errors
-    /// A file that is damaged.
     pub(super) fn from_file(file: &ResultFile) -> Result<Self, DesignError> {
         let motions = Question::from_motions(file)?;
         let event_of = motions.event_of();
@@ -106,9 +103,6 @@ pub struct DemandBands {
 }
 
 /// The bands of the rate of exceeding `threshold_m`; none where there is nothing to tell it from.
-///
-/// # Errors
-/// Parts that do not belong together.
 pub(super) fn rate_bands(
     demand: &PooledDemand,
     hazard: &Hazard<'_>,
@@ -129,9 +123,6 @@ pub(super) fn rate_bands(
 
 /// The bands of the demand of `target_per_year` on a structure, `factor` times that on its oscillator, and of its
 /// risks; none of a single record.
-///
-/// # Errors
-/// Parts that do not belong together.
 pub(super) fn demand_bands(
     demand: &PooledDemand,
     hazard: &Hazard<'_>,

@@ -32,9 +32,6 @@ pub(super) struct Collapse {
 /// * `weights` — what each stripe weighs, and each run after a repair, `[site]`
 /// * `years` — that the probabilities refer to
 /// * `may_overturn` — false for a system that cannot
-///
-/// # Errors
-/// Arrays that do not fit together.
 pub(super) fn collapse(
     levels: &[f64],
     (demands_m, pairs): (&[f64], &[Vec<usize>]),

@@ -116,9 +116,6 @@ impl DemandRounding {
 
 /// The demand on `system`, whose oscillators are `sweep` with the `stripes` over `[record, oscillator, level]`, of the
 /// rate `target_per_year` at the site of `weights`, exactly as spectra are made; `hazard` is that of the site.
-///
-/// # Errors
-/// Stripes and weights that do not fit together.
 pub(super) fn exact_demand(
     (stripes, weights, hazard): (&Stripes, &SiteWeights<'_>, &Hazard<'_>),
     (system, sweep): (&EquivalentSystem, &Sweep),

@@ -14,7 +14,7 @@ use serde::Serialize;
 use uplift_alarms::{
     OwnRisk, Scope, alarms_within, own_demand_alarm, own_risk_alarms, ranked, safety_factor_alarm, structure_alarms,
 };
-use uplift_engine::analysis::{Beside, ShardReport};
+use uplift_engine::analysis::{ResultJob, ShardReport};
 use uplift_ida::Shard;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
@@ -252,7 +252,7 @@ pub fn design_shard(
     let records = records(&source, options.manifest.as_deref())?.map_err(JobError::input)?;
     let analysis = DesignAnalysis::from_structure(structure, &source, records, options)?;
     let name = job_name("design", structure);
-    Ok(Beside { result, name: &name }.shard(analysis.work(&source, measure, &name)?, shard, events)?)
+    Ok(ResultJob { result, name: &name }.shard(analysis.work(&source, measure, &name)?, shard, events)?)
 }
 
 /// Why the structures that it may be are not analysed.
@@ -306,7 +306,6 @@ fn not_repaired(source: &StudyOfResult, place: Place<'_>) -> DesignError {
     .into()
 }
 
-/// What the repaired spectrum says beside the plain one.
 fn beside(plain: Option<SpectrumDemand>, repaired: Option<SpectrumDemand>) -> Option<String> {
     let [plain_m, repaired_m] = [plain?, repaired?].map(|demand| demand.zero_stiffness_demand_m);
     Some(format!(

@@ -30,9 +30,6 @@ struct Question<'a> {
 
 impl Question<'_> {
     /// The answer, of which `report` is what `--json` prints.
-    ///
-    /// # Errors
-    /// None for the reports of this program.
     fn answered(self, rows: Vec<FindingRow>, report: &impl Serialize) -> Result<Finding, DesignError> {
         let Self { inquiry, structure, study_digest, request } = self;
         let document = serde_json::to_string(report)
@@ -325,7 +322,6 @@ impl FrameRiskReport {
     }
 }
 
-/// The demand on one model, and its error.
 fn model_demands(of: &ModelDemand, [site, im]: [&str; 2]) -> Vec<FindingRow> {
     let row = |what: &str, value: f64, unit: &str| FindingRow::new(format!("{what}, {}", of.model), value, unit);
     let demand = row("demand", of.demand_m.value, "m").within([of.demand_m.lower, of.demand_m.upper], RESAMPLED);

@@ -35,14 +35,12 @@ use analysis::{Demands, FrameAnalysis};
 use demand::{Question, Resampled};
 use tables::{levels_path, write_tables};
 use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
-use uplift_engine::analysis::{Beside, ShardReport};
+use uplift_engine::analysis::{ResultJob, ShardReport};
 use uplift_inputs::TORSION;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::{Events, Silent};
 use uplift_result::ResultFile;
-use uplift_uniform_risk::EventRisk;
-use uplift_uniform_risk::consistency::Question as Asked;
-use uplift_uniform_risk::{AskedRisk, StudyOfResult, at};
+use uplift_uniform_risk::{AskedRisk, EventRisk, StudyOfResult, at, consistency};
 
 /// What is asked of the risk of a frame.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -178,8 +176,8 @@ pub fn frame_risk(
     };
     let design = design(structure, result, &asked, &Silent)?;
     let name = job_name("risk", structure);
-    let beside = Beside { result, name: &name };
-    let (analysed, checkpoint) = beside.results(analysis.work(measure, &name)?, &options.shards, events)?;
+    let job = ResultJob { result, name: &name };
+    let (analysed, checkpoint) = job.results(analysis.work(measure, &name)?, &options.shards, events)?;
     let demands = analysis.demands(analysed);
 
     let repaired_weights = RepairedWeights::from_file(&file)?;
@@ -257,7 +255,7 @@ pub fn frame_risk_shard(
     let measure = choose_measure(&source, options.measure)?;
     let analysis = FrameAnalysis::from_structure(structure, &source, options.model)?;
     let name = job_name("risk", structure);
-    Ok(Beside { result, name: &name }.shard(analysis.work(measure, &name)?, shard, events)?)
+    Ok(ResultJob { result, name: &name }.shard(analysis.work(measure, &name)?, shard, events)?)
 }
 
 /// The draws of the bands: pairs, or earthquakes with all their records.
@@ -267,7 +265,7 @@ fn draws(file: &ResultFile, source: &StudyOfResult, analysis: &FrameAnalysis) ->
     let sizes = [u32::try_from(records).unwrap_or(u32::MAX)];
     let replicates = usize::try_from(settings.replicates).unwrap_or(usize::MAX);
     let drawn_together = match settings.unit {
-        Unit::Event => Some(Asked::from_motions(file)?.event_of()),
+        Unit::Event => Some(consistency::Question::from_motions(file)?.event_of()),
         // all records of a pair are one wobbling run
         Unit::Record | Unit::Pair if analysis.pairs.len() < records && analysis.pairs.len() > 1 => {
             Some(analysis.pair_of())

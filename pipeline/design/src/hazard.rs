@@ -7,7 +7,6 @@ use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, branch_weights};
 
 use crate::error::DesignError;
 
-/// The hazard of a site.
 #[derive(Debug, Clone)]
 pub(super) struct Hazard<'a> {
     /// By the mean curve.
@@ -18,9 +17,6 @@ pub(super) struct Hazard<'a> {
 
 impl<'a> Hazard<'a> {
     /// At a site of a result, by its name and position.
-    ///
-    /// # Errors
-    /// A file that is damaged.
     pub(super) fn from_file(
         file: &ResultFile,
         (name, site): (&str, usize),
@@ -31,9 +27,6 @@ impl<'a> Hazard<'a> {
     }
 
     /// The same at each of the `sites` of a result, by their positions.
-    ///
-    /// # Errors
-    /// A file that is damaged.
     pub(super) fn from_sites(
         file: &ResultFile,
         (source, sites): (&StudyOfResult, &[usize]),

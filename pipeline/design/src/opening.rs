@@ -117,9 +117,6 @@ pub(super) fn records(
 }
 
 /// The records of the result, without which `subject` cannot be computed.
-///
-/// # Errors
-/// Records that cannot be read.
 pub(super) fn required_records(
     source: &StudyOfResult,
     manifest: Option<&Path>,
@@ -129,9 +126,6 @@ pub(super) fn required_records(
 }
 
 /// What was read of the records, without which `subject` cannot be computed.
-///
-/// # Errors
-/// The reason why it could not be read.
 pub(super) fn required<T>(found: Result<T, String>, subject: &str) -> Result<T, DesignError> {
     Ok(found.map_err(|reason| {
         JobError::input(format!(

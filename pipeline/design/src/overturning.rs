@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
-use uplift_engine::analysis::{Analysed, Beside, LabelledPlan, ShardReport, Work};
+use uplift_engine::analysis::{Analysed, LabelledPlan, ResultJob, ShardReport, Work};
 use uplift_fragility::{LognormalFit, Stripes as Stripe};
 use uplift_ida::{Shard, System};
 use uplift_inputs::RecordSet;
@@ -187,8 +187,8 @@ pub fn overturning(
         );
     }
     let name = job_name("overturning", structure);
-    let beside = Beside { result, name: &name };
-    let (analysed, checkpoint) = beside.results(analysis.work(&name)?, &options.shards, events)?;
+    let job = ResultJob { result, name: &name };
+    let (analysed, checkpoint) = job.results(analysis.work(&name)?, &options.shards, events)?;
     let OverturningAnalysis { study, records, measures, models, uncertain } = &analysis;
     let repaired = RepairedWeights::from_file(&file)?;
     let scatter = Scatter::from_file(&file)?;
@@ -276,7 +276,7 @@ pub fn overturning_shard(
     let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
     let analysis = OverturningAnalysis::from_structure(structure, &source, options, &mut Vec::new())?;
     let name = job_name("overturning", structure);
-    Ok(Beside { result, name: &name }.shard(analysis.work(&name)?, shard, events)?)
+    Ok(ResultJob { result, name: &name }.shard(analysis.work(&name)?, shard, events)?)
 }
 
 /// Place of the equivalent oscillator among the models.
@@ -304,9 +304,6 @@ struct OverturningAnalysis<'a> {
 
 impl<'a> OverturningAnalysis<'a> {
     /// Of `structure` under the records of a result; `notes` gets what is left out of its models.
-    ///
-    /// # Errors
-    /// As [`overturning`].
     fn from_structure(
         structure: &'a Structure,
         source: &'a StudyOfResult,
@@ -371,9 +368,6 @@ fn uncertain_structures<'a>(
 
 /// What the stripes of the structures say by each of `measures`, with the hazard of each of the sites; `described` is
 /// the frequency for the structure as described, by the positions of measure and site.
-///
-/// # Errors
-/// Parts that do not belong together.
 fn uncertainty_report(
     uncertain: &Uncertain<'_>,
     (measures, sites): (&[(&SpectraOfResult, &[Hazard<'_>])], &[&str]),

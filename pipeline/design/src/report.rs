@@ -83,9 +83,6 @@ pub struct ReportSource {
 
 impl ReportSource {
     /// Of the result in `file`, whose study is `source`.
-    ///
-    /// # Errors
-    /// A file that is damaged.
     pub(super) fn read(file: &ResultFile, source: &StudyOfResult) -> Result<Self, DesignError> {
         Ok(Self {
             result: source.path.clone(),

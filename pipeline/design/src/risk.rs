@@ -54,9 +54,6 @@ pub(super) fn oscillator_capacity_m(oscillator: &Oscillator) -> Option<f64> {
 }
 
 /// The risk of exceeding `threshold_m`.
-///
-/// # Errors
-/// Stripes and weights of different levels; a threshold that is none.
 pub(super) fn risk_of_exceeding(
     demand: &PooledDemand,
     weights: &SiteWeights<'_>,
@@ -76,9 +73,6 @@ pub(super) const HAPPENS: f64 = 0.5;
 /// happens.
 ///
 /// * `runs` — over the levels, each with its threshold
-///
-/// # Errors
-/// Runs of another number of levels.
 pub(super) fn happenings<'a>(
     levels: &[f64],
     runs: impl Iterator<Item = (&'a [f64], f64)>,
@@ -91,9 +85,6 @@ pub(super) fn happenings<'a>(
 }
 
 /// All demands of one oscillator of `stripes`, sorted.
-///
-/// # Errors
-/// None for stripes that were computed.
 pub(super) fn demand_of(stripes: &Stripes, oscillator: usize) -> Result<PooledDemand, DesignError> {
     Ok(pooled_demand(stripes, oscillator)?)
 }

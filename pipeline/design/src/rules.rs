@@ -117,9 +117,6 @@ fn rule_check(structure: &Structure, check: &Check, of_structure_m: Option<f64>)
 
 /// Which verdicts hang on the hazard curve, of those that may hold: `by_curve_m` has the weight of each, of 1, with
 /// the demand on the ZSBE system by its spectrum; infinite where that cannot be read.
-///
-/// # Errors
-/// As [`apply_rules`].
 pub(super) fn verdicts_by_curve(
     structure: &Structure,
     safety_factor: f64,

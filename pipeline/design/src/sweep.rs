@@ -34,9 +34,6 @@ pub(super) struct Sweep {
 
 impl Sweep {
     /// Of `structure`, for a spectrum of `study`.
-    ///
-    /// # Errors
-    /// A structure that has no oscillator.
     pub(super) fn from_structure(structure: &Structure, study: &UniformRiskStudy) -> Result<Self, DesignError> {
         Self::from_system(&structure.system, study, restitution(structure, study))
             .map_err(|error| uplift_job::in_file(error, &structure.file))

@@ -5,14 +5,13 @@ mod uncertain;
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
-use uplift_job::table::write_table;
-use uplift_spectra::Noisy;
-use uplift_uniform_risk::EventRisk;
+use uplift_job::table::{ColumnsOf, write_table};
 
 use super::certainty::Bands;
-use super::overturning::{CollapseReport, OverturningReport};
+use super::overturning::{CollapseReport, OverturningReport, SiteRisk};
 use super::uncertain::{UncertainFinding, UncertaintyReport};
 use crate::error::DesignError;
+use uplift_job::outputs;
 
 /// Names of the percentiles of what is not known exactly, in their order.
 pub(super) const PERCENTILES: [&str; 5] = ["p05", "p16", "p50", "p84", "p95"];
@@ -25,9 +24,8 @@ pub(super) fn risk_path(fragility: &Path) -> PathBuf {
 /// Writes the fragility to `path`, and the risk beside it.
 pub(super) fn write_tables(path: &Path, report: &OverturningReport) -> Result<(), DesignError> {
     let line = format!(
-        "uplift {} ({}); overturning of {} ({}); result {}; records: {}",
-        uplift_job::VERSION,
-        uplift_job::COMMIT,
+        "{}; overturning of {} ({}); result {}; records: {}",
+        outputs::mark(),
         report.structure.name,
         report.structure.kind,
         report.source.result.display(),
@@ -40,89 +38,55 @@ pub(super) fn write_tables(path: &Path, report: &OverturningReport) -> Result<()
 
 /// A row a measure, model and level.
 fn fragility(report: &OverturningReport) -> Vec<Column> {
-    let (mut im, mut unit, mut level, mut model, mut restitution) = (vec![], vec![], vec![], vec![], vec![]);
-    let (mut overturned, mut records, mut share, mut fitted) = (vec![], vec![], vec![], vec![]);
-    let (mut fewest, mut most) = (vec![], vec![]);
     // the rows of a measure follow each other, one a model
-    for (found, of) in report.overturning.iter().zip(report.models.iter().cycle()) {
-        let counts = found.overturned.iter().zip(&found.overturned_rounding);
-        for (&at, (&count, &[least, greatest])) in found.levels.iter().zip(counts) {
-            im.push(found.im);
-            unit.push(found.unit);
-            level.push(at);
-            model.push(found.model);
-            restitution.push(of.restitution);
-            overturned.push(count);
-            fewest.push(least);
-            most.push(greatest);
-            records.push(found.records);
-            share.push(f64::from(count) / f64::from(found.records));
-            fitted.push(found.fit.map(|fit| fit.fragility.probability(at)));
-        }
-    }
-    vec![
-        Column::new("im".into(), im),
-        Column::new("unit".into(), unit),
-        Column::new("level".into(), level),
-        Column::new("model".into(), model),
-        Column::new("restitution".into(), restitution),
-        Column::new("overturned".into(), overturned),
-        Column::new("records".into(), records),
-        Column::new("share".into(), share),
-        Column::new("lognormal".into(), fitted),
-        Column::new("overturned_rounding_lowest".into(), fewest),
-        Column::new("overturned_rounding_highest".into(), most),
-    ]
+    let of_models = report.overturning.iter().zip(report.models.iter().cycle());
+    let rows = of_models.flat_map(|(found, of)| (0..found.levels.len()).map(move |at| (found, of.restitution, at)));
+    ColumnsOf::new(rows)
+        .with("im", |(found, ..)| found.im)
+        .with("unit", |(found, ..)| found.unit)
+        .with("level", |(found, _, at)| found.levels[at])
+        .with("model", |(found, ..)| found.model)
+        .with("restitution", |(_, restitution, _)| restitution)
+        .with("overturned", |(found, _, at)| found.overturned[at])
+        .with("records", |(found, ..)| found.records)
+        .with("share", |(found, _, at)| f64::from(found.overturned[at]) / f64::from(found.records))
+        .with("lognormal", |(found, _, at)| found.fit.map(|fit| fit.fragility.probability(found.levels[at])))
+        .with("overturned_rounding_lowest", |(found, _, at)| found.overturned_rounding[at][0])
+        .with("overturned_rounding_highest", |(found, _, at)| found.overturned_rounding[at][1])
+        .build()
 }
 
 /// A row a site, measure and model.
 fn risk(report: &OverturningReport) -> Vec<Column> {
     let sites = report.overturning.first().map_or(0, |found| found.sites.len());
-    let rows: Vec<(usize, &CollapseReport)> =
-        (0..sites).flat_map(|site| report.overturning.iter().map(move |found| (site, found))).collect();
-    let name: Vec<&str> = rows.iter().map(|(site, found)| found.sites[*site].site.as_str()).collect();
-    let text = |value: fn(&CollapseReport) -> &'static str| -> Vec<&'static str> {
-        rows.iter().map(|(_, found)| value(found)).collect()
-    };
-    let of_fit = |value: fn(&CollapseReport) -> Option<f64>| -> Vec<Option<f64>> {
-        rows.iter().map(|(_, found)| value(found)).collect()
-    };
-    let of = |value: fn(&EventRisk) -> f64| -> Vec<f64> {
-        rows.iter().map(|(site, found)| value(&found.sites[*site].risk)).collect()
-    };
-    let rounding = |end: fn(&Noisy) -> f64| -> Vec<f64> {
-        rows.iter().map(|(site, found)| end(&found.sites[*site].per_year_rounding)).collect()
-    };
-    let bound: Vec<Option<f64>> = rows.iter().map(|(site, found)| found.sites[*site].risk.at_most_per_year).collect();
-    let repaired: Vec<Option<f64>> =
-        rows.iter().map(|(site, found)| found.sites[*site].repaired.map(|risk| risk.per_year)).collect();
-    let by_fit: Vec<Option<f64>> = rows.iter().map(|(site, found)| found.sites[*site].lognormal_per_year).collect();
-    let mut columns = vec![
-        Column::new("site".into(), name),
-        Column::new("im".into(), text(|found| found.im)),
-        Column::new("model".into(), text(|found| found.model)),
-        Column::new("maf_per_year".into(), of(|risk| risk.per_year)),
+    let of_site = |place: usize| report.overturning.iter().map(move |found| (&found.sites[place], found, place));
+    let rows: Vec<(&SiteRisk, &CollapseReport, usize)> = (0..sites).flat_map(of_site).collect();
+    let mut columns = ColumnsOf::new(rows.iter().copied())
+        .with("site", |(site, ..)| site.site.as_str())
+        .with("im", |(_, found, _)| found.im)
+        .with("model", |(_, found, _)| found.model)
+        .with("maf_per_year", |(site, ..)| site.risk.per_year)
         // where no run overturns, the frequency that it has at most: a count of none is no proof of never
-        Column::new("at_most_per_year".into(), bound),
-        Column::new("years".into(), vec![report.years; rows.len()]),
-        Column::new("probability".into(), of(|risk| risk.probability)),
-        Column::new("lower_tail_share".into(), of(|risk| risk.lower_tail_share)),
-        Column::new("upper_tail_share".into(), of(|risk| risk.upper_tail_share)),
-        Column::new("theta".into(), of_fit(|found| found.theta)),
-        Column::new("beta".into(), of_fit(|found| found.beta)),
-        Column::new("maf_lognormal_per_year".into(), by_fit),
-        Column::new("maf_rounding_lowest_per_year".into(), rounding(|of| of.lowest)),
-        Column::new("maf_rounding_highest_per_year".into(), rounding(|of| of.highest)),
-    ];
-    if repaired.iter().any(Option::is_some) {
-        columns.push(Column::new("maf_consistent_per_year".into(), repaired));
+        .with("at_most_per_year", |(site, ..)| site.risk.at_most_per_year)
+        .with("years", |_| report.years)
+        .with("probability", |(site, ..)| site.risk.probability)
+        .with("lower_tail_share", |(site, ..)| site.risk.lower_tail_share)
+        .with("upper_tail_share", |(site, ..)| site.risk.upper_tail_share)
+        .with("theta", |(_, found, _)| found.theta)
+        .with("beta", |(_, found, _)| found.beta)
+        .with("maf_lognormal_per_year", |(site, ..)| site.lognormal_per_year)
+        .with("maf_rounding_lowest_per_year", |(site, ..)| site.per_year_rounding.lowest)
+        .with("maf_rounding_highest_per_year", |(site, ..)| site.per_year_rounding.highest);
+    if rows.iter().any(|(site, ..)| site.repaired.is_some()) {
+        columns = columns.with("maf_consistent_per_year", |(site, ..)| site.repaired.map(|risk| risk.per_year));
     }
+    let mut columns = columns.build();
     for (place, whose) in Bands::WHOSE.into_iter().enumerate() {
-        let limits = rows.iter().map(|(site, found)| found.sites[*site].bands?.each()[place]).collect::<Vec<_>>();
+        let limits = rows.iter().map(|(site, ..)| site.bands?.each()[place]).collect::<Vec<_>>();
         add_limits(&mut columns, &format!("maf_{whose}"), &limits);
     }
     if let Some(uncertainty) = &report.uncertainty {
-        let found: Vec<_> = rows.iter().map(|(site, row)| found_of(uncertainty, (*site, row))).collect();
+        let found: Vec<_> = rows.iter().map(|(_, row, place)| found_of(uncertainty, (*place, row))).collect();
         columns.extend(uncertain::columns(uncertainty, &found));
     }
     columns

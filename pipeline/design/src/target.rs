@@ -307,9 +307,6 @@ pub fn target(
 }
 
 /// What the generic fragility that was asked for makes of `curve`; none where none was.
-///
-/// # Errors
-/// A target that no fragility has on this curve.
 fn generic_target(
     curve: &HazardCurve,
     target_per_year: f64,

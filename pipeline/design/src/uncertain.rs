@@ -28,8 +28,7 @@ use uplift_engine::analysis::LabelledPlan;
 use uplift_job::JobError;
 use uplift_job::alarm::Severity;
 use uplift_job::text::thousands;
-use uplift_uniform_risk::at_most_per_year;
-use uplift_uniform_risk::{Stripes, plan_stripes};
+use uplift_uniform_risk::{Stripes, at_most_per_year, plan_stripes};
 
 /// The structures that one may be, as the oscillators that are shaken.
 #[derive(Debug)]
@@ -89,7 +88,6 @@ impl Event {
     }
 }
 
-/// A site, and the questions that are asked there.
 #[derive(Debug)]
 pub(super) struct SiteQuestions<'a> {
     pub(super) name: &'a str,
@@ -101,9 +99,6 @@ pub(super) struct SiteQuestions<'a> {
 impl<'a> Uncertain<'a> {
     /// The structures that `structure` may be, whose impacts keep `restitution` of the velocity where that is known,
     /// under so many records; none where all of it is known.
-    ///
-    /// # Errors
-    /// A structure that cannot be.
     pub(super) fn from_structure(
         structure: &'a Structure,
         restitution: f64,
@@ -125,9 +120,6 @@ impl<'a> Uncertain<'a> {
     }
 
     /// The stripes of one measure, with what they cost.
-    ///
-    /// # Errors
-    /// A record that cannot be scaled.
     pub(super) fn plan<'b>(
         &'b self,
         (label, study): (&str, &UniformRiskStudy),
@@ -150,9 +142,6 @@ impl<'a> Uncertain<'a> {
     }
 
     /// What the stripes of a measure say, `[site, asked]`.
-    ///
-    /// # Errors
-    /// Parts that do not belong together.
     pub(super) fn results(
         &self,
         stripes: &Stripes,

@@ -7,14 +7,10 @@ use uplift_uniform_risk::consistency::Reweighing;
 
 use crate::error::DesignError;
 
-/// The repaired weights of a result.
 pub(super) struct RepairedWeights(Option<Reweighing>);
 
 impl RepairedWeights {
     /// Those of the motions of a result, each once.
-    ///
-    /// # Errors
-    /// Records and hazard that cannot be held against each other.
     pub(super) fn from_file(file: &ResultFile) -> Result<Self, DesignError> {
         Ok(Self(Reweighing::from_motions(file)?))
     }
@@ -36,9 +32,6 @@ pub(super) enum SiteWeights<'a> {
 
 impl<'a> SiteWeights<'a> {
     /// The risk curve of a `demand`.
-    ///
-    /// # Errors
-    /// Weights of other levels or records.
     pub(super) fn curve(&self, demand: &'a PooledDemand) -> Result<RiskCurve<'a>, RiskError> {
         match self {
             Self::Alike(stripes) => RiskCurve::new(demand, stripes),

@@ -4,17 +4,15 @@
 //! |---|---|
 //! | `work` | plans with their labels, and the carrying out of them |
 //! | `shard` | the work shared among machines, and the joining of it |
-//! | `beside` | work that is asked of a finished result |
+//! | `result_job` | work that is asked of a finished result |
 //!
 //! A job makes its plans, puts them into a [`Work`], opens the checkpoint that goes with it, and has it carried out:
 //! what is known is not computed again, every finished row goes to the checkpoint, and a stop ends with what is in it.
 
-mod beside;
+mod result_job;
 mod shard;
 mod work;
 
-pub use beside::Beside;
-pub use shard::{MOST_SHARDS, ShardReport, join, run_shard, shard_path};
-pub use shard::{carry_out_shard, hold};
-pub use work::rate;
-pub use work::{Analysed, LabelledPlan, Work, seconds};
+pub use result_job::ResultJob;
+pub use shard::{MOST_SHARDS, ShardReport, carry_out_shard, hold, join, run_shard, shard_path};
+pub use work::{Analysed, LabelledPlan, Work, rate, seconds};

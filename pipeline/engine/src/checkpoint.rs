@@ -3,8 +3,7 @@
 //! | module | what is in it |
 //! |---|---|
 //! | `key` | from a plan to the keys of its rows |
-//! | `row_file` | finished rows in a file, appended as they come: a checkpoint, or a shard |
-//! | `block` | how a row is written in such a file |
+//! | `row_file` | finished rows in a file, appended as they come: a checkpoint, or a shard; how a row is written |
 //! | `open` | a checkpoint in use: what is known from it, and what is added |
 //! | `error` | why one cannot be used |
 //!
@@ -12,7 +11,6 @@
 //! factors, the system and the version of the solver's numbers: a key that is known again has the same numbers,
 //! whatever else of a study has changed, and whatever asked for it.
 
-mod block;
 mod error;
 mod key;
 mod open;
@@ -20,6 +18,5 @@ mod row_file;
 
 pub use error::CheckpointError;
 pub use key::{RowKey, RowKeys, oscillator_key};
-pub use open::Checkpoint;
-pub use open::path_beside;
+pub use open::{Checkpoint, path_beside};
 pub use row_file::{Finding, FinishedRows, RowFile, RowFileHead, checkpoint_path};

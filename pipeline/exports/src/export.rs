@@ -2,7 +2,6 @@
 //! file, a workbook.
 
 mod added;
-mod consistency;
 mod findings;
 mod json;
 mod matlab;
@@ -15,7 +14,6 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::error::ExportsError;
 use shake_table::TestsExport;
 pub use source::Export;
 use uplift_job::JobError;
@@ -25,8 +23,9 @@ use uplift_job::table::{write_atomically, write_table};
 use uplift_questions::bootstrap::resampled;
 use uplift_result::{Kind, ResultFile};
 use uplift_studies::shake_table::TESTS_COLUMN;
-use uplift_uniform_risk::AskedRisk;
-use uplift_uniform_risk::at;
+use uplift_uniform_risk::{AskedRisk, at};
+
+use crate::error::ExportsError;
 
 /// Formats of other programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -124,7 +123,7 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
             .into());
         }
         outputs::check(&outputs, &[&options.result], options.force)?;
-        let export = TestsExport::of(&result)?;
+        let export = TestsExport::from_file(&result)?;
         return write_each(&options.formats, file, events, |format, file| match format {
             ExportFormat::Csv => Ok(write_table(file, &export.provenance, export.columns())?),
             ExportFormat::Json => Ok(write_atomically(file, format!("{:#}\n", export.json()).as_bytes())?),
@@ -135,7 +134,7 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
     let result = at(result, &options.risk)?;
     outputs::check(&outputs, &[&options.result], options.force)?;
     let result = resampled(result, events)?;
-    let export = Export::of(&result)?;
+    let export = Export::from_file(&result)?;
     let mut report = write_each(&options.formats, file, events, |format, file| match format {
         ExportFormat::Csv => Ok(write_table(file, export.provenance(), export.columns())?),
         ExportFormat::Json => Ok(write_atomically(file, format!("{:#}\n", export.json()).as_bytes())?),

@@ -18,14 +18,14 @@ pub use design::{DesignTable, DesignTableRow};
 pub use tests_of_table::{Agreement, TestRow, TestsTable};
 pub use uplift_alarms::COMPARED_FROM_M;
 
-use crate::error::ExportsError;
 use uplift_alarms::{alarms, alarms_by, fit_alarms, ranked};
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_questions::bootstrap::resampled;
 use uplift_result::{Kind, ResultFile};
-use uplift_uniform_risk::AskedRisk;
-use uplift_uniform_risk::at;
+use uplift_uniform_risk::{AskedRisk, at};
+
+use crate::error::ExportsError;
 
 /// Which table, and what stands beside it.
 #[derive(Debug, Clone, PartialEq)]

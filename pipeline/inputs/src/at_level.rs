@@ -64,9 +64,6 @@ pub(super) fn read(path: &Path, measure: IntensityMeasure) -> Result<Table, Vec<
 }
 
 /// Refuses what a study would refuse by itself in a table with these `bytes` that is to lie at `path`.
-///
-/// # Errors
-/// As [`read`].
 pub(crate) fn check_bytes(bytes: &[u8], path: &Path, measure: IntensityMeasure) -> Result<(), Vec<String>> {
     read_bytes(bytes, path, measure).map(drop)
 }

@@ -1,6 +1,10 @@
-//! Checksums of everything that a study of uniform risk is given, by name.
+//! Checksums of everything that a study of uniform risk is given, by name; keys of motions, which say whether a peak
+//! is that of the same shaking.
 
 use std::collections::BTreeMap;
+
+use uplift_job::checksum::{checksum, motion_key};
+use uplift_motion::Direction;
 
 use crate::{OtherHazard, Record, RecordSet, SiteHazard};
 
@@ -35,4 +39,37 @@ pub fn input_checksums(
         }
     }
     input_checksums
+}
+
+/// SHA-256 of what the peaks of each record are of, hexadecimal: of its motion; of the motion and what its structure
+/// has where that is not known exactly.
+pub fn motion_keys(records: &[Record]) -> Vec<String> {
+    // structures of a motion follow each other: it is hashed once
+    let of_motions = records.chunk_by(share_motion).flat_map(|same| {
+        let key = of_motion(&same[0]);
+        same.iter().map(move |record| match &record.structure {
+            Some(structure) => structure.key_with(&key),
+            None => key.clone(),
+        })
+    });
+    of_motions.collect()
+}
+
+/// SHA-256 of the motion of a record, hexadecimal; of all motions and the percentile where it is one.
+fn of_motion(record: &Record) -> String {
+    let first = motion_key(&record.accelerogram);
+    match record.direction {
+        Direction::Percentile { percentile, .. } if !record.other_azimuths.is_empty() => {
+            let others = record.other_azimuths.iter().map(motion_key);
+            let keys: Vec<String> = std::iter::once(first).chain(others).collect();
+            checksum(format!("percentile {percentile} of {}", keys.join(" ")).as_bytes())
+        }
+        _ => first,
+    }
+}
+
+/// Whether two records are of the very same motion, whose samples they share.
+fn share_motion(one: &Record, other: &Record) -> bool {
+    let [samples, others] = [one, other].map(|record| record.accelerogram.acceleration_m_s2());
+    std::ptr::eq(samples, others) && one.direction == other.direction
 }

@@ -39,7 +39,6 @@ impl DrawnStructure {
         checksum(format!("{motion_key} with {}", values.join(" ")).as_bytes())
     }
 
-    /// Whether it is the one that `study` describes.
     fn is_as_described(&self, study: &UniformRiskStudy) -> bool {
         let described = |quantity| study.oscillator.value(quantity).map(f64::to_bits);
         self.values.iter().all(|(quantity, value)| described(*quantity) == Some(value.to_bits()))
@@ -88,9 +87,6 @@ impl DrawnStructure {
 }
 
 /// The `records`, each with every structure that it shakes, and their `description` with that.
-///
-/// # Errors
-/// More of them than a level takes.
 pub(super) fn shaking_structures(
     records: Vec<Record>,
     of: &Uncertainty,

@@ -5,7 +5,6 @@ mod collect;
 mod group;
 mod measured;
 mod name;
-mod remarks;
 mod scan;
 mod search_results;
 mod table;
@@ -20,10 +19,8 @@ use serde::Serialize;
 
 pub use measured::PairMeasures;
 pub use name::sequence_number;
-pub use remarks::Remarks;
-pub use warnings::Warning;
 pub use warnings::of_pair as warnings_of_pair;
-pub use warnings::unusual_peak;
+pub use warnings::{Remarks, Warning, unusual_peak};
 
 use crate::FileOptions;
 use crate::error::InputsError;
@@ -74,7 +71,6 @@ pub struct ImportReport {
 }
 
 impl ImportOptions {
-    /// The manifest.
     fn manifest(&self) -> PathBuf {
         if self.output.is_dir() { self.output.join("manifest.csv") } else { self.output.clone() }
     }

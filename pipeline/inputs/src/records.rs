@@ -13,13 +13,11 @@
 mod at_level;
 mod list;
 mod select;
-mod set;
 mod show;
 mod synthesize;
 
 pub use at_level::{AtLevelOptions, AtLevelReport, LevelSet, at_level};
-pub use list::{ListReport, ListedRecord, list};
+pub use list::{ListReport, ListedRecord, SetOptions, list};
 pub use select::{SelectOptions, SelectReport, select};
-pub use set::SetOptions;
 pub use show::{ComponentReport, FileReport, PairPeaks, RecordReport, ShowOptions, ShowReport, VelocityPulse, show};
 pub use synthesize::{SynthesizeOptions, SynthesizeReport, synthesize};

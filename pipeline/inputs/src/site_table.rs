@@ -23,7 +23,6 @@ use uplift_job::checksum::checksum_of_file;
 use uplift_job::text::thousands;
 use uplift_study::{MeasurePlan, Repair, SiteTable, UniformRiskStudy};
 
-/// Sites that a warning names.
 const SITES_NAMED: usize = 4;
 
 /// A site of the table.

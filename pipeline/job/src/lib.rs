@@ -8,7 +8,7 @@
 //! | [`alarm`] | what to know before the numbers of a result are used |
 //! | [`table`], [`text_table`] | tables as CSV, written and read |
 //! | [`text`], [`checksum`] | tables and numbers for people; SHA-256 of files and motions |
-//! | [`frame`] | what the kinds of study share |
+//! | [`study_run`] | the options of a run, and the heads of what plans and runs report |
 
 pub mod alarm;
 mod array;
@@ -16,11 +16,11 @@ pub mod checksum;
 mod clock;
 mod error;
 pub mod events;
-pub mod frame;
 pub mod lock;
 pub mod machine;
 pub mod outputs;
 mod reference_table;
+pub mod study_run;
 pub mod table;
 pub mod text;
 pub mod text_table;

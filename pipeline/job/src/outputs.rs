@@ -13,8 +13,7 @@ use std::path::{Path, PathBuf};
 use uplift_atomic_file::AtomicFile;
 
 use crate::error::JobError;
-pub use metadata::metadata_path;
-pub use metadata::metadata_text;
+pub use metadata::{metadata_path, metadata_text};
 
 /// How names of files end that this program reads and writes; of none else that it makes.
 const FILE_ENDINGS: [&str; 12] =

@@ -6,7 +6,7 @@ use polars::prelude::{Column, DataFrame, DataType};
 use uplift_atomic_file::read_file;
 
 use crate::error::JobError;
-use crate::table::cells::plain;
+use crate::table::plain;
 use crate::text_table;
 
 /// The most that a table of a paper has, and then some.

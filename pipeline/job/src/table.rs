@@ -1,18 +1,50 @@
 //! Tables beside a result file, for spreadsheets and scripts.
 
-pub mod cells;
-
+use std::borrow::Cow;
 use std::path::Path;
 
-use polars::prelude::{Column, DataFrame};
+use polars::prelude::{Column, DataFrame, DataType, IntoColumn, NamedFrom, PlSmallStr, Series, StringChunked};
 use polars_io::prelude::{CsvWriter, SerWriter};
 use uplift_atomic_file::write_whole;
 
 use crate::error::JobError;
 use crate::outputs::{metadata_path, metadata_text};
 use crate::text::one_line;
-use cells::neutral_column;
-pub use cells::{neutral, plain};
+
+/// A table in the making: columns with a cell for each of its rows.
+pub struct ColumnsOf<R> {
+    rows: Vec<R>,
+    columns: Vec<Column>,
+}
+
+impl<R: Copy> ColumnsOf<R> {
+    /// A table of `rows`, without columns.
+    pub fn new(rows: impl IntoIterator<Item = R>) -> Self {
+        Self { rows: rows.into_iter().collect(), columns: Vec::new() }
+    }
+
+    /// One more column: the `cell` of each row.
+    #[must_use]
+    pub fn with<C, A: ?Sized>(mut self, name: impl Into<PlSmallStr>, cell: impl FnMut(R) -> C) -> Self
+    where
+        Series: NamedFrom<Vec<C>, A>,
+    {
+        let cells: Vec<C> = self.rows.iter().copied().map(cell).collect();
+        self.columns.push(Column::new(name.into(), cells));
+        self
+    }
+
+    /// One more column for each of `items`.
+    #[must_use]
+    pub fn each<I>(self, items: impl IntoIterator<Item = I>, more: impl FnMut(Self, I) -> Self) -> Self {
+        items.into_iter().fold(self, more)
+    }
+
+    /// The columns.
+    pub fn build(self) -> Vec<Column> {
+        self.columns
+    }
+}
 
 /// Write a table, and beside it what `line` says of it ([`metadata_path`]); each whole or not at all.
 ///
@@ -57,4 +89,54 @@ pub fn table_text(path: &Path, line: &str, columns: Vec<Column>) -> Result<Vec<u
 /// A file that cannot be written; an earlier one is then as it was.
 pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), JobError> {
     Ok(write_whole(path, content)?)
+}
+
+/// `text` as a cell that a spreadsheet shows and does not compute: an apostrophe goes before what it would take for a
+/// formula. A number stays a number.
+pub fn neutral(text: &str) -> Cow<'_, str> {
+    if begins_formula(text) && text.trim().parse::<f64>().is_err() {
+        Cow::Owned(format!("'{text}"))
+    } else {
+        Cow::Borrowed(text)
+    }
+}
+
+/// The text of a cell that [`neutral`] made.
+pub fn plain(cell: &str) -> &str {
+    cell.strip_prefix('\'').filter(|text| begins_formula(text)).unwrap_or(cell)
+}
+
+fn begins_formula(text: &str) -> bool {
+    text.starts_with(['=', '+', '-', '@', '\t', '\r'])
+}
+
+/// A column with its name and texts [`neutral`]; one of numbers as it is.
+fn neutral_column(mut column: Column) -> Column {
+    if *column.dtype() == DataType::String
+        && let Ok(texts) = column.str()
+        && texts.iter().flatten().any(begins_formula)
+    {
+        let texts: StringChunked = texts.iter().map(|text| text.map(neutral)).collect();
+        column = texts.with_name(column.name().clone()).into_column();
+    }
+    let name = neutral(column.name()).into_owned();
+    column.rename(name.into());
+    column
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formulas_are_texts_and_come_back() {
+        for text in ["=HYPERLINK(\"x\")", "+1+1", "-2-3", "@SUM(A1)", "\tx", "\rx", "'=1", "-", "a=b", "'quoted", ""] {
+            let cell = neutral(text);
+            assert!(!cell.starts_with(['=', '+', '-', '@', '\t', '\r']), "{text:?}: {cell:?}");
+            assert_eq!(plain(&cell), if text == "'=1" { "=1" } else { text });
+        }
+        for number in ["-1.5e3", "+2", "-inf", "0.1"] {
+            assert_eq!(neutral(number), number);
+        }
+    }
 }

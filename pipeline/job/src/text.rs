@@ -4,8 +4,7 @@ mod risk;
 mod table;
 mod visible;
 
-pub use risk::rounded;
-pub use risk::{kind_of_risks, per_cent, risk_in_words, risk_name, risks_in_words, share};
+pub use risk::{kind_of_risks, per_cent, risk_in_words, risk_name, risks_in_words, rounded, share};
 pub use table::{Table, TableOf};
 pub use visible::{is_obeyed, one_line, visible};
 

@@ -4,11 +4,9 @@
 mod compute;
 mod plan;
 mod run;
-mod summary;
 mod tables;
 
 pub use compute::{BlockResponses, PulseSpectra, Spectrum, compute};
 pub use plan::{BlockPlan, PulsePlan, wavelet};
-pub use run::{PulseOptions, PulseReport, pulses};
-pub use summary::{Summary, summary};
+pub use run::{PulseOptions, PulseReport, Summary, pulses, summary};
 pub use tables::{PULSE_FIGURES, PulseTable, tables};

@@ -7,6 +7,8 @@ mod tables;
 
 pub use measured::{MeasuredCurve, SideOfLoop};
 pub use protocol::{CyclicReport, ProtocolOptions, ProtocolReport, protocol};
-pub use run::{CapacityReport, LinearCurve, PushoverOptions, PushoverReport, pushover};
-pub use run::{anchorage_word, axial_load_ratio, capacity, pushed};
+pub use run::{
+    CapacityReport, LinearCurve, PushoverOptions, PushoverReport, anchorage_word, axial_load_ratio, capacity, pushed,
+    pushover,
+};
 pub use tables::check_rows;

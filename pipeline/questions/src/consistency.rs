@@ -7,7 +7,7 @@ use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::write_table;
 use uplift_job::{Array, JobError};
 use uplift_motion::IntensityMeasure;
-use uplift_result::Addition;
+use uplift_result::LockedResult;
 use uplift_study::Repair;
 use uplift_uniform_risk::StoredStripes;
 use uplift_uniform_risk::consistency::{
@@ -41,7 +41,7 @@ pub fn consistency(
     options: &ConsistencyOptions,
     events: &dyn Events,
 ) -> Result<ConsistencyReport, QuestionsError> {
-    let (addition, file) = Addition::begin(result, events)?;
+    let (locked, file) = LockedResult::open(result, events)?;
     let question = Question::from_result(&file)?;
     let shaken = disaggregated(&question, &options.disaggregations)?;
     if !question.can_be_asked() {
@@ -59,7 +59,7 @@ pub fn consistency(
     }
     let repairs = if repair { repairs_of(&file, &stored, &question, &findings)? } else { Vec::new() };
     let keep = if options.keep_weights { Keep::Weights } else { Keep::Exponents };
-    addition.write(&replaced(), |writer| add(writer, &question, &findings, &repairs, keep))?;
+    locked.write(&replaced(), |writer| add(writer, &question, &findings, &repairs, keep))?;
     let plain_m: Vec<(IntensityMeasure, Array<3>)> =
         file.spectra()?.measures.into_iter().map(|spectra| (spectra.measure, spectra.u_m)).collect();
     let mut report = ConsistencyReport::new(&question, &findings, &plain_m, &repairs);

@@ -1,14 +1,12 @@
 //! Which intensity measure to trust: efficiency and sufficiency.
 
-mod covariates;
+mod factors_to_reach;
 mod job;
 mod of_measure;
-mod reaching;
 mod report;
 mod restated;
 mod write;
 
-pub use covariates::covariates;
 pub use job::{EfficiencyOptions, efficiency, usual_measures};
-pub use of_measure::{Covariate, MeasureEfficiency, efficiency_by};
+pub use of_measure::{Covariate, MeasureEfficiency, covariates, efficiency_by};
 pub use report::{EfficiencyReport, EfficiencyRow, Trend};

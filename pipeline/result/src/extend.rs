@@ -14,20 +14,20 @@ use crate::error::ResultError;
 /// A result that is being added to: nobody else writes to it meanwhile, from before its numbers are read until what is
 /// made of them is in the file.
 #[derive(Debug)]
-pub struct Addition {
+pub struct LockedResult {
     path: PathBuf,
     /// Of the file as it was when this began.
     identity: String,
     _lock: ResultLock,
 }
 
-impl Addition {
+impl LockedResult {
     /// Takes the lock of the result at `path`, and opens it; another that adds to it is waited for.
     ///
     /// # Errors
     /// A file that is missing, damaged or no result; one that another run is writing for longer than a minute; a folder
     /// that cannot be written.
-    pub fn begin(path: &Path, events: &dyn Events) -> Result<(Self, ResultFile), ResultError> {
+    pub fn open(path: &Path, events: &dyn Events) -> Result<(Self, ResultFile), ResultError> {
         ResultFile::open(path)?;
         if let Some(holder) = ResultLock::holder(path) {
             events.remark("waits", &format!("{} is being written by another run ({holder})", path.display()));
@@ -38,12 +38,12 @@ impl Addition {
         Ok((Self { path: path.to_owned(), identity: file.identity().to_owned(), _lock: lock }, file))
     }
 
-    /// Writes the file, which this began with, anew: without the groups and axes `replaced`, and with what `add`
+    /// Writes the file, which this opened, anew: without the groups and axes `replaced`, and with what `add`
     /// writes.
     ///
     /// # Errors
     /// Whatever keeps the file from being read or written; it is then as it was. A file that is not as it was written,
-    /// or no longer the one that this began with.
+    /// or no longer the one that this opened.
     pub fn write(
         &self,
         replaced: &[impl AsRef<str>],

@@ -50,7 +50,7 @@ pub use displacements::{
 pub use efficiency::{EFFICIENCY, EFFICIENCY_OF_STRIPES, REACHING, TRENDS};
 pub use efficiency::{StoredEfficiency, StoredTrend};
 pub use error::ResultError;
-pub use extend::{Addition, sign};
+pub use extend::{LockedResult, sign};
 pub use file::{ResultFile, RiskAxes};
 pub use findings::{DOCUMENT, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST};
 pub use findings::{FINDINGS, Finding, FindingRow, Inquiry, StoredFinding};

@@ -7,7 +7,7 @@ use uplift_ida::NUMERICS;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::checksum::checksum;
-use uplift_job::frame::{RunHead, RunOptions};
+use uplift_job::study_run::{RunHead, RunOptions};
 use uplift_labelled::LabelledWriter;
 
 use super::digest::study_digest;

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use uplift_atomic_file::open_file;
 use uplift_job::JobError;
-use uplift_job::frame::RunOptions;
 use uplift_job::outputs::{beside, is_same_file, wrong_ending};
+use uplift_job::study_run::RunOptions;
 use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
 use uplift_study::AnyStudy;
 

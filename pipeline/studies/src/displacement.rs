@@ -11,12 +11,9 @@ mod spectra;
 mod work;
 mod write;
 
-pub use csv::tables;
-pub use csv::{displacement_csv_paths, write_displacement_csv};
-pub use design_example::carry_out_designs;
-pub use design_example::{Designs, Doubted, design_analyses, strength};
-pub use plan::Plan;
-pub use plan::{needs, plan};
+pub use csv::{displacement_csv_paths, tables, write_displacement_csv};
+pub use design_example::{Designs, Doubted, carry_out_designs, design_analyses, strength};
+pub use plan::{Plan, needs, plan};
 pub use report::{RunReport, SetReport, SpectraReport};
 pub use rounding::printed;
 pub use run::run;

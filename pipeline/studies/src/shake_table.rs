@@ -10,11 +10,9 @@ mod spectra;
 mod tests_of_table;
 mod write;
 
-pub use csv::{COLUMN as TESTS_COLUMN, columns, tables};
-pub use csv::{shake_table_csv_path, write_shake_table_csv};
+pub use csv::{COLUMN as TESTS_COLUMN, columns, shake_table_csv_path, tables, write_shake_table_csv};
 pub use inputs::Inputs;
-pub use plan::Plan;
-pub use plan::plan;
+pub use plan::{Plan, plan};
 pub use report::RunReport;
 pub use run::run;
 pub use tests_of_table::carry_out;

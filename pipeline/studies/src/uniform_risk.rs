@@ -3,7 +3,6 @@
 mod csv;
 mod earlier;
 mod levels;
-mod outcome;
 mod plan;
 mod report;
 mod run;
@@ -15,9 +14,8 @@ mod write_hazard;
 pub use csv::{csv_paths, spectra_table, tables, write_csv};
 pub use earlier::EarlierStripes;
 pub use levels::{LevelCheck, LevelProposal};
-pub use outcome::Outcome;
 pub use plan::{Plan, needs, plan};
 pub use report::{BranchReport, CoefficientsReport, MeasureReport, RunReport};
-pub use run::run;
+pub use run::{ComputedStudy, run};
 pub use work::{Inputs, run_shard};
 pub use write::write_result;

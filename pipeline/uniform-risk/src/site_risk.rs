@@ -37,9 +37,6 @@ impl<'a> SiteRisk<'a> {
     }
 
     /// The same of demands that `demand` pools for each of the `strengths`.
-    ///
-    /// # Errors
-    /// Those of `demand`, and numbers that do not fit together.
     pub(crate) fn from_demands(
         study: &'a UniformRiskStudy,
         strengths: usize,

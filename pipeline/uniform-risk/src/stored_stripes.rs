@@ -146,9 +146,6 @@ impl StoredStripes {
 }
 
 /// Position of the probability `wanted` among `poes`, or of the smallest.
-///
-/// # Errors
-/// A probability that is not among them.
 pub(crate) fn poe_index(poes: &[f64], wanted: Option<f64>) -> Result<usize, UniformRiskError> {
     let found = match wanted {
         Some(wanted) => poes.iter().position(|poe| (poe - wanted).abs() <= 1e-6 * poe),
@@ -182,9 +179,6 @@ impl StoredMeasure {
 }
 
 /// The stripes of `measure` over `axes`, with the hazard that they are weighed by and exact ordinates at the targets.
-///
-/// # Errors
-/// A file that is damaged.
 pub(super) fn stored_measure(
     file: &ResultFile,
     axes: &RiskAxes,
@@ -223,9 +217,6 @@ pub fn branch_weights(
 }
 
 /// What the stripes at `levels` weigh by the curve of a site.
-///
-/// # Errors
-/// Levels outside the curve.
 pub(super) fn weigh(
     file: &ResultFile,
     site: &str,

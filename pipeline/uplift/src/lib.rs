@@ -46,7 +46,7 @@
 //! |---|---|
 //! | [`run`](mod@run), [`plan`](mod@plan), [`shard`] | a study of either kind carried out, planned, shared |
 //! | [`init`](mod@init) | a small study to start from |
-//! | [`frame`], [`lock`](mod@lock) | what the kinds of study share; one run at a time for one result |
+//! | [`study_run`], [`lock`](mod@lock) | what the kinds of study share; one run at a time for one result |
 //! | [`events`] | what a job tells while it works, and how it is stopped |
 //! | [`uniform_risk`] | studies of uniform risk: stripes, spectra, coefficients |
 //! | [`mod@spectrum`] | displacements with confidence bands, read off a result at any strength and return period |
@@ -91,7 +91,7 @@ pub use uplift_exports::{export, table};
 pub use uplift_inputs::{self as inputs, hazard_curves, import, records};
 pub use uplift_job::events::{Events, Phase, Silent};
 pub use uplift_job::{
-    Array, COMMIT, JobError, ShapeError, VERSION, VERSION_AND_COMMIT, cause, events, frame, lock, machine, outputs,
+    Array, COMMIT, JobError, ShapeError, VERSION, VERSION_AND_COMMIT, cause, events, lock, machine, outputs, study_run,
     text,
 };
 pub use uplift_laboratory::{pulses, pushover, response, restrainer, validate};

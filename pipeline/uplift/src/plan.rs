@@ -6,8 +6,8 @@ use uplift_study::AnyStudy;
 
 use crate::error::UpliftError;
 use crate::run::{check_outputs, replaced};
-pub use uplift_job::frame::PlanHead;
-use uplift_job::frame::RunOptions;
+pub use uplift_job::study_run::PlanHead;
+use uplift_job::study_run::RunOptions;
 use uplift_studies::{displacement, shake_table, uniform_risk};
 
 /// What a study costs, by its kind.

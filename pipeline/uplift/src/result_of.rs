@@ -7,7 +7,7 @@ use uplift_alarms::alarms;
 use uplift_engine::checkpoint::oscillator_key;
 use uplift_inputs::{Record, input_checksums, motion_keys, read_hazard, read_other_hazard, read_records};
 use uplift_job::events::{Events, Silent};
-use uplift_job::frame::{RunHead, RunOptions};
+use uplift_job::study_run::{RunHead, RunOptions};
 use uplift_job::{COMMIT, JobError, VERSION};
 use uplift_labelled::verify as verify_file;
 use uplift_motion::IntensityMeasure;

@@ -10,16 +10,15 @@ use std::time::Instant;
 use serde::Serialize;
 use uplift_engine::checkpoint::FinishedRows;
 use uplift_inputs::manifest;
-use uplift_job::JobError;
 use uplift_job::events::Events;
-use uplift_job::frame::Place;
+use uplift_job::study_run::Place;
+use uplift_job::{JobError, outputs};
 use uplift_study::AnyStudy;
 
 use crate::error::UpliftError;
 use crate::result_of::finished;
-pub use uplift_job::frame::{RunHead, RunOptions};
 use uplift_job::lock::ResultLock;
-use uplift_job::outputs;
+pub use uplift_job::study_run::{RunHead, RunOptions};
 use uplift_result::{check_place, replaces_another};
 use uplift_studies::{displacement, shake_table, uniform_risk};
 

@@ -2,16 +2,16 @@
 
 #![allow(clippy::doc_markdown)] // what --help prints has no backticks
 
-mod import;
-mod plot;
-mod show;
+use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use uplift::hazard_curves::CurveOptions;
-use uplift_hazard::SiteSelection;
+use uplift::hazard_curves::{CurveOptions, HazardImportOptions, import as import_curves, show as show_curves};
+use uplift_hazard::{ComponentDefinition, SiteSelection};
+use uplift_report::{HazardPlotOptions, plot_hazard};
 
-use super::arguments::number;
+use super::arguments::{ForceArgument, number, require_folder};
 use crate::error::CommandError;
+use crate::show::{print_curves, print_hazard_import};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -23,18 +23,18 @@ pub(super) struct HazardArguments {
 #[derive(Debug, Subcommand)]
 enum HazardCommand {
     /// Take the curves of a site from an export of OpenQuake or the USGS: curve files, and the lines for a study
-    Import(import::ImportArguments),
+    Import(ImportArguments),
     /// Show what a curve file or an export holds
-    Show(show::ShowArguments),
+    Show(ShowArguments),
     /// Draw curves in one figure
-    Plot(plot::PlotArguments),
+    Plot(PlotArguments),
 }
 
 pub(super) fn hazard(arguments: &HazardArguments, terminal: &Terminal) -> Result<(), CommandError> {
     match &arguments.command {
-        HazardCommand::Import(arguments) => import::import(arguments, terminal),
-        HazardCommand::Show(arguments) => show::show(arguments, terminal),
-        HazardCommand::Plot(arguments) => plot::plot(arguments, terminal),
+        HazardCommand::Import(arguments) => import(arguments, terminal),
+        HazardCommand::Show(arguments) => show(arguments, terminal),
+        HazardCommand::Plot(arguments) => plot(arguments, terminal),
     }
 }
 
@@ -93,4 +93,86 @@ impl TableArguments {
             years: self.years,
         }
     }
+}
+
+#[derive(Debug, Args)]
+struct ImportArguments {
+    /// Exports: OpenQuake CSV or NRML, USGS JSON; several files for several measures, or for the realizations of a
+    /// logic tree
+    #[arg(required = true, value_name = "EXPORT")]
+    exports: Vec<PathBuf>,
+    /// Folder for the curve files; made if it is not there
+    #[arg(short, long, value_name = "FOLDER")]
+    output: PathBuf,
+    #[command(flatten)]
+    site: SiteArguments,
+    /// How the ground-motion models combine horizontal components: geometric mean, GMRotI50, RotD50, RotD100, larger,
+    /// arbitrary. Exports do not say it
+    #[arg(long, value_name = "WORD")]
+    component: Option<ComponentDefinition>,
+    /// Weights of the realizations (OpenQuake's realizations_*.csv)
+    #[arg(long, value_name = "FILE")]
+    weights: Option<PathBuf>,
+    /// Refuse a site farther from --near than this, km
+    #[arg(long, value_name = "KM", default_value_t = 100.0, value_parser = number)]
+    within_km: f64,
+    #[command(flatten)]
+    overwriting: ForceArgument,
+}
+
+fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    require_folder(&arguments.output, "curves")?;
+    let options = HazardImportOptions {
+        exports: arguments.exports.clone(),
+        folder: arguments.output.clone(),
+        site: arguments.site.selection(),
+        component: arguments.component,
+        weights: arguments.weights.clone(),
+        within_km: arguments.within_km,
+        force: arguments.overwriting.force,
+    };
+    print_hazard_import(&import_curves(&options, terminal)?)
+}
+
+#[derive(Debug, Args)]
+struct ShowArguments {
+    /// Table with two columns, or an export of OpenQuake (CSV, NRML) or the USGS (JSON); .gz too
+    file: PathBuf,
+    #[command(flatten)]
+    site: SiteArguments,
+    #[command(flatten)]
+    table: TableArguments,
+}
+
+fn show(arguments: &ShowArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    print_curves(&show_curves(&arguments.file, &arguments.table.options(&arguments.site), terminal)?)
+}
+
+#[derive(Debug, Args)]
+struct PlotArguments {
+    /// Tables with two columns, or exports of OpenQuake or the USGS
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// The figure, .svg or .png
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    #[command(flatten)]
+    site: SiteArguments,
+    #[command(flatten)]
+    table: TableArguments,
+    #[command(flatten)]
+    overwriting: ForceArgument,
+}
+
+fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let options = HazardPlotOptions {
+        files: arguments.files.clone(),
+        curves: arguments.table.options(&arguments.site),
+        output: arguments.output.clone(),
+        force: arguments.overwriting.force,
+    };
+    for file in plot_hazard(&options, terminal)?.files {
+        terminal.say(&file.display().to_string());
+    }
+    Ok(())
 }

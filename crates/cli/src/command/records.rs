@@ -1,20 +1,19 @@
 //! `uplift records`: record files, looked at, imported and chosen.
 
-mod at_level;
-mod import;
 mod synthesize;
 
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
+use uplift::import::{ImportOptions, import as import_folder};
 use uplift::inputs::FileOptions;
-use uplift::records::{self, SelectOptions, SetOptions, ShowOptions};
-use uplift_motion::{AccelerationUnit, Combination, RecordFormat, STANDARD_GRAVITY_M_S2};
+use uplift::records::{self, AtLevelOptions, SelectOptions, SetOptions, ShowOptions, at_level as write_at_level};
+use uplift_motion::{AccelerationUnit, Combination, IntensityMeasure, RecordFormat, STANDARD_GRAVITY_M_S2};
 use uplift_study::{CRITERIA, Criterion, Range, RecordSelection};
 
 use super::arguments::{ForceArgument, number};
 use crate::error::CommandError;
-use crate::show::{print_record, print_records, print_selection};
+use crate::show::{print_at_level, print_import, print_record, print_records, print_selection, tell_remarks};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -26,7 +25,7 @@ pub(super) struct RecordsArguments {
 #[derive(Debug, Subcommand)]
 enum RecordsCommand {
     /// Find the records in a folder or zip archive of downloads, pair and measure them, write a manifest
-    Import(import::ImportArguments),
+    Import(ImportArguments),
     /// List the records of a manifest
     List(ListArguments),
     /// Show a record of a manifest, or what a record file holds
@@ -34,7 +33,7 @@ enum RecordsCommand {
     /// Choose records of a manifest: the lines for a study, and a manifest of those chosen
     Select(SelectArguments),
     /// Make a table of sets at each level, for a study, of what tools of record selection write
-    AtLevel(at_level::AtLevelArguments),
+    AtLevel(AtLevelArguments),
     /// Make synthetic records of a scenario
     Synthesize(synthesize::SynthesizeArguments),
 }
@@ -69,11 +68,11 @@ struct SelectArguments {
 
 pub(super) fn records(arguments: &RecordsArguments, terminal: &Terminal) -> Result<(), CommandError> {
     match &arguments.command {
-        RecordsCommand::Import(arguments) => import::import(arguments, terminal),
+        RecordsCommand::Import(arguments) => import(arguments, terminal),
         RecordsCommand::List(arguments) => list(arguments, terminal),
         RecordsCommand::Show(arguments) => show(arguments),
         RecordsCommand::Select(arguments) => select(arguments, terminal),
-        RecordsCommand::AtLevel(arguments) => at_level::at_level(arguments, terminal),
+        RecordsCommand::AtLevel(arguments) => at_level(arguments, terminal),
         RecordsCommand::Synthesize(arguments) => synthesize::synthesize(arguments, terminal),
     }
 }
@@ -210,4 +209,90 @@ impl SetArguments {
             selection: self.criteria.selection(),
         }
     }
+}
+
+#[derive(Debug, Args)]
+struct ImportArguments {
+    /// Folder with record files, in folders of their own if you like; or the zip archive that PEER gives, which is
+    /// unpacked into a folder of its name beside the manifest
+    #[arg(value_name = "FOLDER|ZIP")]
+    folder: PathBuf,
+    /// The manifest to write (CSV); a folder gets a manifest.csv
+    #[arg(short, long, value_name = "SET")]
+    output: PathBuf,
+    #[command(flatten)]
+    files: FileArguments,
+    /// Leave out the search for velocity pulses, which takes most of the time
+    #[arg(long)]
+    no_pulses: bool,
+    #[command(flatten)]
+    overwriting: ForceArgument,
+}
+
+fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let options = ImportOptions {
+        folder: arguments.folder.clone(),
+        output: arguments.output.clone(),
+        files: arguments.files.options(),
+        pulses: !arguments.no_pulses,
+        force: arguments.overwriting.force,
+    };
+    let report = import_folder(&options, terminal)?;
+    tell_remarks(&report, terminal);
+    if report.manifest.is_none() {
+        return Err(CommandError::input(format!(
+            "no pair of horizontal components in {}: {} files read, {} components found",
+            options.folder.display(),
+            report.files,
+            report.components
+        )));
+    }
+    print_import(&report, terminal)
+}
+
+#[derive(Debug, Args)]
+struct AtLevelArguments {
+    /// What the tool wrote, a file a level
+    #[arg(
+        required = true,
+        value_name = "FILE",
+        help = "What the tool wrote, a file a level: haselREC's ..._summary_selection.txt, CS_Selection's \
+                Output_File.dat, EzGM's GMR_H1_names.txt or GMR_names.txt (GMR_sf_used.txt lies beside it), Djura's \
+                records_....json"
+    )]
+    selections: Vec<PathBuf>,
+    /// Manifest of a record set (CSV) that has the records, as `uplift records import` writes it
+    #[arg(long, value_name = "SET")]
+    manifest: PathBuf,
+    /// The measure that they were selected for
+    #[arg(
+        long,
+        value_name = "MEASURE",
+        help = "The measure that they were selected for: pgv, pga, sa_1s (SA at 0.5 s is sa_0p5s), ..."
+    )]
+    measure: IntensityMeasure,
+    /// The level of each file, in their order, in cm/s or g; haselREC and Djura write it themselves
+    #[arg(long = "level", value_name = "LEVEL,...", value_delimiter = ',', value_parser = number)]
+    levels: Vec<f64>,
+    /// Let each pair stand as two records, one a component, for a study with component = "both"
+    #[arg(long)]
+    both: bool,
+    /// The table to write (CSV)
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    #[command(flatten)]
+    overwriting: ForceArgument,
+}
+
+fn at_level(arguments: &AtLevelArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let options = AtLevelOptions {
+        selections: arguments.selections.clone(),
+        manifest: arguments.manifest.clone(),
+        measure: arguments.measure,
+        levels: arguments.levels.clone(),
+        both: arguments.both,
+        output: arguments.output.clone(),
+        force: arguments.overwriting.force,
+    };
+    print_at_level(&write_at_level(&options)?, terminal)
 }

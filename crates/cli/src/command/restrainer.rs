@@ -1,11 +1,19 @@
 //! `uplift restrainer`: tendons and disc springs, looked at and chosen.
 
-mod curve;
+#![allow(clippy::doc_markdown)] // what --help prints has no backticks
+
 mod design;
 
-use clap::{Args, Subcommand};
+use std::path::PathBuf;
 
+use clap::{Args, Subcommand};
+use uplift::restrainer::{RestrainerCurveOptions, curve as compute};
+use uplift::study::RestrainerFile;
+use uplift_report::{check_figure_file, plot_restrainer};
+
+use super::arguments::{ForceArgument, number};
 use crate::error::CommandError;
+use crate::show::{print_json, print_restrainer_curve};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -17,14 +25,52 @@ pub(super) struct RestrainerArguments {
 #[derive(Debug, Subcommand)]
 enum RestrainerCommand {
     /// Force over elongation of a restrainer (Figures 5.9, 6.8)
-    Curve(curve::CurveArguments),
+    Curve(CurveArguments),
     /// Stacks out of a catalogue that give the columns of a structure what they need (Sections 5.3.3, 6.3.3)
     Design(Box<design::DesignArguments>),
 }
 
 pub(super) fn restrainer(arguments: &RestrainerArguments, terminal: &Terminal) -> Result<(), CommandError> {
     match &arguments.command {
-        RestrainerCommand::Curve(arguments) => curve::curve(arguments, terminal),
+        RestrainerCommand::Curve(arguments) => curve(arguments, terminal),
         RestrainerCommand::Design(arguments) => design::design(arguments, terminal),
     }
+}
+
+#[derive(Debug, Args)]
+struct CurveArguments {
+    /// A file with the table [restrainer]: a structure file, or one of that table alone
+    restrainer: PathBuf,
+    /// Stretch it up to this elongation, m [default: to flat springs or the yield of the tendon]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
+    to_m: Option<f64>,
+    /// Rows, evenly spaced from 0
+    #[arg(long, value_name = "N", default_value_t = RestrainerCurveOptions::default().rows)]
+    rows: u32,
+    /// Write the rows to this CSV file
+    #[arg(short, long, value_name = "FILE.csv")]
+    output: Option<PathBuf>,
+    /// Draw springs and restrainer as SVG or PNG
+    #[arg(long, value_name = "FILE.svg|png")]
+    plot: Option<PathBuf>,
+    /// Print everything as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    overwriting: ForceArgument,
+}
+
+fn curve(arguments: &CurveArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    let force = arguments.overwriting.force;
+    if let Some(figure) = &arguments.plot {
+        check_figure_file(figure, &[&arguments.restrainer], force)?;
+    }
+    let options =
+        RestrainerCurveOptions { to_m: arguments.to_m, rows: arguments.rows, table: arguments.output.clone(), force };
+    let mut report = compute(&RestrainerFile::load(&arguments.restrainer)?, &options, terminal)?;
+    if let Some(figure) = &arguments.plot {
+        plot_restrainer(&report, figure)?;
+        report.files.push(figure.clone());
+    }
+    if arguments.json { print_json(&report) } else { print_restrainer_curve(&report, terminal) }
 }

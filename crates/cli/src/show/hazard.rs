@@ -25,7 +25,6 @@ pub(crate) fn print_hazard_import(report: &HazardImportReport) -> Result<(), Com
     Ok(())
 }
 
-/// The curves of a file.
 pub(crate) fn print_curves(report: &HazardReport) -> Result<(), CommandError> {
     let HazardReport { probabilities, years, curves } = report;
     let mut out = output();

@@ -27,7 +27,6 @@ pub(crate) fn tell_remarks(report: &ImportReport, terminal: &Terminal) {
     }
 }
 
-/// What was imported.
 pub(crate) fn print_import(report: &ImportReport, terminal: &Terminal) -> Result<(), CommandError> {
     if !report.blank_columns.is_empty() {
         terminal.say(&format!(

@@ -8,7 +8,6 @@ use uplift::text::Table;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
-/// The records of a set.
 pub(crate) fn print_records(report: &ListReport) -> Result<(), CommandError> {
     let table = Table::of(&report.records)
         .left("record", |record| &record.record)

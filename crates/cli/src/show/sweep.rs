@@ -11,7 +11,6 @@ use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
-/// Strengths shown.
 const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
 
 /// The displacements of every variant at a few strengths, by each measure and site, for the rarest risk.

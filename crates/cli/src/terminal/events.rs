@@ -77,7 +77,7 @@ impl<'a> Event<'a> {
     }
 
     /// How a command ends that fails.
-    pub(super) fn of_error(error: &'a CommandError) -> Self {
+    pub(super) fn from_error(error: &'a CommandError) -> Self {
         let file = match error {
             CommandError::Uplift(error) => file_reason(error),
             _ => None,

@@ -21,12 +21,10 @@ pub(crate) fn visible_json(json: &str) -> String {
     text
 }
 
-/// Standard output.
 pub(crate) fn output() -> Visible<StdoutLock<'static>> {
     Visible(io::stdout().lock())
 }
 
-/// Standard error.
 pub(crate) fn error_output() -> Visible<Stderr> {
     Visible(io::stderr())
 }

@@ -1,6 +1,6 @@
 //! The structure itself, and those that it may be, under the records and the hazard of a spectrum.
 
-use uplift_engine::analysis::{Beside, LabelledPlan, Work};
+use uplift_engine::analysis::{LabelledPlan, ResultJob, Work};
 use uplift_engine::checkpoint::Checkpoint;
 use uplift_ida::System;
 use uplift_job::JobError;
@@ -38,9 +38,6 @@ pub(super) struct OwnAnalysis {
 
 impl OwnAnalysis {
     /// Of `structure` under `records`.
-    ///
-    /// # Errors
-    /// As [`design`](super::design).
     pub(super) fn from_structure(
         structure: &Structure,
         (file, source): (&ResultFile, &StudyOfResult),
@@ -52,8 +49,8 @@ impl OwnAnalysis {
         let measure = place.measure;
         let analysis = DesignAnalysis::from_structure(structure, source, records, options)?;
         let name = job_name("design", structure);
-        let beside = Beside { result: &source.path, name: &name };
-        let (analysed, checkpoint) = beside.results(analysis.work(source, measure, &name)?, &options.shards, events)?;
+        let job = ResultJob { result: &source.path, name: &name };
+        let (analysed, checkpoint) = job.results(analysis.work(source, measure, &name)?, &options.shards, events)?;
         let set = &analysis.records.set;
         let mut stripes = analysed.into_iter().map(|analysed| Stripes::new(&measure.plan, set, analysed));
         let (own, of_uncertain) = (stripes.next().ok_or(JobError::Interrupted)?, stripes.next());

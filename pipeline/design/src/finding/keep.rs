@@ -8,7 +8,7 @@ use uplift_job::events::Events;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::{axis, structures};
 use uplift_result::{
-    Addition, DOCUMENT, Finding, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST,
+    DOCUMENT, Finding, LockedResult, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST,
     StoredFinding, sign,
 };
 
@@ -36,7 +36,7 @@ fn write(finding: &Finding, result: &Path, events: &dyn Events) -> Result<(), De
     if std::fs::metadata(result).is_ok_and(|metadata| metadata.permissions().readonly()) {
         return Err(JobError::input("it may not be written to".to_owned()).into());
     }
-    let (addition, file) = Addition::begin(result, events)?;
+    let (locked, file) = LockedResult::open(result, events)?;
     if file.head()?.study_digest() != finding.study_digest {
         return Err(JobError::input(
             "it was replaced by another result meanwhile: ask the same of that one".to_owned(),
@@ -46,7 +46,7 @@ fn write(finding: &Finding, result: &Path, events: &dyn Events) -> Result<(), De
     let earlier = file.findings()?;
     let (key, group) = (finding.key(), finding.group());
     let replaced = [group.clone(), axis::path(&axis::finding(&key))];
-    addition.write(&replaced, |writer| add(writer, finding, &group))?;
+    locked.write(&replaced, |writer| add(writer, finding, &group))?;
     tell_of_another_file(finding, &earlier, events);
     Ok(())
 }

@@ -21,7 +21,6 @@ pub(super) struct FrameAnalysis {
     pub(super) restitution: (f64, &'static str),
     pub(super) records: ShakenRecords,
     pub(super) pairs: Vec<RecordPair>,
-    /// The study of the result.
     study: UniformRiskStudy,
     /// The wobbling frame; none where it is not computed.
     wobbling: Vec<System>,
@@ -45,9 +44,6 @@ pub(super) struct Demands {
 
 impl FrameAnalysis {
     /// The frame of `structure` by the model `wanted`, and by the planar one in any case.
-    ///
-    /// # Errors
-    /// As [`frame_risk`](super::frame_risk).
     pub(super) fn from_structure(
         structure: &Structure,
         source: &StudyOfResult,

@@ -6,7 +6,7 @@ use polars::prelude::Column;
 use uplift_fragility::quantile;
 use uplift_inputs::RecordSet;
 use uplift_job::outputs;
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 
 use super::FrameRiskReport;
 use super::analysis::Demands;
@@ -44,15 +44,15 @@ pub(super) fn write_tables(
 
 /// A row a record and level; oscillators in the displacement of the deck.
 fn peaks(report: &FrameRiskReport, set: &RecordSet, levels: &[f64], demands: &Demands) -> Vec<Column> {
-    let cells = || set.records.iter().flat_map(|record| levels.iter().map(move |&level| (record, level)));
+    let cells = set.records.iter().flat_map(|record| levels.iter().map(move |&level| (record, level)));
     let factor = report.structure.participation;
     let of_deck = |peaks_m: &[f64]| peaks_m.iter().map(|peak_m| factor * peak_m).collect::<Vec<f64>>();
-    let mut columns = vec![
-        Column::new("record".into(), cells().map(|(record, _)| record.id.as_str()).collect::<Vec<&str>>()),
-        Column::new("im".into(), vec![report.im; set.records.len() * levels.len()]),
-        Column::new("unit".into(), vec![report.unit; set.records.len() * levels.len()]),
-        Column::new("level".into(), cells().map(|(_, level)| level).collect::<Vec<f64>>()),
-    ];
+    let mut columns = ColumnsOf::new(cells)
+        .with("record", |(record, _)| record.id.as_str())
+        .with("im", |_| report.im)
+        .with("unit", |_| report.unit)
+        .with("level", |(_, level)| level)
+        .build();
     columns.extend(demands.wobbling_m.as_ref().map(|peaks_m| Column::new("wobbling_frame_m".into(), peaks_m)));
     columns.extend([
         Column::new(PEAKS_COLUMN.into(), &demands.planar_m),
@@ -68,32 +68,24 @@ fn by_level(report: &FrameRiskReport, records: usize, levels: &[f64], demands: &
     let wobbling = demands.wobbling_m.as_ref().map(|peaks_m| ("wobbling frame", peaks_m, 1.0));
     let planar = ("planar frame", &demands.planar_m, 1.0);
     let oscillator = ("equivalent oscillator", &demands.oscillator_m, factor);
-    let (mut model, mut level, mut overturned) = (vec![], vec![], vec![]);
-    let mut quantiles = [vec![], vec![], vec![]];
-    for (name, peaks_m, factor) in wobbling.into_iter().chain([planar, oscillator]) {
-        for (place, &at) in levels.iter().enumerate() {
-            let mut stripe: Vec<f64> =
-                peaks_m.iter().skip(place).step_by(levels.len()).map(|peak_m| factor * peak_m).collect();
+    let rows = wobbling.into_iter().chain([planar, oscillator]).flat_map(|(name, peaks_m, factor)| {
+        levels.iter().enumerate().map(move |(place, &level)| {
+            let of_level = peaks_m.iter().skip(place).step_by(levels.len());
+            let mut stripe: Vec<f64> = of_level.map(|peak_m| factor * peak_m).collect();
             stripe.sort_by(f64::total_cmp);
-            model.push(name);
-            level.push(at);
-            overturned.push(stripe.iter().filter(|peak_m| peak_m.is_infinite()).count() as u64);
-            for (column, probability) in quantiles.iter_mut().zip([0.16, 0.5, 0.84]) {
-                column.push(quantile(&stripe, probability));
-            }
-        }
-    }
-    let [u16, u50, u84] = quantiles;
-    let rows = model.len();
-    vec![
-        Column::new("im".into(), vec![report.im; rows]),
-        Column::new("unit".into(), vec![report.unit; rows]),
-        Column::new("model".into(), model),
-        Column::new("level".into(), level),
-        Column::new("u16_m".into(), u16),
-        Column::new("u50_m".into(), u50),
-        Column::new(LEVELS_COLUMN.into(), u84),
-        Column::new("overturned".into(), overturned),
-        Column::new("records".into(), vec![records as u64; rows]),
-    ]
+            let overturned = stripe.iter().filter(|peak_m| peak_m.is_infinite()).count() as u64;
+            (name, level, [0.16, 0.5, 0.84].map(|probability| quantile(&stripe, probability)), overturned)
+        })
+    });
+    ColumnsOf::new(rows)
+        .with("im", |_| report.im)
+        .with("unit", |_| report.unit)
+        .with("model", |(name, ..)| name)
+        .with("level", |(_, level, ..)| level)
+        .with("u16_m", |(.., [u16_m, ..], _)| u16_m)
+        .with("u50_m", |(.., [_, u50_m, _], _)| u50_m)
+        .with(LEVELS_COLUMN, |(.., [.., u84_m], _)| u84_m)
+        .with("overturned", |(.., overturned)| overturned)
+        .with("records", |_| records as u64)
+        .build()
 }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use uplift_engine::analysis::{Analysed, Beside, LabelledPlan, Work};
+use uplift_engine::analysis::{Analysed, LabelledPlan, ResultJob, Work};
 use uplift_engine::checkpoint::Checkpoint;
 use uplift_hazard::HazardCurve;
 use uplift_ida::{Peaks, Plan, System};
@@ -48,9 +48,6 @@ pub(super) struct Trials<'a> {
 
 impl<'a> Trials<'a> {
     /// Of `structure`, by the stripes of the measure of `place` with its hazard, under records that scatter so.
-    ///
-    /// # Errors
-    /// Records that cannot be read.
     pub(super) fn from_structure(
         structure: &'a Structure,
         source: &'a StudyOfResult,
@@ -238,9 +235,6 @@ impl<'a> Trials<'a> {
 
     /// Which share of the runs lets it happen to the structures of `attempt` at the levels that `curve` has for the
     /// return periods asked for; one outside the curve is a note.
-    ///
-    /// # Errors
-    /// As [`attempt`](Self::attempt).
     pub(super) fn at_return_periods(
         &mut self,
         attempt: &Attempt,
@@ -307,8 +301,8 @@ impl<'a> Trials<'a> {
         let remark = self.cost(&plan, candidates.len()).map(|cost| ("uncertainty".to_owned(), cost));
         let labelled =
             LabelledPlan { label: label.to_owned(), remark, plan, motions: &self.records.motions, known: None };
-        let beside = Beside { result: self.result, name: &self.name };
-        let (analysed, checkpoint) = beside.results(Work::new(&self.name, vec![labelled]), &[], self.events)?;
+        let job = ResultJob { result: self.result, name: &self.name };
+        let (analysed, checkpoint) = job.results(Work::new(&self.name, vec![labelled]), &[], self.events)?;
         self.checkpoint = Some(checkpoint);
         analysed.into_iter().next().ok_or(JobError::Interrupted.into())
     }

@@ -24,9 +24,6 @@ pub(crate) struct Around<'a> {
 impl<'a> Around<'a> {
     /// Around `structure`, whose impacts keep `restitution` of the velocity where that is known, under so many records;
     /// none where its file says that all is known.
-    ///
-    /// # Errors
-    /// More draws than a level takes.
     pub(crate) fn from_structure(
         structure: &'a Structure,
         restitution: f64,
@@ -55,9 +52,6 @@ impl<'a> Around<'a> {
     }
 
     /// The oscillators of `varied`: one a branch; or those of each record, one record after the other.
-    ///
-    /// # Errors
-    /// A structure that cannot be.
     pub(crate) fn systems(&self, varied: &EquivalentSystem) -> Result<Vec<System>, DesignError> {
         let system = |point: &Vec<f64>| realized((self.structure, varied), self.of, self.restitution, point);
         self.points.iter().map(system).collect()

@@ -41,9 +41,6 @@ struct Cell {
 }
 
 /// The points of both samples, `[sample][row]`: a number for each quantity, and one for the hazard's branch.
-///
-/// # Errors
-/// More quantities than there are dimensions.
 pub(super) fn samples(of: &Uncertainty) -> Result<[Vec<Vec<f64>>; 2], DesignError> {
     // one dimension more for the hazard; of both samples
     let factors = of.quantities.len() + 1;
@@ -56,9 +53,6 @@ pub(super) fn samples(of: &Uncertainty) -> Result<[Vec<Vec<f64>>; 2], DesignErro
 
 impl Branches {
     /// Draws them: their systems, each once, and which are which.
-    ///
-    /// # Errors
-    /// A structure that cannot be.
     pub(super) fn draw(
         of: &Uncertainty,
         realize: &dyn Fn(&[f64]) -> Result<System, DesignError>,
@@ -99,9 +93,6 @@ impl Branches {
     }
 
     /// Bands and shares, `[site, asked]`.
-    ///
-    /// # Errors
-    /// Parts that do not belong together.
     pub(super) fn findings(
         &self,
         uncertain: &Uncertain<'_>,
@@ -164,7 +155,6 @@ impl Branches {
     }
 }
 
-/// What answers are computed from.
 struct Answers<'a> {
     uncertain: &'a Uncertain<'a>,
     stripes: &'a Stripes,

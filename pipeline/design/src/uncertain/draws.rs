@@ -19,9 +19,6 @@ use crate::risk::{HAPPENS, OVERTURNING_M, happenings};
 const MOST_RUNS: usize = u16::MAX as usize;
 
 /// The points of the structures of each record, one record after the other: a number for each quantity.
-///
-/// # Errors
-/// More structures than a level takes, in the structure `file`.
 pub(super) fn points(of: &Uncertainty, records: usize, file: &Path) -> Result<Vec<Vec<f64>>, DesignError> {
     let dimensions = of.quantities.len();
     // structures that are all alike are one, with the very bits of the structure as described
@@ -39,9 +36,6 @@ pub(super) fn points(of: &Uncertainty, records: usize, file: &Path) -> Result<Ve
 }
 
 /// The answers, `[site, asked]`: every draw of a record counts as a record does.
-///
-/// # Errors
-/// Parts that do not belong together; more than 65,535 structures.
 pub(super) fn findings(
     uncertain: &Uncertain<'_>,
     stripes: &Stripes,

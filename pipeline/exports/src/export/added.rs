@@ -27,7 +27,6 @@ pub(super) struct Added {
 #[derive(Debug)]
 pub(super) struct Influence {
     pub(super) stored: StoredInfluence,
-    /// Levels of the measure.
     levels: Vec<f64>,
     /// The records of each spectrum `[site, poe]`, the most influential first.
     pub(super) ranking: Array<2, Vec<RecordInfluence>>,

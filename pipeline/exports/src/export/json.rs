@@ -10,8 +10,7 @@ use uplift_result::{
 
 use super::Export;
 use super::added::Influence;
-use super::consistency::ConsistencyOf;
-use super::source::{BandOf, Row};
+use super::source::{BandOf, ConsistencyOf, Row};
 
 impl Export {
     /// Everything as one JSON object; what is not finite is null.

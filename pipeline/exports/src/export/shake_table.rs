@@ -26,10 +26,7 @@ pub(super) struct TestsExport {
 
 impl TestsExport {
     /// Read `file`.
-    ///
-    /// # Errors
-    /// A file that is damaged, or no result of a shaking table.
-    pub(super) fn of(file: &ResultFile) -> Result<Self, ExportsError> {
+    pub(super) fn from_file(file: &ResultFile) -> Result<Self, ExportsError> {
         let (head, table) = (file.head()?, file.shake_table()?);
         let name = file.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
         let provenance = provenance_of(&head, &name);
@@ -57,9 +54,6 @@ impl TestsExport {
 
     /// A MATLAB file: `u_m` and every other quantity of a test are excitation × level, spectra are period × direction ×
     /// excitation.
-    ///
-    /// # Errors
-    /// A result that is too large for the format.
     pub(super) fn matlab(&self) -> Result<Vec<u8>, ExportsError> {
         let ShakeTable { levels, excitations, tests, .. } = &self.table;
         let mut file = MatFile::new(&self.provenance);

@@ -7,7 +7,7 @@ use uplift_hazard::rate_from_probability;
 use uplift_job::alarm::Alarm;
 use uplift_job::{Array, JobError};
 use uplift_result::{
-    Head, InferredBands, MeasureBands, MeasureSpectra, ResultFile, Spectrum, SpreadOver, StoredBands,
+    Fit, Head, InferredBands, MeasureBands, MeasureSpectra, ResultFile, Spectrum, SpreadOver, StoredBands,
     StoredConsistency, StoredFinding, StoredHazard, StoredJointBands, StoredRepairedBands, StoredSpectra,
     StoredSpectraBands, StoredSpread,
 };
@@ -35,7 +35,6 @@ pub struct Export {
     pub(super) findings: Vec<StoredFinding>,
     /// Whether its records bring the site's hazard of the other measure.
     pub(super) consistency: Vec<StoredConsistency>,
-    /// Number of records.
     pub(super) records: usize,
     /// Name of the result file.
     pub(super) file: String,
@@ -59,14 +58,14 @@ impl Export {
     /// # Errors
     /// A file that is missing, damaged or no result of uniform risk spectra.
     pub fn read(path: &Path) -> Result<Self, ExportsError> {
-        Self::of(&ResultFile::open(path)?)
+        Self::from_file(&ResultFile::open(path)?)
     }
 
     /// Read `file`, at the risks that it was asked for.
     ///
     /// # Errors
     /// A file that is damaged, or no result of uniform risk spectra.
-    pub fn of(file: &ResultFile) -> Result<Self, ExportsError> {
+    pub fn from_file(file: &ResultFile) -> Result<Self, ExportsError> {
         let path = file.path();
         let spectra = file.spectra()?;
         if spectra.measures.is_empty() {
@@ -235,7 +234,6 @@ pub(super) fn provenance_of(head: &Head, file: &str) -> String {
 
 /// The band of a spectrum for one size of the sample.
 pub(super) struct BandOf<'a> {
-    /// Records in a sample.
     pub(super) records: u32,
     /// Lower limit, median and upper limit over the strengths, m.
     pub(super) limits_m: [&'a [f64]; 3],
@@ -249,4 +247,54 @@ pub(super) struct BandOf<'a> {
     pub(super) range_of_interval_pct: f64,
     /// Share of the samples whose weights do not bring the site's hazard; of repaired spectra alone.
     pub(super) failed_share: Option<f64>,
+}
+
+/// What the records scaled to one measure bring at a site.
+pub(super) struct ConsistencyOf<'a> {
+    pub(super) of: &'a StoredConsistency,
+    pub(super) site: &'a str,
+    /// Level that the records bring over the site's, by the probabilities of the study.
+    pub(super) ratio: &'a [f64],
+    /// Its mean over the rates compared; NaN without a verdict.
+    pub(super) bias: f64,
+    /// Largest |ln(implied/site)|; NaN without a verdict.
+    pub(super) max: f64,
+    /// Nothing where there is none.
+    pub(super) verdict: Option<&'a str>,
+    /// None before a repair; NaN where it failed.
+    pub(super) least_effective: Option<f64>,
+}
+
+impl Export {
+    /// What was found, by the measure that records are scaled to, then site; sites without two hazard curves are left
+    /// out.
+    pub(super) fn consistencies(&self) -> impl Iterator<Item = ConsistencyOf<'_>> {
+        let of_measure = |of| self.spectra.sites.iter().enumerate().filter_map(move |at| consistency_of(of, at));
+        self.consistency.iter().flat_map(of_measure)
+    }
+
+    /// Whether any spectrum has one of weighted records beside it.
+    pub(super) fn has_repaired(&self) -> bool {
+        self.rows().any(|row| self.repaired(&row).is_some())
+    }
+
+    /// The displacements of weighted records over the strengths, m, and their coefficients; none without a repair.
+    pub(super) fn repaired(&self, row: &Row<'_>) -> Option<(&[f64], &Fit)> {
+        let is_beside = |of: &&StoredConsistency| of.scaled_to == row.spectrum.measure;
+        let of = self.consistency.iter().filter(is_beside).find(|of| of.is_repaired(row.at[0]))?;
+        Some((of.u_m.as_ref()?.block(row.at), &of.fits.as_ref()?[row.at]))
+    }
+}
+
+fn consistency_of<'a>(of: &'a StoredConsistency, (at, site): (usize, &'a String)) -> Option<ConsistencyOf<'a>> {
+    let is_known = of.rate_per_year.block([at]).iter().any(|rate| !rate.is_nan());
+    is_known.then(|| ConsistencyOf {
+        of,
+        site,
+        ratio: of.ratio.block([at]),
+        bias: of.bias[at],
+        max: of.max[at],
+        verdict: Some(of.verdict[at].as_str()).filter(|verdict| !verdict.is_empty()),
+        least_effective: of.least_effective.as_ref().map(|least| least[at]),
+    })
 }

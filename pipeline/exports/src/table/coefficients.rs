@@ -83,7 +83,6 @@ pub struct ReferenceFit {
     pub rmse_m: Option<f64>,
 }
 
-/// A row of the reference.
 struct Reference {
     site: String,
     poe: f64,
@@ -107,8 +106,9 @@ pub(super) fn read(
         .filter(|(_, spectrum)| wanted.is_none_or(|wanted| spectrum.measure == wanted))
         .flat_map(|(at, spectrum)| {
             let reference = references.iter().find(|reference| same(&spectrum, reference));
-            let row =
-                |spectrum: &Spectrum<'_>, reference| CoefficientRow::of(&study, &result.strengths, spectrum, reference);
+            let row = |spectrum: &Spectrum<'_>, reference| {
+                CoefficientRow::new(&study, &result.strengths, spectrum, reference)
+            };
             let plain = row(&spectrum, reference.map(|reference| reference.fit));
             let repaired = repaired(&consistency, at, &spectrum);
             let repaired = repaired.map(|spectrum| CoefficientRow { repaired: true, ..row(&spectrum, None) });
@@ -149,7 +149,7 @@ fn repaired<'a>(
 }
 
 impl CoefficientRow {
-    fn of(
+    fn new(
         study: &UniformRiskStudy,
         strengths: &[f64],
         spectrum: &Spectrum<'_>,

@@ -49,7 +49,6 @@ pub struct DesignTableRow {
     pub within: Option<bool>,
 }
 
-/// A cell of the reference.
 struct Reference {
     record_set: String,
     rule: String,

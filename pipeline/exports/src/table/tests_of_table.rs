@@ -62,7 +62,6 @@ pub struct Agreement {
     pub by_level: Vec<(String, usize, Option<f64>)>,
 }
 
-/// Reads the tests of `file`, and the order of the reference.
 pub(super) fn read(options: &TableOptions, file: &ResultFile) -> Result<TestsTable, ExportsError> {
     let table = file.shake_table()?;
     let reference = options.reference.as_deref().map(ReferenceTable::read).transpose()?;

@@ -13,10 +13,11 @@ use uplift_job::events::{Events, Progress};
 use uplift_motion::{MotionError, RecordFormat, RecordingDescription, read_record, record_bytes};
 
 use super::measured::{self, PairMeasures};
+use super::name::RecordName;
 use super::scan::scan;
 use super::search_results::{Entry, SearchResults};
 use super::warnings::Warning;
-use super::{ImportOptions, group, name};
+use super::{ImportOptions, group};
 use crate::error::InputsError;
 
 /// One component of a file, without its samples.
@@ -59,10 +60,8 @@ pub(super) struct ImportedPair {
     pub(super) warnings: Vec<Warning>,
 }
 
-/// What an import found.
 #[derive(Debug, Clone)]
 pub(super) struct Imported {
-    /// The pairs, by name.
     pub(super) pairs: Vec<ImportedPair>,
     /// What deserves a look, each with the record's or the file's name.
     pub(super) warnings: Vec<Warning>,
@@ -150,7 +149,7 @@ fn components_of(path: &Path, options: &ImportOptions) -> Result<Vec<Component>,
     let file = read_record(&bytes, &path.display().to_string(), &options.files.read_options(None))?;
     let file_sha256 = checksum(&bytes);
     let several = file.recordings.len() > 1;
-    let named = name::of(path).orientation;
+    let named = RecordName::from_path(path).orientation;
     let components = file.recordings.into_iter().enumerate().map(|(index, mut recording)| {
         // what the head does not say, the name may
         recording.description.orientation = recording.description.orientation.or(named);

@@ -6,7 +6,7 @@ use std::path::Path;
 use uplift_motion::Orientation;
 
 use super::collect::Component;
-use super::name;
+use super::name::RecordName;
 use super::search_results::{Entry, SearchResults};
 use super::warnings::Warning;
 
@@ -37,7 +37,7 @@ struct Group {
 pub(super) fn pairs(components: Vec<Component>, search: &SearchResults, warnings: &mut Vec<Warning>) -> Vec<Candidate> {
     let mut groups: BTreeMap<String, Group> = BTreeMap::new();
     for component in components {
-        let name = name::of(&component.path);
+        let name = RecordName::from_path(&component.path);
         let (key, id) = key_and_id(&component, &name);
         let orientation = component.description.orientation;
         let group = groups.entry(key).or_insert_with(|| Group { id, rsn: name.rsn, ..Group::default() });
@@ -125,7 +125,7 @@ fn shortened(text: &str) -> String {
 }
 
 /// What components of one record share, and how the record is called.
-fn key_and_id(component: &Component, name: &name::RecordName) -> (String, String) {
+fn key_and_id(component: &Component, name: &RecordName) -> (String, String) {
     let description = &component.description;
     let sensor = sensor(description);
     let with_sensor = |id: String| if sensor.is_empty() { id } else { format!("{id}_{sensor}") };

@@ -46,13 +46,15 @@ const WORDS: [(&str, Orientation); 27] = [
     ("2", Orientation::Horizontal(2)),
 ];
 
-/// Takes the name of the file at `path` apart.
-pub(super) fn of(path: &Path) -> RecordName {
-    let file = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    let file = file.strip_suffix(".gz").unwrap_or(&file);
-    let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-    let (record, orientation) = without_component(stem);
-    RecordName { record: record.to_owned(), rsn: sequence_number(stem), orientation }
+impl RecordName {
+    /// Takes the name of the file at `path` apart.
+    pub(super) fn from_path(path: &Path) -> Self {
+        let file = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let file = file.strip_suffix(".gz").unwrap_or(&file);
+        let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+        let (record, orientation) = without_component(stem);
+        Self { record: record.to_owned(), rsn: sequence_number(stem), orientation }
+    }
 }
 
 /// The record sequence number of a file `RSN1041_…` or `NGA_no_829_…`.
@@ -104,7 +106,7 @@ mod tests {
             ("RSN", "RSN", None, None),
             ("999.txt", "999", None, None),
         ] {
-            let name = of(Path::new(file));
+            let name = RecordName::from_path(Path::new(file));
             assert_eq!((name.record.as_str(), name.rsn, name.orientation), (record, rsn, orientation), "{file}");
         }
     }

@@ -94,7 +94,7 @@ pub fn at_level(options: &AtLevelOptions) -> Result<AtLevelReport, InputsError> 
     inputs.extend(manifest::record_files(&options.manifest));
     outputs::check(&[Output::new(&options.output, OutputKind::Manifest)], &inputs, options.force)?;
 
-    let known = KnownRecords::of(manifest::read(&options.manifest, None).map_err(JobError::Inputs)?);
+    let known = KnownRecords::new(manifest::read(&options.manifest, None).map_err(JobError::Inputs)?);
     let mut mistakes = Vec::new();
     let mut sets = Vec::new();
     for (index, file) in selections.iter().enumerate() {
@@ -153,7 +153,6 @@ fn level_of(set: &SelectedSet, file: &Path, given: Option<f64>, measure: Intensi
     }
 }
 
-/// The rows of the table.
 #[derive(Debug, Default)]
 struct Rows {
     records: Vec<String>,

@@ -14,7 +14,6 @@ use super::super::hazard::{of_the_records_definition, stripe_weights};
 use super::{ListedSite, Read};
 use crate::error::InputsError;
 
-/// Mistakes that are told one by one.
 const MISTAKES_TOLD: usize = 8;
 /// Reasons why sites of an export cannot be used that are kept for examples.
 const REASONS_KEPT: usize = 1000;
@@ -37,7 +36,6 @@ pub(super) struct Index {
 pub(super) struct Row {
     longitude_deg: f64,
     latitude_deg: f64,
-    /// Which item of the export it is.
     pub(super) item: u32,
     pub(super) usable: bool,
 }

@@ -10,7 +10,6 @@ use super::ListedSite;
 
 /// Largest table, bytes: some millions of sites.
 const MAX_BYTES: u64 = 256 << 20;
-/// Mistakes that are told one by one.
 const MISTAKES_TOLD: usize = 8;
 /// Stands between the cells of further columns.
 pub(super) const BETWEEN_CELLS: char = '\u{1f}';
@@ -66,7 +65,6 @@ pub(super) fn read(path: &Path) -> Result<Places, Vec<String>> {
     if mistakes.is_empty() { Ok(Places { sites, carried }) } else { Err(mistakes) }
 }
 
-/// What the columns hold.
 struct Columns<'a> {
     longitude: &'a StringChunked,
     latitude: &'a StringChunked,

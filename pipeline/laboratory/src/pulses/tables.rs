@@ -2,6 +2,7 @@
 
 use polars::prelude::Column;
 use uplift_block::{Overturning, SpectrumPoint};
+use uplift_job::table::ColumnsOf;
 
 use super::compute::{PulseSpectra, Spectrum};
 use super::plan::wavelet;
@@ -57,49 +58,29 @@ fn columns(
     spectrum: fn(&PulseSpectra) -> &Spectrum,
     value: fn(&SpectrumPoint) -> f64,
 ) -> Vec<Column> {
-    let (mut wavelets, mut overturnings) = (Vec::new(), Vec::new());
-    let (mut sizes, mut accelerations, mut values, mut impacts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for of_shape in spectra {
-        for (size, acceleration, point) in spectrum(of_shape).rows() {
-            wavelets.push(wavelet(of_shape.shape));
-            sizes.push(size);
-            accelerations.push(acceleration);
-            values.push(value(point));
-            impacts.push(point.impacts);
-            overturnings.push(word(point.overturning));
-        }
-    }
-    vec![
-        Column::new(WAVELET_COLUMN.into(), wavelets),
-        Column::new(size_name.into(), sizes),
-        Column::new("a_p_over_g_tan_alpha".into(), accelerations),
-        Column::new(value_name.into(), values),
-        Column::new("impacts".into(), impacts),
-        Column::new("overturning".into(), overturnings),
-    ]
+    let rows = spectra.iter().flat_map(|of| spectrum(of).rows().map(move |row| (of.shape, row)));
+    ColumnsOf::new(rows)
+        .with(WAVELET_COLUMN, |(shape, _)| wavelet(shape))
+        .with(size_name, |(_, (size, ..))| size)
+        .with("a_p_over_g_tan_alpha", |(_, (_, acceleration, _))| acceleration)
+        .with(value_name, |(_, (.., point))| value(point))
+        .with("impacts", |(_, (.., point))| point.impacts)
+        .with("overturning", |(_, (.., point))| word(point.overturning))
+        .build()
 }
 
 fn blocks(spectra: &[PulseSpectra]) -> Vec<Column> {
-    let (mut wavelets, mut overturnings) = (Vec::new(), Vec::new());
-    let (mut slendernesses, mut sizes, mut values, mut impacts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for PulseSpectra { shape, blocks, .. } in spectra {
-        for (index, &slenderness_rad) in blocks.slendernesses_rad.iter().enumerate() {
-            for (size_m, response) in blocks.over_sizes(index) {
-                wavelets.push(wavelet(*shape));
-                slendernesses.push(slenderness_rad);
-                sizes.push(size_m);
-                values.push(response.displacement_m);
-                impacts.push(response.impacts);
-                overturnings.push(word(response.overturning));
-            }
-        }
-    }
-    vec![
-        Column::new(WAVELET_COLUMN.into(), wavelets),
-        Column::new("alpha_rad".into(), slendernesses),
-        Column::new("size_r_m".into(), sizes),
-        Column::new("u_max_m".into(), values),
-        Column::new("impacts".into(), impacts),
-        Column::new("overturning".into(), overturnings),
-    ]
+    let rows = spectra.iter().flat_map(|of| {
+        of.blocks.slendernesses_rad.iter().enumerate().flat_map(move |(index, &slenderness_rad)| {
+            of.blocks.over_sizes(index).map(move |block| (of.shape, slenderness_rad, block))
+        })
+    });
+    ColumnsOf::new(rows)
+        .with(WAVELET_COLUMN, |(shape, ..)| wavelet(shape))
+        .with("alpha_rad", |(_, slenderness_rad, _)| slenderness_rad)
+        .with("size_r_m", |(.., (size_m, _))| size_m)
+        .with("u_max_m", |(.., (_, response))| response.displacement_m)
+        .with("impacts", |(.., (_, response))| response.impacts)
+        .with("overturning", |(.., (_, response))| word(response.overturning))
+        .build()
 }

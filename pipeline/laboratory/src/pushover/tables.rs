@@ -4,8 +4,8 @@ use std::path::Path;
 
 use polars::prelude::Column;
 use uplift_job::JobError;
-use uplift_job::table::write_table;
-use uplift_statics::{CyclicState, LoadingProtocol, ProtocolPoint, PushoverState};
+use uplift_job::table::{ColumnsOf, write_table};
+use uplift_statics::{CyclicState, LoadingProtocol, ProtocolPoint};
 
 use super::run::PushoverReport;
 use crate::error::LaboratoryError;
@@ -41,16 +41,14 @@ pub(super) fn write(report: &PushoverReport, file: &Path) -> Result<(), Laborato
     Ok(write_table(file, &provenance(&format!("{what}, structure {}", report.file.display())), columns)?)
 }
 
-/// Writes the history of a protocol.
 pub(super) fn write_protocol(
     protocol: &LoadingProtocol,
     history: &[ProtocolPoint],
     file: &Path,
 ) -> Result<(), LaboratoryError> {
-    let amplitudes: Vec<f64> = history.iter().map(|point| protocol.amplitude(point.set)).collect();
-    let mut columns = protocol_columns(history);
-    columns.push(Column::new(PROTOCOL_COLUMN.into(), amplitudes));
-    Ok(write_table(file, &provenance("loading protocol"), columns)?)
+    let columns =
+        protocol_columns(history, |point| *point).with(PROTOCOL_COLUMN, |point| protocol.amplitude(point.set));
+    Ok(write_table(file, &provenance("loading protocol"), columns.build())?)
 }
 
 fn provenance(what: &str) -> String {
@@ -58,25 +56,21 @@ fn provenance(what: &str) -> String {
 }
 
 fn pushover_columns(report: &PushoverReport) -> Vec<Column> {
-    let column = |name: &str, value: fn(&PushoverState) -> f64| {
-        Column::new(name.into(), report.rows.iter().map(value).collect::<Vec<f64>>())
-    };
-    let spring: Vec<Option<f64>> = report.rows.iter().map(|row| row.spring_m).collect();
-    let mut columns = vec![
-        column("displacement_m", |row| row.displacement_m),
-        column("drift", |row| row.drift),
-        column("rotation_rad", |row| row.rotation_rad),
-        column("force_n", |row| row.force_n),
-        column("elongation_m", |row| row.elongation_m),
-        column("tendon_n", |row| row.tendon_n),
-        Column::new("spring_m".into(), spring),
-        column("top_axial_n", |row| row.sections.top_axial_n),
-        column("top_shear_n", |row| row.sections.top_shear_n),
-        column(PUSHOVER_COLUMN, |row| row.sections.top_moment_n_m),
-        column("base_axial_n", |row| row.sections.base_axial_n),
-        column("base_moment_n_m", |row| row.sections.base_moment_n_m),
-        column("energy_j", |row| row.energy_j),
-    ];
+    let mut columns = ColumnsOf::new(&report.rows)
+        .with("displacement_m", |row| row.displacement_m)
+        .with("drift", |row| row.drift)
+        .with("rotation_rad", |row| row.rotation_rad)
+        .with("force_n", |row| row.force_n)
+        .with("elongation_m", |row| row.elongation_m)
+        .with("tendon_n", |row| row.tendon_n)
+        .with("spring_m", |row| row.spring_m)
+        .with("top_axial_n", |row| row.sections.top_axial_n)
+        .with("top_shear_n", |row| row.sections.top_shear_n)
+        .with(PUSHOVER_COLUMN, |row| row.sections.top_moment_n_m)
+        .with("base_axial_n", |row| row.sections.base_axial_n)
+        .with("base_moment_n_m", |row| row.sections.base_moment_n_m)
+        .with("energy_j", |row| row.energy_j)
+        .build();
     for curve in &report.linear {
         let forces: Vec<f64> = curve.rows.iter().map(|row| row.force_n).collect();
         columns.push(Column::new(format!("linear_force_n_of_{:.0}_n_m", curve.stiffness_n_m).into(), forces));
@@ -85,31 +79,20 @@ fn pushover_columns(report: &PushoverReport) -> Vec<Column> {
 }
 
 fn cyclic_columns(states: &[CyclicState]) -> Vec<Column> {
-    let mut columns = protocol_columns(&states.iter().map(|state| state.point).collect::<Vec<_>>());
-    let optional = |name: &str, value: fn(&CyclicState) -> Option<f64>| {
-        Column::new(name.into(), states.iter().map(value).collect::<Vec<Option<f64>>>())
-    };
-    columns.extend([
-        optional("displacement_m", |state| Some(state.displacement_m)),
-        optional("force_n", |state| state.force_n),
-        optional("tendon_n", |state| Some(state.tendon_n)),
-        optional("spring_m", |state| state.spring_m),
-        optional(CYCLIC_COLUMN, |state| Some(state.dissipated_j)),
-    ]);
-    columns
+    protocol_columns(states, |state| state.point)
+        .with("displacement_m", |state| state.displacement_m)
+        .with("force_n", |state| state.force_n)
+        .with("tendon_n", |state| state.tendon_n)
+        .with("spring_m", |state| state.spring_m)
+        .with(CYCLIC_COLUMN, |state| state.dissipated_j)
+        .build()
 }
 
-fn protocol_columns(points: &[ProtocolPoint]) -> Vec<Column> {
-    let column = |name: &str, value: fn(&ProtocolPoint) -> f64| {
-        Column::new(name.into(), points.iter().map(value).collect::<Vec<f64>>())
-    };
-    let count = |name: &str, value: fn(&ProtocolPoint) -> u32| {
-        Column::new(name.into(), points.iter().map(value).collect::<Vec<u32>>())
-    };
-    vec![
-        column("time_s", |point| point.time_s),
-        column("drift", |point| point.drift),
-        count("set", |point| point.set),
-        count("cycle", |point| point.cycle),
-    ]
+/// The columns of the `point` of each of `rows`.
+fn protocol_columns<R>(rows: &[R], point: fn(&R) -> ProtocolPoint) -> ColumnsOf<&R> {
+    ColumnsOf::new(rows)
+        .with("time_s", |row| point(row).time_s)
+        .with("drift", |row| point(row).drift)
+        .with("set", |row| point(row).set)
+        .with("cycle", |row| point(row).cycle)
 }

@@ -2,14 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use polars::prelude::Column;
 use serde::Serialize;
 use uplift_block::{
     FreeRocking, History, HistoryRow, Moment, Overturning, RockingBlock, respond, respond_with_history,
 };
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_motion::Accelerogram;
 use uplift_plausible::{LENGTH, RESTITUTION, SIZE, USUAL_LENGTH, USUAL_RESTITUTION};
 
@@ -216,20 +215,14 @@ impl BlockHistory {
             "block of size {} m, slenderness {} rad, restitution {}",
             report.size_m, report.slenderness_rad, report.restitution
         ));
-        let column = |name: &str, value: fn(&HistoryRow) -> f64| {
-            Column::new(name.into(), self.rows.iter().map(value).collect::<Vec<f64>>())
-        };
-        let ground: Vec<f64> = self.rows.iter().map(|row| self.acceleration_at(row.time_s)).collect();
-        let events: Vec<Option<&str>> = self.rows.iter().map(|row| word(row.moment)).collect();
-        let columns = vec![
-            column("time_s", |row| row.time_s),
-            column("rotation_rad", |row| row.rotation_rad),
-            column("angular_velocity_rad_s", |row| row.velocity_rad_s),
-            Column::new("top_displacement_m".into(), &self.top_displacement_m),
-            Column::new("ground_acceleration_m_s2".into(), ground),
-            Column::new("event".into(), events),
-        ];
-        Ok(write_table(file, &line, columns)?)
+        let columns = ColumnsOf::new(self.rows.iter().zip(&self.top_displacement_m))
+            .with("time_s", |(row, _)| row.time_s)
+            .with("rotation_rad", |(row, _)| row.rotation_rad)
+            .with("angular_velocity_rad_s", |(row, _)| row.velocity_rad_s)
+            .with("top_displacement_m", |(_, &top_displacement_m)| top_displacement_m)
+            .with("ground_acceleration_m_s2", |(row, _)| self.acceleration_at(row.time_s))
+            .with("event", |(row, _)| word(row.moment));
+        Ok(write_table(file, &line, columns.build())?)
     }
 
     /// The scaled acceleration of the ground, linear between samples, zero after the record.

@@ -246,7 +246,7 @@ pub fn frame_response(
     };
     for (under, [x, y]) in grounds.into_iter().filter(|(_, pair)| pair.iter().any(Option::is_some)) {
         let shaken = [x, y, vertical.as_ref()];
-        runs.push(FrameRun::of(&frame, under, shaken, model, (restitution, options))?);
+        runs.push(FrameRun::new(&frame, under, shaken, model, (restitution, options))?);
     }
     let report = FrameResponseReport {
         name: structure.name(),
@@ -334,7 +334,7 @@ fn notes(
 }
 
 impl FrameRun {
-    fn of(
+    fn new(
         frame: &RockingFrame,
         under: &'static str,
         shaken: [Option<&Accelerogram>; 3],

@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use polars::prelude::Column;
 use uplift_frame::{History, HistoryRow, Moment, RockingFrame};
 use uplift_job::outputs;
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_motion::Accelerogram;
 use uplift_statics::Sections;
 
@@ -79,41 +78,33 @@ pub(super) fn write(file: &Path, report: &FrameResponseReport) -> Result<(), Lab
         report.restitution,
         records.join(", ")
     );
-    let rows: Vec<(&'static str, FrameHistoryRow)> = (report.runs.iter())
-        .flat_map(|run| run.history.iter().flat_map(|history| history.rows.iter().map(|row| (run.under, *row))))
-        .collect();
-    let number = |name: &str, value: fn(&FrameHistoryRow) -> f64| {
-        Column::new(name.into(), rows.iter().map(|(_, row)| value(row)).collect::<Vec<f64>>())
-    };
-    let section = |name: &str, value: fn(&Sections) -> f64| {
-        let cells = rows.iter().map(|(_, row)| row.sections.as_ref().map(value)).collect::<Vec<Option<f64>>>();
-        Column::new(name.into(), cells)
-    };
-    let columns = vec![
-        Column::new("under".into(), rows.iter().map(|(under, _)| *under).collect::<Vec<&str>>()),
-        number("time_s", |row| row.state.time_s),
-        number("rotation_rad", |row| row.state.rotation_rad),
-        number("direction_rad", |row| row.state.direction_rad),
-        number("displacement_x_m", |row| row.state.displacement_x_m),
-        number("displacement_y_m", |row| row.state.displacement_y_m),
-        number("rise_m", |row| row.state.rise_m),
-        number("tendon_n", |row| row.state.tendon_n),
-        number("spring_m", |row| row.state.spring_m),
-        section("top_axial_n", |of| of.top_axial_n),
-        section("top_shear_n", |of| of.top_shear_n),
-        section("top_moment_n_m", |of| of.top_moment_n_m),
-        section("base_axial_n", |of| of.base_axial_n),
-        section("base_moment_n_m", |of| of.base_moment_n_m),
-        number(FrameHistory::COLUMN, |row| row.state.deck_acceleration_x_m_s2),
-        number("deck_acceleration_y_m_s2", |row| row.state.deck_acceleration_y_m_s2),
-        number("deck_acceleration_z_m_s2", |row| row.state.deck_acceleration_z_m_s2),
-        number("base_shear_n", |row| row.base_shear_n),
-        number("ground_acceleration_x_m_s2", |row| row.ground_m_s2[0]),
-        number("ground_acceleration_y_m_s2", |row| row.ground_m_s2[1]),
-        number("ground_acceleration_z_m_s2", |row| row.ground_m_s2[2]),
-        Column::new("event".into(), rows.iter().map(|(_, row)| word(row.state.moment)).collect::<Vec<Option<&str>>>()),
-    ];
-    Ok(write_table(file, &line, columns)?)
+    let rows = (report.runs.iter())
+        .flat_map(|run| run.history.iter().flat_map(|history| history.rows.iter().map(|row| (run.under, row))));
+    let section = |row: &FrameHistoryRow, value: fn(&Sections) -> f64| row.sections.as_ref().map(value);
+    let columns = ColumnsOf::new(rows)
+        .with("under", |(under, _)| under)
+        .with("time_s", |(_, row)| row.state.time_s)
+        .with("rotation_rad", |(_, row)| row.state.rotation_rad)
+        .with("direction_rad", |(_, row)| row.state.direction_rad)
+        .with("displacement_x_m", |(_, row)| row.state.displacement_x_m)
+        .with("displacement_y_m", |(_, row)| row.state.displacement_y_m)
+        .with("rise_m", |(_, row)| row.state.rise_m)
+        .with("tendon_n", |(_, row)| row.state.tendon_n)
+        .with("spring_m", |(_, row)| row.state.spring_m)
+        .with("top_axial_n", |(_, row)| section(row, |of| of.top_axial_n))
+        .with("top_shear_n", |(_, row)| section(row, |of| of.top_shear_n))
+        .with("top_moment_n_m", |(_, row)| section(row, |of| of.top_moment_n_m))
+        .with("base_axial_n", |(_, row)| section(row, |of| of.base_axial_n))
+        .with("base_moment_n_m", |(_, row)| section(row, |of| of.base_moment_n_m))
+        .with(FrameHistory::COLUMN, |(_, row)| row.state.deck_acceleration_x_m_s2)
+        .with("deck_acceleration_y_m_s2", |(_, row)| row.state.deck_acceleration_y_m_s2)
+        .with("deck_acceleration_z_m_s2", |(_, row)| row.state.deck_acceleration_z_m_s2)
+        .with("base_shear_n", |(_, row)| row.base_shear_n)
+        .with("ground_acceleration_x_m_s2", |(_, row)| row.ground_m_s2[0])
+        .with("ground_acceleration_y_m_s2", |(_, row)| row.ground_m_s2[1])
+        .with("ground_acceleration_z_m_s2", |(_, row)| row.ground_m_s2[2])
+        .with("event", |(_, row)| word(row.state.moment));
+    Ok(write_table(file, &line, columns.build())?)
 }
 
 /// A model in a word.

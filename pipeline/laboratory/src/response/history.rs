@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use polars::prelude::Column;
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_oscillator::{Event, EventKind, Excitation, History};
 
 use super::ResponseReport;
@@ -72,18 +71,13 @@ impl ResponseHistory {
         let line = report
             .shaken_by
             .line(&format!("strength {}, uplift displacement {} m", report.strength, report.uplift_displacement_m));
-        let column = |name: &str, value: fn(&HistoryRow) -> f64| {
-            Column::new(name.into(), self.rows.iter().map(value).collect::<Vec<f64>>())
-        };
-        let events: Vec<Option<&str>> = self.rows.iter().map(|row| row.event).collect();
-        let columns = vec![
-            column("time_s", |row| row.time_s),
-            column("displacement_m", |row| row.displacement_m),
-            column("velocity_m_s", |row| row.velocity_m_s),
-            column("ground_acceleration_m_s2", |row| row.ground_acceleration_m_s2),
-            Column::new("event".into(), events),
-        ];
-        Ok(write_table(file, &line, columns)?)
+        let columns = ColumnsOf::new(&self.rows)
+            .with("time_s", |row| row.time_s)
+            .with("displacement_m", |row| row.displacement_m)
+            .with("velocity_m_s", |row| row.velocity_m_s)
+            .with("ground_acceleration_m_s2", |row| row.ground_acceleration_m_s2)
+            .with("event", |row| row.event);
+        Ok(write_table(file, &line, columns.build())?)
     }
 }
 

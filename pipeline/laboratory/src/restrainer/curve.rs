@@ -2,12 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use polars::prelude::Column;
 use serde::Serialize;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_plausible::ELONGATION;
 use uplift_statics::{Restrainer, Spring, Threshold};
 use uplift_study::RestrainerFile;
@@ -214,18 +213,14 @@ fn thresholds(restrainer: &Restrainer) -> Result<Vec<ThresholdRow>, LaboratoryEr
 }
 
 fn write(report: &RestrainerCurve, file: &Path) -> Result<(), LaboratoryError> {
-    let column = |name: &str, value: fn(&CurveRow) -> Option<f64>| {
-        Column::new(name.into(), report.rows.iter().map(value).collect::<Vec<Option<f64>>>())
-    };
-    let columns = vec![
-        column("elongation_m", |row| Some(row.elongation_m)),
-        column("force_n", |row| Some(row.force_n)),
-        column("secant_n_m", |row| row.secant_n_m),
-        column("stiffness_n_m", |row| Some(row.stiffness_n_m)),
-        column("spring_m", |row| row.spring_m),
-        column(CURVE_COLUMN, |row| row.spring_secant_n_m),
-        column("energy_j", |row| Some(row.energy_j)),
-    ];
+    let columns = ColumnsOf::new(&report.rows)
+        .with("elongation_m", |row| row.elongation_m)
+        .with("force_n", |row| row.force_n)
+        .with("secant_n_m", |row| row.secant_n_m)
+        .with("stiffness_n_m", |row| row.stiffness_n_m)
+        .with("spring_m", |row| row.spring_m)
+        .with(CURVE_COLUMN, |row| row.spring_secant_n_m)
+        .with("energy_j", |row| row.energy_j);
     let line = format!("{}; restrainer, structure {}", outputs::mark(), report.file.display());
-    Ok(write_table(file, &line, columns)?)
+    Ok(write_table(file, &line, columns.build())?)
 }

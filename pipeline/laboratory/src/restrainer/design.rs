@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use polars::prelude::Column;
 use serde::Serialize;
 use uplift_design::{DesignOptions, design as design_by_spectrum};
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_statics::selection::{select, stopper_yield_force_n};
 use uplift_statics::{Candidate, Imperfections, Limits, Ranking, StaticsError, Target, TendonPath, Tolerance};
 use uplift_structure::{Kind, StructureDescription};
@@ -419,26 +418,22 @@ fn none_found(
 }
 
 fn write(stacks: &[Candidate], structure: &Structure, file: &Path) -> Result<(), LaboratoryError> {
-    let column = |name: &str, value: fn(&Candidate) -> Option<f64>| {
-        Column::new(name.into(), stacks.iter().map(value).collect::<Vec<Option<f64>>>())
-    };
-    let columns = vec![
-        Column::new("disc".into(), stacks.iter().map(|stack| stack.disc.clone()).collect::<Vec<String>>()),
-        Column::new("springs".into(), stacks.iter().map(|stack| stack.springs).collect::<Vec<u32>>()),
-        Column::new("parallel".into(), stacks.iter().map(|stack| stack.parallel).collect::<Vec<u32>>()),
-        column("miss", |stack| Some(stack.miss)),
-        column("secant_n_m", |stack| Some(stack.secant_n_m)),
-        column("at_m", |stack| Some(stack.at_m)),
-        column("tendon_n", |stack| Some(stack.tendon_n)),
-        column("spring_m", |stack| Some(stack.spring_m)),
-        column("stroke_share", |stack| Some(stack.stroke_share)),
-        column(STACK_COLUMN, |stack| stack.tendon_utilisation),
-        column("capacity_m", |stack| stack.capacity_m),
-        column("linear_capacity_m", |stack| stack.linear_capacity_m),
-        column("length_m", |stack| Some(stack.length_m)),
-        column("mass_kg", |stack| Some(stack.mass_kg)),
-        column("price", |stack| stack.price),
-    ];
+    let columns = ColumnsOf::new(stacks)
+        .with("disc", |stack| stack.disc.clone())
+        .with("springs", |stack| stack.springs)
+        .with("parallel", |stack| stack.parallel)
+        .with("miss", |stack| stack.miss)
+        .with("secant_n_m", |stack| stack.secant_n_m)
+        .with("at_m", |stack| stack.at_m)
+        .with("tendon_n", |stack| stack.tendon_n)
+        .with("spring_m", |stack| stack.spring_m)
+        .with("stroke_share", |stack| stack.stroke_share)
+        .with(STACK_COLUMN, |stack| stack.tendon_utilisation)
+        .with("capacity_m", |stack| stack.capacity_m)
+        .with("linear_capacity_m", |stack| stack.linear_capacity_m)
+        .with("length_m", |stack| stack.length_m)
+        .with("mass_kg", |stack| stack.mass_kg)
+        .with("price", |stack| stack.price);
     let line = format!("{}; stacks of springs, structure {}", outputs::mark(), structure.file.display());
-    Ok(write_table(file, &line, columns)?)
+    Ok(write_table(file, &line, columns.build())?)
 }

@@ -59,7 +59,6 @@ pub(super) struct Row {
     pub(super) value: Option<PeakValue>,
 }
 
-/// A table of peaks.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Peaks {
     /// What it is, in messages: `measured tests.csv`.
@@ -70,7 +69,6 @@ pub(super) struct Peaks {
     pub(super) missing_keys: Vec<String>,
     /// Grouping columns that it lacks.
     pub(super) missing_groups: Vec<String>,
-    /// Its rows.
     pub(super) rows: Vec<Row>,
 }
 

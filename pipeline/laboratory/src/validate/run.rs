@@ -18,7 +18,6 @@ use crate::error::LaboratoryError;
 
 /// Groups beyond which a column is not meant to be grouped by.
 const MOST_GROUPS: usize = 400;
-/// Most replicates; more is a slip.
 const MOST_REPLICATES: u32 = 10_000_000;
 /// The column that the key stands in where none is named.
 const USUAL_KEY: &str = "exc_id";

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use polars::prelude::Column;
-use uplift_job::table::write_table;
-use uplift_validation::{Bands, Pairs, Quantiles};
+use uplift_job::table::{ColumnsOf, write_table};
+use uplift_validation::{Bands, Quantiles};
 
 use super::group::GroupReport;
 use super::run::ValidateReport;
@@ -13,7 +13,6 @@ use crate::error::LaboratoryError;
 /// A column of every such table, and of no other.
 pub(super) const COLUMN: &str = "ks_p_kstest2";
 
-/// Writes the groups of a report.
 pub(super) fn write(report: &ValidateReport, file: &Path) -> Result<(), LaboratoryError> {
     let line = format!(
         "{}; statistics of {} of {} beside {}; {} replicates, seed {}",
@@ -28,75 +27,62 @@ pub(super) fn write(report: &ValidateReport, file: &Path) -> Result<(), Laborato
 }
 
 fn columns(report: &ValidateReport) -> Vec<Column> {
-    let groups = &report.groups;
-    let text = |name: &str, cells: Vec<String>| Column::new(name.into(), cells);
-    let number = |name: &str, of: &dyn Fn(&GroupReport) -> Option<f64>| {
-        Column::new(name.into(), groups.iter().map(of).collect::<Vec<Option<f64>>>())
-    };
-    let count = |name: &str, of: &dyn Fn(&GroupReport) -> Option<usize>| {
-        Column::new(name.into(), groups.iter().map(|group| of(group).map(|n| n as u64)).collect::<Vec<Option<u64>>>())
-    };
-    let pair = |name: &str, of: fn(&Pairs) -> Option<f64>| number(name, &|group| group.pairs.as_ref().and_then(of));
-    let collapse = |name: &str, of: fn(&Pairs) -> usize| count(name, &|group| group.pairs.as_ref().map(of));
     let with_unit =
         |name: &str| if report.unit.is_empty() { name.to_owned() } else { format!("{name}_{}", report.unit) };
-    let mut columns: Vec<Column> = report
-        .by
-        .iter()
-        .enumerate()
-        .map(|(place, name)| {
-            let cells = groups.iter().map(|group| group.of[place].clone().unwrap_or_else(|| "all".to_owned()));
-            text(name, cells.collect())
+    ColumnsOf::new(&report.groups)
+        .each(report.by.iter().enumerate(), |columns, (place, name)| {
+            columns.with(name.as_str(), |group| group.of[place].as_deref().unwrap_or("all"))
         })
-        .collect();
-    columns.extend([
-        count("measured", &|group| Some(group.measured)),
-        count("computed", &|group| Some(group.computed)),
-        number("ks_distance", &|group| Some(group.kolmogorov_smirnov.distance)),
-        number("ks_p_exact", &|group| Some(group.kolmogorov_smirnov.p_exact)),
-        number("ks_p_kolmogorov", &|group| Some(group.kolmogorov_smirnov.p_kolmogorov)),
-        number(COLUMN, &|group| Some(group.kolmogorov_smirnov.p_kstest2)),
-        number("p_holm", &|group| Some(group.p_holm)),
-        number("p_permutation", &|group| group.p_permutation),
-        text("evidence", groups.iter().map(|group| group.evidence.words().to_owned()).collect()),
-        number("dispersion", &|group| group.dispersion),
-        number("detectable_factor", &|group| group.detectable_factor),
-        number("anderson_darling_midrank", &|group| Some(group.anderson_darling.midrank)),
-        number("anderson_darling_right", &|group| Some(group.anderson_darling.right)),
-        number("cramer_von_mises", &|group| Some(group.cramer_von_mises.statistic)),
-        number("cramer_von_mises_p", &|group| Some(group.cramer_von_mises.p)),
-        number("mann_whitney_u", &|group| Some(group.mann_whitney.statistic)),
-        number("mann_whitney_p", &|group| Some(group.mann_whitney.p)),
-        number(&with_unit("wasserstein"), &|group| group.wasserstein),
-        number("energy_distance", &|group| group.energy),
-        number(&with_unit("median_measured"), &|group| group.median_measured),
-        number(&with_unit("median_computed"), &|group| group.median_computed),
-        number("e50", &|group| group.e50),
-    ]);
-    columns.push(number("median_error", &|group| group.median_error));
-    columns.extend(band(groups, "median_error", &|group| group.median_error_band));
-    columns.push(pair("log_bias", |pairs| pairs.log_bias));
-    columns.extend(band(groups, "log_bias", &|group| of_pairs(group, |bands| bands.log_bias)));
-    columns.push(pair("log_dispersion", |pairs| pairs.log_dispersion));
-    columns.extend(band(groups, "log_dispersion", &|group| of_pairs(group, |bands| bands.log_dispersion)));
-    columns.extend([
-        collapse("finite_pairs", |pairs| pairs.finite),
-        pair("pearson", |pairs| pairs.pearson),
-        pair("spearman", |pairs| pairs.spearman),
-        pair("within_1_5", |pairs| Some(pairs.within_1_5)),
-        pair("within_2", |pairs| Some(pairs.within_2)),
-        collapse("collapses_both", |pairs| pairs.collapses.both),
-        collapse("collapses_measured_only", |pairs| pairs.collapses.measured_only),
-        collapse("collapses_computed_only", |pairs| pairs.collapses.computed_only),
-        count("measured_collapses", &|group| Some(group.measured_collapses)),
-        count("computed_collapses", &|group| Some(group.computed_collapses)),
-        count("measured_above_limit", &|group| Some(group.censored.map_or(0, |censored| censored.measured))),
-        count("computed_above_limit", &|group| Some(group.censored.map_or(0, |censored| censored.computed))),
-        number("ks_distance_at_limits", &|group| group.censored.map(|censored| censored.ks_distance_at_limits)),
-        number(&with_unit("median_measured_above"), &|group| group.median_measured_above),
-        number(&with_unit("median_computed_above"), &|group| group.median_computed_above),
-    ]);
-    columns
+        .with("measured", |group| group.measured as u64)
+        .with("computed", |group| group.computed as u64)
+        .with("ks_distance", |group| group.kolmogorov_smirnov.distance)
+        .with("ks_p_exact", |group| group.kolmogorov_smirnov.p_exact)
+        .with("ks_p_kolmogorov", |group| group.kolmogorov_smirnov.p_kolmogorov)
+        .with(COLUMN, |group| group.kolmogorov_smirnov.p_kstest2)
+        .with("p_holm", |group| group.p_holm)
+        .with("p_permutation", |group| group.p_permutation)
+        .with("evidence", |group| group.evidence.words())
+        .with("dispersion", |group| group.dispersion)
+        .with("detectable_factor", |group| group.detectable_factor)
+        .with("anderson_darling_midrank", |group| group.anderson_darling.midrank)
+        .with("anderson_darling_right", |group| group.anderson_darling.right)
+        .with("cramer_von_mises", |group| group.cramer_von_mises.statistic)
+        .with("cramer_von_mises_p", |group| group.cramer_von_mises.p)
+        .with("mann_whitney_u", |group| group.mann_whitney.statistic)
+        .with("mann_whitney_p", |group| group.mann_whitney.p)
+        .with(with_unit("wasserstein"), |group| group.wasserstein)
+        .with("energy_distance", |group| group.energy)
+        .with(with_unit("median_measured"), |group| group.median_measured)
+        .with(with_unit("median_computed"), |group| group.median_computed)
+        .with("e50", |group| group.e50)
+        .with("median_error", |group| group.median_error)
+        .each(QUANTILES, |columns, (at, of)| {
+            columns.with(format!("median_error_{at}"), |group| group.median_error_band.map(of))
+        })
+        .with("log_bias", |group| group.pairs.as_ref().and_then(|pairs| pairs.log_bias))
+        .each(QUANTILES, |columns, (at, of)| {
+            columns.with(format!("log_bias_{at}"), |group| of_pairs(group, |bands| bands.log_bias).map(of))
+        })
+        .with("log_dispersion", |group| group.pairs.as_ref().and_then(|pairs| pairs.log_dispersion))
+        .each(QUANTILES, |columns, (at, of)| {
+            columns.with(format!("log_dispersion_{at}"), |group| of_pairs(group, |bands| bands.log_dispersion).map(of))
+        })
+        .with("finite_pairs", |group| group.pairs.as_ref().map(|pairs| pairs.finite as u64))
+        .with("pearson", |group| group.pairs.as_ref().and_then(|pairs| pairs.pearson))
+        .with("spearman", |group| group.pairs.as_ref().and_then(|pairs| pairs.spearman))
+        .with("within_1_5", |group| group.pairs.as_ref().map(|pairs| pairs.within_1_5))
+        .with("within_2", |group| group.pairs.as_ref().map(|pairs| pairs.within_2))
+        .with("collapses_both", |group| group.pairs.as_ref().map(|pairs| pairs.collapses.both as u64))
+        .with("collapses_measured_only", |group| group.pairs.as_ref().map(|pairs| pairs.collapses.measured_only as u64))
+        .with("collapses_computed_only", |group| group.pairs.as_ref().map(|pairs| pairs.collapses.computed_only as u64))
+        .with("measured_collapses", |group| group.measured_collapses as u64)
+        .with("computed_collapses", |group| group.computed_collapses as u64)
+        .with("measured_above_limit", |group| group.censored.map_or(0, |censored| censored.measured) as u64)
+        .with("computed_above_limit", |group| group.censored.map_or(0, |censored| censored.computed) as u64)
+        .with("ks_distance_at_limits", |group| group.censored.map(|censored| censored.ks_distance_at_limits))
+        .with(with_unit("median_measured_above"), |group| group.median_measured_above)
+        .with(with_unit("median_computed_above"), |group| group.median_computed_above)
+        .build()
 }
 
 fn of_pairs(group: &GroupReport, of: fn(&Bands) -> Option<Quantiles>) -> Option<Quantiles> {
@@ -107,11 +93,4 @@ fn of_pairs(group: &GroupReport, of: fn(&Bands) -> Option<Quantiles>) -> Option<
 type Quantile = (&'static str, fn(Quantiles) -> f64);
 
 /// 5, 50 and 95 % of a statistic.
-fn band(groups: &[GroupReport], name: &str, of: &dyn Fn(&GroupReport) -> Option<Quantiles>) -> Vec<Column> {
-    let quantiles: [Quantile; 3] = [("q05", |q| q.q05), ("q50", |q| q.q50), ("q95", |q| q.q95)];
-    let columns = quantiles.map(|(which, value)| {
-        let cells = groups.iter().map(|group| of(group).map(value)).collect::<Vec<Option<f64>>>();
-        Column::new(format!("{name}_{which}").into(), cells)
-    });
-    columns.to_vec()
-}
+const QUANTILES: [Quantile; 3] = [("q05", |q| q.q05), ("q50", |q| q.q50), ("q95", |q| q.q95)];

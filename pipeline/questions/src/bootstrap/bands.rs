@@ -50,7 +50,6 @@ pub(super) fn numbers_of_bands(bands: &[Band]) -> impl Iterator<Item = f64> {
     bands.iter().flat_map(|band| [band.lower_m, band.median_m, band.upper_m])
 }
 
-/// The bands of such numbers.
 pub(super) fn bands_of_numbers(numbers: &[f64]) -> Vec<Band> {
     let band = |band: &[f64]| Band { lower_m: band[0], median_m: band[1], upper_m: band[2] };
     numbers.chunks_exact(3).map(band).collect()
@@ -123,9 +122,6 @@ impl Bands {
 }
 
 /// The bands of the strength at `index`.
-///
-/// # Errors
-/// Numbers that do not fit together, in a file that was changed.
 pub(super) fn bands_of_strength(
     stored: &StoredStripes,
     measure: &StoredMeasure,

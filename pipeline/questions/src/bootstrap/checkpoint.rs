@@ -136,9 +136,6 @@ impl Checkpoint {
     }
 
     /// Keep what is finished.
-    ///
-    /// # Errors
-    /// A file that cannot be written.
     pub(super) fn save(&self, finished: &Finished) -> Result<(), QuestionsError> {
         let mut writer = LabelledWriter::create(&self.path)?;
         writer.attribute("/", "program", "uplift")?;

@@ -3,18 +3,18 @@
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
-use uplift_bootstrap::ResamplingPlan;
+use uplift_bootstrap::{InferredLimits, ResamplingPlan, Unit, inferred_limits, units, units_in_sample};
 use uplift_ida::Watch;
 use uplift_job::events::{Events, Progress};
-use uplift_job::{JobError, is_stopped};
+use uplift_job::{Array, JobError, is_stopped};
 use uplift_motion::IntensityMeasure;
+use uplift_result::InferredBands;
 use uplift_risk::PooledDemand;
 use uplift_uniform_risk::consistency::Reweighing;
 use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 use super::bands::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
 use super::checkpoint::{Checkpoint, Expected, Finished};
-use super::inferred::inferred_bands;
 use super::joint::{JointSiteBands, gather_joint, joint_bands_of_site};
 use super::repaired::{SiteBands, SiteShape, bands_of_site, gather_repaired};
 use crate::error::QuestionsError;
@@ -26,7 +26,6 @@ const KEPT_EVERY: Duration = Duration::from_secs(30);
 
 /// What bands are made of.
 pub(super) struct Source<'a> {
-    /// The stripes of the result.
     pub(super) stored: &'a StoredStripes,
     /// What weighs the records of its repaired spectra anew; none where it has none.
     pub(super) reweighing: Option<&'a Reweighing>,
@@ -271,4 +270,39 @@ fn finished_before(source: &Source<'_>, checkpoint: &Checkpoint) -> Finished {
     finished.sites.retain(|(_, site), _| *site < stored.sites.len());
     finished.joint.retain(|(_, site), _| *site < stored.sites.len());
     finished
+}
+
+/// The bands of the spectra of one measure, from all its records, pair by pair or earthquake by earthquake as `plan`
+/// has it.
+///
+/// - `pair_of`: the pair of each record, `[record]`: two components of a pair are not independent, and scatter as one.
+pub(super) fn inferred_bands(
+    stored: &StoredStripes,
+    measure: &StoredMeasure,
+    (plan, pair_of): (&ResamplingPlan, &[usize]),
+    confidence: f64,
+) -> Result<InferredBands, QuestionsError> {
+    let units = match plan.unit() {
+        Unit::Record => units(pair_of),
+        Unit::Pair | Unit::Event => plan.units(),
+    };
+    let sizes: Vec<usize> =
+        plan.sizes().iter().map(|&size| units_in_sample(size, units.len(), pair_of.len()) as usize).collect();
+    let targets = &stored.targets_per_year;
+    // [strength][site][poe, size]
+    let of_strength = |strength: usize| -> Result<Vec<Vec<InferredLimits>>, QuestionsError> {
+        let demand = measure.demand(strength)?;
+        let of_site = |weights| inferred_limits(&demand, weights, &units, targets, (&sizes, confidence));
+        Ok(measure.weights.iter().map(of_site).collect::<Result<_, _>>()?)
+    };
+    let strengths: Vec<Vec<Vec<InferredLimits>>> =
+        (0..stored.strengths.len()).into_par_iter().map(of_strength).collect::<Result<_, QuestionsError>>()?;
+    let shape = [stored.sites.len(), stored.poes.len(), sizes.len(), strengths.len()];
+    let limits = |limit: fn(&InferredLimits) -> f64| {
+        Array::from_fn(shape, |[site, poe, size, strength]| limit(&strengths[strength][site][poe * sizes.len() + size]))
+    };
+    Ok(InferredBands {
+        truth_m: [limits(|own| own.truth_m[0]), limits(|own| own.truth_m[1])],
+        prediction_m: [limits(|own| own.prediction_m[0]), limits(|own| own.prediction_m[1])],
+    })
 }

@@ -6,7 +6,7 @@ use std::time::Instant;
 use uplift_bootstrap::{Interval, Unit};
 use uplift_job::events::Events;
 use uplift_job::outputs;
-use uplift_result::Addition;
+use uplift_result::LockedResult;
 use uplift_study::Bootstrap;
 use uplift_uniform_risk::StoredStripes;
 use uplift_uniform_risk::consistency::{Question, Reweighing};
@@ -15,8 +15,7 @@ use super::bands::BandSettings;
 use super::checkpoint::Checkpoint;
 use super::compute::{Source, compute};
 use super::draws::{announce, draws};
-use super::reference::ReferenceRow;
-use super::report::BootstrapReport;
+use super::report::{BootstrapReport, ReferenceRow};
 use super::write::{BandsFile, band_paths, tables, write_bands};
 use crate::error::QuestionsError;
 
@@ -59,7 +58,7 @@ pub fn bootstrap(
     options: &BootstrapOptions,
     events: &dyn Events,
 ) -> Result<BootstrapReport, QuestionsError> {
-    let (addition, file) = Addition::begin(result, events)?;
+    let (locked, file) = LockedResult::open(result, events)?;
     let stored = StoredStripes::read(&file)?;
     outputs::check(&tables(&stored.path), &[result], options.force)?;
     let study = options.study.as_ref().unwrap_or(&stored.bootstrap);
@@ -80,7 +79,7 @@ pub fn bootstrap(
     let bands = compute(&source, Some(&checkpoint), events)?;
     events.remark("", &format!("{:.1} s", start.elapsed().as_secs_f64()));
     write_bands(
-        &addition,
+        &locked,
         &BandsFile { stored: &stored, plan: &plan, plan_source: &plan_source, settings: &settings, bands: &bands },
     )?;
     checkpoint.remove();

@@ -55,9 +55,6 @@ impl JointBands {
 }
 
 /// The joint bands of one strength and site over `[poe, size]`, of records that count alike.
-///
-/// # Errors
-/// Numbers that do not fit together, in a file that was changed.
 pub(super) fn joint_bands(
     demand: &PooledDemand,
     branches: &[(f64, StripeWeights)],
@@ -114,10 +111,6 @@ impl JointSiteBands {
 
 /// The joint bands of the repaired spectra of a site, whose `demands` are of all strengths: the weights are solved anew
 /// for every pair of a sample and a branch. NaN where a branch has no repair.
-///
-/// # Errors
-/// [`JobError::Interrupted`](uplift_job::JobError::Interrupted); numbers that do not fit together, in a file that was
-/// changed.
 pub(super) fn joint_bands_of_site(
     branches: &[ReweighedBranch<'_>],
     (demands, targets_per_year): (&[PooledDemand], &[f64]),

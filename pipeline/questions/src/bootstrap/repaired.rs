@@ -73,10 +73,6 @@ impl SiteBands {
 }
 
 /// The bands of a site by a measure, whose `demands` are of all strengths.
-///
-/// # Errors
-/// [`JobError::Interrupted`](uplift_job::JobError::Interrupted); numbers that do not fit together, in a file that was
-/// changed.
 pub(super) fn bands_of_site(
     analysis: &RepairedAnalysis<'_>,
     (demands, targets_per_year): (&[PooledDemand], &[f64]),

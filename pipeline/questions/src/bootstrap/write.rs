@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_bootstrap::ResamplingPlan;
 use uplift_job::outputs::{Output, OutputKind, beside};
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::declared::Names;
 use uplift_result::layout::{axis, limit_names};
 use uplift_result::{
-    Addition, BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, REPAIRED_BANDS,
+    BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, LockedResult, REPAIRED_BANDS,
     SIMULTANEOUS_BANDS, SiteJointBands, StoredDraws, band_lengths, band_names, sign,
 };
 use uplift_uniform_risk::StoredStripes;
@@ -52,9 +52,9 @@ pub(super) fn tables(result: &Path) -> [Output; 2] {
 ///
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
-pub(super) fn write_bands(addition: &Addition, file: &BandsFile<'_>) -> Result<(), QuestionsError> {
+pub(super) fn write_bands(locked: &LockedResult, file: &BandsFile<'_>) -> Result<(), QuestionsError> {
     let BandsFile { stored, plan, settings, .. } = file;
-    addition.write(&replaced(), |writer| add_bands(writer, file))?;
+    locked.write(&replaced(), |writer| add_bands(writer, file))?;
     let what = format!(
         "bootstrap: {}, {} replicates, {} interval, confidence {}",
         file.plan_source,
@@ -130,26 +130,15 @@ fn add_spectra_bands(
 
 fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
     let (stored, sizes) = (file.stored, file.plan.sizes());
-    let (mut site, mut im) = (Vec::new(), Vec::new());
-    let (mut poe, mut size, mut strength) = (Vec::new(), Vec::new(), Vec::new());
-    for bands in file.bands {
-        for ([site_index, poe_index, size_index, strength_index], _) in bands.plain.lower_m.blocks() {
-            site.push(stored.sites[site_index].as_str());
-            im.push(bands.measure.label());
-            poe.push(stored.poes[poe_index]);
-            size.push(sizes[size_index]);
-            strength.push(stored.strengths[strength_index]);
-        }
-    }
-    let years = vec![stored.years; site.len()];
-    let mut columns = vec![
-        Column::new("site".into(), site),
-        Column::new("im".into(), im),
-        Column::new("poe".into(), poe),
-        Column::new("years".into(), years),
-        Column::new("sample_size".into(), size),
-        Column::new("strength".into(), strength),
-    ];
+    let rows = file.bands.iter().flat_map(|of| of.plain.lower_m.blocks::<4>().map(move |(at, _)| (of.measure, at)));
+    let mut columns = ColumnsOf::new(rows)
+        .with("site", |(_, [site, ..])| stored.sites[site].as_str())
+        .with("im", |(measure, _)| measure.label())
+        .with("poe", |(_, [_, poe, ..])| stored.poes[poe])
+        .with("years", |_| stored.years)
+        .with("sample_size", |(_, [_, _, size, _])| sizes[size])
+        .with("strength", |(_, [.., strength])| stored.strengths[strength])
+        .build();
     let plain: Vec<&SpectraBands> = file.bands.iter().map(|bands| &bands.plain).collect();
     columns.extend(limit_columns("", &plain, file.settings.confidence));
     columns.extend(inferred_columns(file.bands));
@@ -213,41 +202,31 @@ fn limit_columns(suffix: &str, bands: &[&SpectraBands], confidence: f64) -> Vec<
         .collect()
 }
 
+fn per_cent(share: Option<f64>) -> Option<f64> {
+    share.map(|share| 100.0 * share)
+}
+
 fn figures_table(file: &BandsFile<'_>) -> Vec<Column> {
     let (stored, sizes) = (file.stored, file.plan.sizes());
-    let (mut site, mut im, mut poe, mut size) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let (mut errors, mut ranges) = (Vec::new(), Vec::new());
-    let (mut repaired_errors, mut repaired_ranges, mut failed) = (Vec::new(), Vec::new(), Vec::new());
-    for bands in file.bands {
-        for (at @ [site_index, poe_index, size_index], error) in bands.plain.error_of_median.blocks() {
-            site.push(stored.sites[site_index].as_str());
-            im.push(bands.measure.label());
-            poe.push(stored.poes[poe_index]);
-            size.push(sizes[size_index]);
-            errors.push(error[0].map(|error| 100.0 * error));
-            ranges.push(bands.plain.range_of_interval[at].map(|range| 100.0 * range));
-            if let Some(RepairedBands { bands, failed: share }) = &bands.repaired {
-                repaired_errors.push(bands.error_of_median[at].map(|error| 100.0 * error));
-                repaired_ranges.push(bands.range_of_interval[at].map(|range| 100.0 * range));
-                failed.push(Some(100.0 * share[[site_index, size_index]]).filter(|share| !share.is_nan()));
-            }
-        }
+    let rows = file.bands.iter().flat_map(|of| of.plain.error_of_median.blocks::<3>().map(move |(at, _)| (of, at)));
+    let mut columns = ColumnsOf::new(rows)
+        .with("site", |(_, [site, ..])| stored.sites[site].as_str())
+        .with("im", |(of, _)| of.measure.label())
+        .with("poe", |(_, [_, poe, _])| stored.poes[poe])
+        .with("years", |_| stored.years)
+        .with("sample_size", |(_, [.., size])| sizes[size])
+        .with("e_median_pct", |(of, at)| per_cent(of.plain.error_of_median[at]))
+        .with("r_90ci_pct", |(of, at)| per_cent(of.plain.range_of_interval[at]));
+    if file.bands.iter().any(|of| of.repaired.is_some()) {
+        let failed = |own: &RepairedBands, [site, _, size]: [usize; 3]| own.failed[[site, size]];
+        columns = columns
+            .with("e_median_consistent_pct", |(of, at)| per_cent(of.repaired.as_ref()?.bands.error_of_median[at]))
+            .with("r_90ci_consistent_pct", |(of, at)| per_cent(of.repaired.as_ref()?.bands.range_of_interval[at]))
+            .with("failed_consistent_pct", |(of, at)| {
+                per_cent(Some(failed(of.repaired.as_ref()?, at)).filter(|share| !share.is_nan()))
+            });
     }
-    let years = vec![stored.years; site.len()];
-    let mut columns = vec![
-        Column::new("site".into(), site),
-        Column::new("im".into(), im),
-        Column::new("poe".into(), poe),
-        Column::new("years".into(), years),
-        Column::new("sample_size".into(), size),
-        Column::new("e_median_pct".into(), errors),
-        Column::new("r_90ci_pct".into(), ranges),
-    ];
-    if !failed.is_empty() {
-        columns.push(Column::new("e_median_consistent_pct".into(), repaired_errors));
-        columns.push(Column::new("r_90ci_consistent_pct".into(), repaired_ranges));
-        columns.push(Column::new("failed_consistent_pct".into(), failed));
-    }
+    let mut columns = columns.build();
     columns.extend(joint_figure_columns(file.bands));
     columns
 }

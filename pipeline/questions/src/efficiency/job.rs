@@ -7,12 +7,11 @@ use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_motion::{IntensityMeasure, Period};
-use uplift_result::{Addition, ResultFile};
+use uplift_result::{LockedResult, ResultFile};
 use uplift_uniform_risk::{StoredStripes, StudyOfResult};
 
-use super::covariates::covariates;
-use super::of_measure::{efficiency_by, efficiency_restated};
-use super::reaching::Reaching;
+use super::factors_to_reach::FactorsToReach;
+use super::of_measure::{covariates, efficiency_by, efficiency_restated};
 use super::report::EfficiencyReport;
 use super::restated::{Measured, restated};
 use super::write::{efficiency_path, write_efficiency};
@@ -49,7 +48,7 @@ pub fn efficiency(
     options: &EfficiencyOptions,
     events: &dyn Events,
 ) -> Result<EfficiencyReport, QuestionsError> {
-    let (addition, file) = Addition::begin(result, events)?;
+    let (locked, file) = LockedResult::open(result, events)?;
     file.refuse_records_at_level("how a measure ranks is asked of records that rise through the levels")?;
     if file.stored_study()?.structures_of_a_motion() > 1 {
         return Err(JobError::input(format!(
@@ -97,7 +96,7 @@ pub fn efficiency(
             }
         }
         if let Some(from) = measured(own.measure) {
-            let reaching = Reaching::of(&stored, own, from)?;
+            let reaching = FactorsToReach::new(&stored, own, from)?;
             for found in &mut measures {
                 if let Some(to) = measured(found.measure) {
                     found.reaching = reaching.scatter(to);
@@ -106,7 +105,7 @@ pub fn efficiency(
             up_to_m = reaching.up_to_m;
         }
     }
-    write_efficiency(&addition, (&stored, &file.efficiency()?), &covariates, &measures)?;
+    write_efficiency(&locked, (&stored, &file.efficiency()?), &covariates, &measures)?;
     Ok(EfficiencyReport::new(&stored, &covariates, &measures, up_to_m))
 }
 

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use uplift_fragility::{Dispersion, mean_residuals, standard_deviation, uplift_levels};
 use uplift_motion::IntensityMeasure;
 use uplift_regression::{Line, fit_line};
-use uplift_result::{StoredEfficiency, StoredTrend};
+use uplift_result::{StoredEfficiency, StoredRecords, StoredTrend};
 use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
 use super::restated::Restated;
@@ -83,9 +83,6 @@ pub fn efficiency_by(
 }
 
 /// Efficiency and sufficiency of the measure that the runs `own` are told by.
-///
-/// # Errors
-/// As [`efficiency_by`].
 pub(super) fn efficiency_restated(
     stored: &StoredStripes,
     own: &StoredMeasure,
@@ -159,4 +156,21 @@ fn line(values: &[f64], residuals: &[f64]) -> Option<Line> {
         .map(|(&value, &residual)| (value, residual))
         .unzip();
     fit_line(&x, &y).ok()
+}
+
+/// What a result knows of its records, in the form in which a demand may depend on it: magnitude, the logarithm of the
+/// distance, the logarithm of the significant duration. What is known of fewer than three records is left out.
+pub fn covariates(records: &StoredRecords) -> Vec<Covariate> {
+    let ln = |values: &[f64]| values.iter().map(|value| value.ln()).collect();
+    let all = [
+        Covariate { key: "magnitude", long_name: "moment magnitude", values: records.magnitude.clone() },
+        Covariate { key: "ln_rrup", long_name: "logarithm of the distance in km", values: ln(&records.rrup_km) },
+        Covariate {
+            key: "ln_duration",
+            long_name: "logarithm of the significant duration D5-95 in s",
+            values: ln(&records.duration_5_95_s),
+        },
+    ];
+    let is_known = |covariate: &Covariate| covariate.values.iter().filter(|value| value.is_finite()).count() >= 3;
+    all.into_iter().filter(is_known).collect()
 }

@@ -24,7 +24,6 @@ impl Measured<'_> {
         self.measure.amplitude(self.of_records[record])
     }
 
-    /// The scale factor that brings a record to a level.
     pub(super) fn factor(&self, record: usize, level: f64) -> f64 {
         self.measure.amplitude(level) / self.amplitude(record)
     }
@@ -46,9 +45,6 @@ pub(super) struct Restated {
 
 /// The runs of `own`, scaled to the measure `from`, told by the measure `to`; none where there are no two levels that
 /// all records were brought to.
-///
-/// # Errors
-/// Demands that are not demands, in a file that was changed.
 pub(super) fn restated(
     stored: &StoredStripes,
     own: &StoredMeasure,
@@ -63,7 +59,7 @@ pub(super) fn restated(
     }
     // where each level lies among the stripes of each record, for all strengths
     let places: Vec<Vec<Place>> = (0..records)
-        .map(|record| levels.iter().map(|&level| Place::of(to.factor(record, level), &factors[record])).collect())
+        .map(|record| levels.iter().map(|&level| Place::new(to.factor(record, level), &factors[record])).collect())
         .collect();
     let edp_m = Array::from_fn([records, strengths, levels.len()], |[record, strength, level]| {
         places[record][level].read(own.edp_m.block([record, strength]))
@@ -109,7 +105,7 @@ struct Place {
 
 impl Place {
     /// `factor` among the rising `factors` of a record, within them but for rounding.
-    fn of(factor: f64, factors: &[f64]) -> Self {
+    fn new(factor: f64, factors: &[f64]) -> Self {
         let after = factors.partition_point(|&known| known <= factor).clamp(1, factors.len() - 1) - 1;
         let share = (factor / factors[after]).ln() / (factors[after + 1] / factors[after]).ln();
         Self { after, share: share.clamp(0.0, 1.0) }
@@ -137,7 +133,7 @@ mod tests {
     #[test]
     fn demands_between_stripes_lie_on_straight_lines_of_logarithms() {
         let factors = [1.0, 2.0, 8.0];
-        let at = |factor: f64, demands_m: &[f64]| Place::of(factor, &factors).read(demands_m);
+        let at = |factor: f64, demands_m: &[f64]| Place::new(factor, &factors).read(demands_m);
         let power = [3.0, 3.0 * 2_f64.powf(1.5), 3.0 * 8_f64.powf(1.5)];
         for factor in [1.0, 1.3, 2.0, 4.0, 7.9, 8.0] {
             assert!((at(factor, &power) / (3.0 * factor.powf(1.5)) - 1.0).abs() < 1e-14, "{factor}");
@@ -180,7 +176,7 @@ mod tests {
                 prop_assert!(common.len() > 1);
                 for &level in &common {
                     for (record, factors) in factors.iter().enumerate() {
-                        let place = Place::of(to.factor(record, level), factors);
+                        let place = Place::new(to.factor(record, level), factors);
                         let found = place.read(own.edp_m.block([record, 0]));
                         prop_assert!((found / level.powf(exponent) - 1.0).abs() < 1e-11, "{} {}", found, level);
                     }

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_job::outputs::beside;
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_job::text::finite;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_regression::Line;
 use uplift_result::layout::axis;
-use uplift_result::{Addition, EFFICIENCY, EFFICIENCY_OF_STRIPES, REACHING, StoredEfficiency, TRENDS, sign};
+use uplift_result::{EFFICIENCY, EFFICIENCY_OF_STRIPES, LockedResult, REACHING, StoredEfficiency, TRENDS, sign};
 use uplift_uniform_risk::StoredStripes;
 
 use super::of_measure::{Covariate, MeasureEfficiency};
@@ -33,12 +33,12 @@ pub(super) fn efficiency_path(result: &Path) -> PathBuf {
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub(super) fn write_efficiency(
-    addition: &Addition,
+    locked: &LockedResult,
     (stored, earlier): (&StoredStripes, &[StoredEfficiency]),
     covariates: &[Covariate],
     measures: &[MeasureEfficiency],
 ) -> Result<(), QuestionsError> {
-    addition.write(&replaced(earlier), |writer| add(writer, covariates, measures))?;
+    locked.write(&replaced(earlier), |writer| add(writer, covariates, measures))?;
     Ok(write_table(
         &efficiency_path(&stored.path),
         &stored.line("efficiency and sufficiency"),
@@ -76,36 +76,23 @@ fn add(
 }
 
 fn efficiency_table(stored: &StoredStripes, covariates: &[Covariate], measures: &[MeasureEfficiency]) -> Vec<Column> {
-    let strengths = stored.strengths.len();
-    let im: Vec<&str> =
-        measures.iter().flat_map(|efficiency| std::iter::repeat_n(efficiency.measure.label(), strengths)).collect();
-    let scaled_to: Vec<&str> =
-        measures.iter().flat_map(|efficiency| std::iter::repeat_n(efficiency.scaled_to.label(), strengths)).collect();
-    let strength: Vec<f64> = measures.iter().flat_map(|_| stored.strengths.iter().copied()).collect();
-    let rank: Vec<Option<u32>> =
-        measures.iter().flat_map(|of| (0..strengths).map(move |index| rank(measures, of, index))).collect();
-    let join = |value: fn(&MeasureEfficiency) -> &Vec<f64>| -> Vec<Option<f64>> {
-        measures.iter().flat_map(|efficiency| value(efficiency).iter().copied().map(finite)).collect()
-    };
-    let mut columns = vec![
-        Column::new("im".into(), im),
-        Column::new("scaled_to".into(), scaled_to),
-        Column::new("strength".into(), strength),
-        Column::new("dispersion_level".into(), join(|efficiency| &efficiency.reaching)),
-        Column::new("rank".into(), rank),
-        Column::new("dispersion_rocking".into(), join(|efficiency| &efficiency.rocking)),
-        Column::new("undefined_share".into(), join(|efficiency| &efficiency.undefined)),
-        Column::new("dispersion_initiation".into(), join(|efficiency| &efficiency.initiation)),
-    ];
-    for (index, covariate) in covariates.iter().enumerate() {
-        let of = |value: fn(&Line) -> f64| -> Vec<Option<f64>> {
-            measures
-                .iter()
-                .flat_map(|efficiency| efficiency.lines[index].iter().map(move |line| line.as_ref().map(value)))
-                .collect()
+    let rows = measures.iter().flat_map(|of| stored.strengths.iter().enumerate().map(move |at| (of, at)));
+    let columns = ColumnsOf::new(rows)
+        .with("im", |(of, _)| of.measure.label())
+        .with("scaled_to", |(of, _)| of.scaled_to.label())
+        .with("strength", |(_, (_, &strength))| strength)
+        .with("dispersion_level", |(of, (at, _))| finite(of.reaching[at]))
+        .with("rank", |(of, (at, _))| rank(measures, of, at))
+        .with("dispersion_rocking", |(of, (at, _))| finite(of.rocking[at]))
+        .with("undefined_share", |(of, (at, _))| finite(of.undefined[at]))
+        .with("dispersion_initiation", |(of, (at, _))| finite(of.initiation[at]));
+    let with_trend = |columns: ColumnsOf<_>, (index, covariate): (usize, &Covariate)| {
+        let of_line = |value: fn(&Line) -> f64| {
+            move |(of, (at, _)): (&MeasureEfficiency, (usize, &f64))| of.lines[index][at].as_ref().map(value)
         };
-        columns.push(Column::new(format!("{}_slope", covariate.key).into(), of(|line| line.slope)));
-        columns.push(Column::new(format!("{}_p_value", covariate.key).into(), of(|line| line.p_value)));
-    }
-    columns
+        columns
+            .with(format!("{}_slope", covariate.key), of_line(|line| line.slope))
+            .with(format!("{}_p_value", covariate.key), of_line(|line| line.p_value))
+    };
+    columns.each(covariates.iter().enumerate(), with_trend).build()
 }

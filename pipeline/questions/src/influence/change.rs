@@ -14,7 +14,6 @@ use crate::error::QuestionsError;
 /// Influence on the spectra of one measure, plain or repaired.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Influence {
-    /// The measure.
     pub(super) measure: IntensityMeasure,
     /// Whether they are the repaired ones.
     pub(super) repaired: bool,
@@ -44,9 +43,6 @@ pub struct RecordInfluence {
 type OfStrength = (Vec<Vec<f64>>, Vec<f64>);
 
 /// Influence of records and intensities on all spectra of `measure`.
-///
-/// # Errors
-/// Numbers that do not fit together, in a file that was changed.
 pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> Result<Influence, QuestionsError> {
     let samples = left_out_together(stored.records.len(), &stored.units.records)?;
     let (sites, poes, strengths) = (stored.sites.len(), stored.poes.len(), stored.strengths.len());
@@ -95,10 +91,6 @@ fn shares_of(curve: &RiskCurve<'_>, ordinate_m: f64, bins: usize) -> Result<Vec<
 }
 
 /// The same of the repaired spectra, whose weights are solved anew without each record.
-///
-/// # Errors
-/// [`JobError::Interrupted`](uplift_job::JobError::Interrupted); numbers that do not fit together, in a file that was
-/// changed.
 pub(super) fn influence_on_repaired(
     stored: &StoredStripes,
     measure: &StoredMeasure,

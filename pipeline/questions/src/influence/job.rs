@@ -5,7 +5,7 @@ use std::path::Path;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::{Array, JobError};
-use uplift_result::Addition;
+use uplift_result::LockedResult;
 use uplift_uniform_risk::StoredStripes;
 use uplift_uniform_risk::consistency::Reweighing;
 
@@ -44,7 +44,7 @@ pub fn influence(
     options: &InfluenceOptions,
     events: &dyn Events,
 ) -> Result<InfluenceReport, QuestionsError> {
-    let (addition, file) = Addition::begin(result, events)?;
+    let (locked, file) = LockedResult::open(result, events)?;
     let stored = StoredStripes::read(&file)?;
     let table = Output::new(influence_path(&stored.path), OutputKind::Table("mean_change_pct"));
     outputs::check(&[table], &[result], options.force)?;
@@ -73,6 +73,6 @@ pub fn influence(
             Array::from_fn(shape, |at| rank(at).unwrap_or_default())
         })
         .collect();
-    write_influence(&addition, &stored, &influences, &rankings)?;
+    write_influence(&locked, &stored, &influences, &rankings)?;
     Ok(InfluenceReport::new(&stored, &influences, &rankings, poe, options.top))
 }

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_job::Array;
 use uplift_job::outputs::beside;
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_job::text::spectrum_words;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::axis;
-use uplift_result::{Addition, DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, sign};
+use uplift_result::{DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, LockedResult, sign};
 use uplift_uniform_risk::StoredStripes;
 
 use super::change::{Influence, RecordInfluence};
@@ -33,12 +33,12 @@ pub(super) fn influence_path(result: &Path) -> PathBuf {
 /// # Errors
 /// Whatever keeps the files from being written; the result file is then as it was.
 pub(super) fn write_influence(
-    addition: &Addition,
+    locked: &LockedResult,
     stored: &StoredStripes,
     influences: &[Influence],
     rankings: &[Array<2, Vec<RecordInfluence>>],
 ) -> Result<(), QuestionsError> {
-    addition.write(&replaced(stored), |writer| add(writer, stored, influences))?;
+    locked.write(&replaced(stored), |writer| add(writer, stored, influences))?;
     Ok(write_table(
         &influence_path(&stored.path),
         &stored.line("spectra without each record"),
@@ -74,30 +74,19 @@ fn ranking_table(
     influences: &[Influence],
     rankings: &[Array<2, Vec<RecordInfluence>>],
 ) -> Vec<Column> {
-    let (mut site, mut im, mut poe, mut record) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let (mut mean, mut largest, mut strength) = (Vec::new(), Vec::new(), Vec::new());
-    for (influence, rankings) in influences.iter().zip(rankings) {
-        for ([site_index, poe_index], ranking) in rankings.blocks() {
-            for entry in &ranking[0] {
-                site.push(stored.sites[site_index].as_str());
-                im.push(spectrum_words(influence.measure.label(), influence.repaired));
-                poe.push(stored.poes[poe_index]);
-                record.push(stored.units.name(entry.record));
-                mean.push(100.0 * entry.mean_change);
-                largest.push(100.0 * entry.largest_change);
-                strength.push(entry.strength);
-            }
-        }
-    }
-    let years = vec![stored.years; site.len()];
-    vec![
-        Column::new("site".into(), site),
-        Column::new("im".into(), im),
-        Column::new("poe".into(), poe),
-        Column::new("years".into(), years),
-        Column::new("record".into(), record),
-        Column::new("mean_change_pct".into(), mean),
-        Column::new("largest_change_pct".into(), largest),
-        Column::new("at_strength".into(), strength),
-    ]
+    let rows = influences.iter().zip(rankings).flat_map(|(influence, rankings)| {
+        rankings
+            .blocks()
+            .flat_map(move |(place, ranking)| ranking[0].iter().map(move |entry| (influence, place, entry)))
+    });
+    ColumnsOf::new(rows)
+        .with("site", |(_, [site, _], _)| stored.sites[site].as_str())
+        .with("im", |(influence, ..)| spectrum_words(influence.measure.label(), influence.repaired))
+        .with("poe", |(_, [_, poe], _)| stored.poes[poe])
+        .with("years", |_| stored.years)
+        .with("record", |(.., entry)| stored.units.name(entry.record))
+        .with("mean_change_pct", |(.., entry)| 100.0 * entry.mean_change)
+        .with("largest_change_pct", |(.., entry)| 100.0 * entry.largest_change)
+        .with("at_strength", |(.., entry)| entry.strength)
+        .build()
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_job::outputs::{Output, OutputKind, beside};
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_result::DesignRow;
 use uplift_result::layout::percentile_name;
 use uplift_study::{DisplacementStudy, ScaledTo, Structures};
@@ -127,22 +127,17 @@ fn spectra_table(outcome: &DisplacementOutcome<'_>) -> Vec<Column> {
 }
 
 fn design_table(rows: &[DesignRow]) -> Vec<Column> {
-    let text = |value: fn(&DesignRow) -> &str| rows.iter().map(value).collect::<Vec<_>>();
-    let number = |value: fn(&DesignRow) -> f64| rows.iter().map(value).collect::<Vec<_>>();
-    let mut columns = Vec::new();
-    if rows.iter().any(|row| row.rule.is_some()) {
-        columns.push(Column::new("rule".into(), text(|row| row.rule.unwrap_or_default())));
-    }
-    columns.extend([
-        Column::new("record_set".into(), text(|row| &row.record_set)),
-        Column::new("scaling".into(), text(|row| &row.scaling)),
-        Column::new("scaled_by".into(), text(|row| &row.scaled_by)),
-        Column::new("quantity".into(), text(|row| &row.quantity)),
-        Column::new("value".into(), number(|row| row.noisy.value)),
-        Column::new("lowest".into(), number(|row| row.noisy.lowest)),
-        Column::new("highest".into(), number(|row| row.noisy.highest)),
-        Column::new("rounding_lowest".into(), number(|row| row.rounding.map_or(f64::NAN, |other| other.lowest))),
-        Column::new("rounding_highest".into(), number(|row| row.rounding.map_or(f64::NAN, |other| other.highest))),
-    ]);
-    columns
+    let has_rules = rows.iter().any(|row| row.rule.is_some());
+    ColumnsOf::new(rows)
+        .each(has_rules.then_some("rule"), |columns, name| columns.with(name, |row| row.rule.unwrap_or_default()))
+        .with("record_set", |row| row.record_set.as_str())
+        .with("scaling", |row| row.scaling.as_str())
+        .with("scaled_by", |row| row.scaled_by.as_str())
+        .with("quantity", |row| row.quantity.as_str())
+        .with("value", |row| row.noisy.value)
+        .with("lowest", |row| row.noisy.lowest)
+        .with("highest", |row| row.noisy.highest)
+        .with("rounding_lowest", |row| row.rounding.map_or(f64::NAN, |other| other.lowest))
+        .with("rounding_highest", |row| row.rounding.map_or(f64::NAN, |other| other.highest))
+        .build()
 }

@@ -8,8 +8,8 @@ use uplift_alarms::{ranked, study_alarms};
 use uplift_engine::analysis::seconds;
 use uplift_inputs::RecordSets;
 use uplift_job::events::Events;
-use uplift_job::frame::PlanHead;
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
+use uplift_job::study_run::PlanHead;
 use uplift_spectra::{MotionSet, NUDGES};
 use uplift_study::{DisplacementStudy, Kind};
 

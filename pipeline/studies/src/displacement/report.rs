@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use uplift_inputs::NamedSet;
 use uplift_job::alarm::Alarm;
-use uplift_job::frame::RunHead;
+use uplift_job::study_run::RunHead;
 use uplift_result::DesignRow;
 use uplift_spectra::{MotionSet, Noisy};
 use uplift_study::{Kind, Structures};

@@ -8,7 +8,7 @@ use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use uplift_ida::Shard;
 use uplift_inputs::RecordSets;
 use uplift_job::events::Events;
-use uplift_job::frame::Place;
+use uplift_job::study_run::Place;
 use uplift_result::earlier::Earlier;
 use uplift_result::{Provenance, ResultFile};
 use uplift_spectra::MotionSet;

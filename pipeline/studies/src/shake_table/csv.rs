@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_job::outputs::{Output, OutputKind, beside};
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_result::{ShakeTable, TABLE_TESTS};
 use uplift_study::ShakeTableStudy;
 
@@ -38,18 +38,16 @@ pub fn write_shake_table_csv(result: &Path, outcome: &ShakeTableOutcome<'_>) -> 
 
 /// A row a test, `[level, excitation]`: what `uplift validate` reads.
 pub fn columns(table: &ShakeTable) -> Vec<Column> {
-    let rows = || {
-        (0..table.levels.len()).flat_map(|level| table.excitations.iter().map(move |excitation| (level, excitation)))
-    };
-    let text = |name: &str, cells: Vec<String>| Column::new(name.into(), cells);
-    let mut columns = vec![
-        text("exc_id", rows().map(|(_, excitation)| excitation.exc_id.clone()).collect()),
-        text("class", rows().map(|(_, excitation)| excitation.class.clone()).collect()),
-        text("level", rows().map(|(level, _)| table.levels[level].name.clone()).collect()),
-        text("record", rows().map(|(_, excitation)| excitation.record.clone()).collect()),
-        text("rsn", rows().map(|(_, excitation)| excitation.rsn.clone()).collect()),
-        Column::new("order".into(), table.order()),
-    ];
+    let rows =
+        (0..table.levels.len()).flat_map(|level| table.excitations.iter().map(move |excitation| (level, excitation)));
+    let mut columns = ColumnsOf::new(rows)
+        .with("exc_id", |(_, excitation)| excitation.exc_id.as_str())
+        .with("class", |(_, excitation)| excitation.class.as_str())
+        .with("level", |(level, _)| table.levels[level].name.as_str())
+        .with("record", |(_, excitation)| excitation.record.as_str())
+        .with("rsn", |(_, excitation)| excitation.rsn.as_str())
+        .build();
+    columns.push(Column::new("order".into(), table.order()));
     columns.extend(TABLE_TESTS.quantities.iter().map(|quantity| {
         let number = |at| quantity.number(table, at).filter(|value| !value.is_nan());
         Column::new(quantity.name.into(), (0..table.tests.len()).map(number).collect::<Vec<Option<f64>>>())

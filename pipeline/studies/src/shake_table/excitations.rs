@@ -23,9 +23,6 @@ pub(super) struct Chosen {
 }
 
 /// Every record.
-///
-/// # Errors
-/// Records that are called alike.
 pub(super) fn all(records: &RecordSets) -> Result<Vec<Chosen>, StudiesError> {
     let chosen = |(record, found): (usize, &SetRecord)| Chosen {
         exc_id: found.pair.metadata.get("exc_id").cloned().unwrap_or_else(|| found.pair.id.clone()),

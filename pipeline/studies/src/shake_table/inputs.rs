@@ -30,9 +30,6 @@ pub struct Inputs {
 
 impl Inputs {
     /// Reads structure, records and excitations.
-    ///
-    /// # Errors
-    /// Whatever is wrong with them; a structure without columns and deck, or whose columns cannot wobble.
     pub(crate) fn read(study: &ShakeTableStudy, events: &dyn Events) -> Result<Self, StudiesError> {
         let structure = Structure::load(&study.structure)?;
         let frame = frame(&structure)?;
@@ -77,7 +74,6 @@ impl Inputs {
     }
 }
 
-/// The wobbling frame of a structure.
 fn frame(structure: &Structure) -> Result<RockingFrame, StudiesError> {
     let fail = |reason: String| JobError::input(format!("{}: {reason}", structure.file.display()));
     let of = &structure.description;

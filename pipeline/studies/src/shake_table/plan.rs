@@ -6,8 +6,8 @@ use std::time::Instant;
 use serde::Serialize;
 use uplift_alarms::{ranked, study_alarms};
 use uplift_job::events::Events;
-use uplift_job::frame::PlanHead;
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
+use uplift_job::study_run::PlanHead;
 use uplift_study::{Kind, ShakeTableStudy};
 
 use super::{Inputs, carry_out};

@@ -1,7 +1,7 @@
 //! What a run of a study of a shaking table tells.
 
 use serde::Serialize;
-use uplift_job::frame::RunHead;
+use uplift_job::study_run::RunHead;
 use uplift_result::ShakeTable;
 
 /// What a run tells.

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use uplift_alarms::alarms;
 use uplift_job::events::Events;
-use uplift_job::frame::Place;
+use uplift_job::study_run::Place;
 use uplift_result::earlier::Earlier;
 use uplift_result::{Provenance, ResultFile};
 use uplift_study::{Kind, ShakeTableStudy};

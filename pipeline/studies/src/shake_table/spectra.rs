@@ -15,9 +15,6 @@ use crate::error::StudiesError;
 ///
 /// The time of the table runs √λ faster than that of the records, so that an oscillator of the period T on the table
 /// peaks as one of the period T √λ does under the record itself.
-///
-/// # Errors
-/// [`JobError::Interrupted`] where `events` say so.
 pub(super) fn spectra(
     study: &ShakeTableStudy,
     inputs: &Inputs,

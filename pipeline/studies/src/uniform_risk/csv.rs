@@ -10,7 +10,7 @@ use uplift_result::declared::{Field, Place, Quantity};
 use uplift_result::{Fits, StoredSpectra, flag_word, regression, urs};
 use uplift_study::UniformRiskStudy;
 
-use super::Outcome;
+use super::ComputedStudy;
 use super::site_table::site_table_paths;
 use crate::error::StudiesError;
 
@@ -40,7 +40,7 @@ pub fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn write_csv(result: &Path, outcome: &Outcome<'_>) -> Result<(), StudiesError> {
+pub fn write_csv(result: &Path, outcome: &ComputedStudy<'_>) -> Result<(), StudiesError> {
     let line = outcome.provenance.line(&outcome.study.title, &outcome.records.description);
     let [ordinates, coefficients] = csv_paths(result);
     let spectra = outcome.stored_spectra();

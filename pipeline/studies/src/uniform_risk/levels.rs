@@ -99,16 +99,13 @@ pub(super) struct OfEnds {
 ///
 /// Not tried where there is no hazard curve to try them by, the records are too many, or each level has records of its
 /// own; of their upper end the hazard alone says something then.
-///
-/// # Errors
-/// A record that cannot be scaled.
 pub(super) fn check_levels(
     study: &UniformRiskStudy,
     measure: &MeasurePlan,
     inputs: (&RecordSet, &[System]),
     hazard: &[SiteHazard],
 ) -> Result<(Option<LevelCheck>, OfEnds), StudiesError> {
-    let Some(trial) = Trial::of(study, measure, inputs, hazard)? else {
+    let Some(trial) = Trial::new(study, measure, inputs, hazard)? else {
         return Ok((None, of_ends(study, measure, &untried(study, hazard))?));
     };
     let own = trial.tails(measure.levels[0])?;
@@ -179,7 +176,7 @@ fn tried(strengths: &[f64]) -> Vec<usize> {
 
 impl<'a> Trial<'a> {
     /// The peaks of the strengths tried; none where the levels cannot be tried.
-    fn of(
+    fn new(
         study: &'a UniformRiskStudy,
         measure: &MeasurePlan,
         (records, systems): (&RecordSet, &[System]),

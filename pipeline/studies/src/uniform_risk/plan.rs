@@ -14,8 +14,8 @@ use uplift_inputs::{
 };
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
-use uplift_job::frame::PlanHead;
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
+use uplift_job::study_run::PlanHead;
 use uplift_study::{MeasurePlan, Repair, UniformRiskStudy};
 use uplift_uniform_risk::consistency::{Answer, ConsistencyReport};
 use uplift_uniform_risk::{plan_own_stripes, systems, systems_under};

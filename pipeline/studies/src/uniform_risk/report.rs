@@ -1,7 +1,7 @@
 //! What a run of a study of uniform risk tells.
 
 use serde::Serialize;
-use uplift_job::frame::RunHead;
+use uplift_job::study_run::RunHead;
 use uplift_result::{ResultFile, Spectrum, SpreadOver, StoredSpread};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::{Answer, ConsistencyReport};

@@ -5,18 +5,21 @@ use std::path::{Path, PathBuf};
 use uplift_alarms::alarms;
 use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use uplift_ida::Shard;
-use uplift_inputs::{input_checksums, read_hazard, read_other_hazard};
+use uplift_inputs::{OtherHazard, RecordSet, SiteHazard, input_checksums, read_hazard, read_other_hazard};
 use uplift_job::events::Events;
-use uplift_job::frame::Place;
+use uplift_job::study_run::Place;
 use uplift_result::earlier::Earlier;
-use uplift_result::{Provenance, ResultFile};
+use uplift_result::{Provenance, ResultFile, StoredSpectra};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::Answer;
-use uplift_uniform_risk::{Coefficients, Stripes, fit_spectra, pooled_demand, precision, uniform_risk_spectra};
+use uplift_uniform_risk::{
+    Coefficients, Precision, Spectra, Stripes, fit_spectra, pooled_demand, precision, stored_spectra,
+    uniform_risk_spectra,
+};
 
 use super::plan::tell_mistaken_curves;
 use super::report::{MeasureReport, RunReport};
-use super::{Inputs, Outcome, csv_paths, needs, site_table, write_csv, write_result};
+use super::{Inputs, csv_paths, needs, site_table, write_csv, write_result};
 use crate::error::StudiesError;
 
 /// Carries out `study`, but for the rows of its analysis that are `known`.
@@ -81,7 +84,7 @@ pub fn run(
         site_table::compute(study, site_list.as_ref(), (&stripes, consistency.question()), path, &line, events)?;
     warnings.append(&mut sites.warnings);
     provenance.wall_time_s = place.start.elapsed().as_secs_f64();
-    let outcome = Outcome {
+    let outcome = ComputedStudy {
         study,
         records,
         hazard: &hazard,
@@ -111,4 +114,45 @@ pub fn run(
     let head = provenance.head(&study.title, of_records, alarms(&file)?, files, seconds);
     let measures = stripes.iter().map(MeasureReport::new).collect();
     RunReport::read(&file, head, measures, Some((&consistency, &precisions)))
+}
+
+/// All that a study computed, by measure where it depends on it.
+#[derive(Debug)]
+pub struct ComputedStudy<'a> {
+    /// The study.
+    pub study: &'a UniformRiskStudy,
+    /// Its records.
+    pub records: &'a RecordSet,
+    /// Its hazard, `[measure][site]`.
+    pub hazard: &'a [Vec<SiteHazard>],
+    /// Its stripes, `[measure]`.
+    pub stripes: &'a [Stripes],
+    /// Its spectra, `[measure]`.
+    pub spectra: &'a [Spectra],
+    /// Its coefficients, `[measure]`.
+    pub coefficients: &'a [Coefficients],
+    /// How well its records know them; by no measure where nothing can be said.
+    pub precision: &'a [Precision],
+    /// Its hazard in measures that it is not analysed by.
+    pub other_hazard: &'a [OtherHazard],
+    /// Whether the records bring the hazard of other measures.
+    pub(crate) consistency: &'a Answer,
+    /// What was noticed about the inputs; what the numbers themselves give cause for, [`alarms`](uplift_alarms) says.
+    pub warnings: &'a [String],
+    /// Where the numbers come from.
+    pub provenance: &'a Provenance,
+}
+
+impl ComputedStudy<'_> {
+    /// Its spectra and coefficients as the result file has them.
+    pub(super) fn stored_spectra(&self) -> StoredSpectra {
+        let stored = |(spectra, coefficients)| stored_spectra(spectra, coefficients);
+        StoredSpectra {
+            strengths: self.study.strengths.to_vec(),
+            poes: self.study.risk.poe.clone(),
+            years: self.study.risk.years,
+            sites: self.study.sites.iter().map(|site| site.name.clone()).collect(),
+            measures: self.spectra.iter().zip(self.coefficients).map(stored).collect(),
+        }
+    }
 }

@@ -59,9 +59,6 @@ pub fn read(study: &UniformRiskStudy, events: &dyn Events) -> Result<Option<Site
 }
 
 /// Spectra and coefficients of every site of the list, written site by site; `line` says where the numbers come from.
-///
-/// # Errors
-/// Files that cannot be read or written; [`JobError::Interrupted`] where `events` say so.
 pub(crate) fn compute(
     study: &UniformRiskStudy,
     list: Option<&SiteList>,

@@ -15,7 +15,7 @@ use uplift_result::{
 };
 use uplift_uniform_risk::consistency::Keep;
 
-use super::Outcome;
+use super::ComputedStudy;
 use super::write_hazard::{write_branches, write_hazard, write_other_hazard, write_structures};
 use crate::error::StudiesError;
 
@@ -23,7 +23,7 @@ use crate::error::StudiesError;
 ///
 /// # Errors
 /// Whatever keeps the file from being written, a full disk for instance.
-pub fn write_result(path: &Path, outcome: &Outcome<'_>) -> Result<(), StudiesError> {
+pub fn write_result(path: &Path, outcome: &ComputedStudy<'_>) -> Result<(), StudiesError> {
     let mut writer = LabelledWriter::create(path)?;
     write_root(&mut writer, outcome)?;
     write_axes(&mut writer, outcome)?;
@@ -39,8 +39,8 @@ pub fn write_result(path: &Path, outcome: &Outcome<'_>) -> Result<(), StudiesErr
     Ok(())
 }
 
-fn write_root(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), StudiesError> {
-    let Outcome { study, records, .. } = outcome;
+fn write_root(writer: &mut LabelledWriter, outcome: &ComputedStudy<'_>) -> Result<(), StudiesError> {
+    let ComputedStudy { study, records, .. } = outcome;
     let origin = Origin {
         title: &study.title,
         study_toml: &study.to_toml()?,
@@ -57,7 +57,7 @@ fn write_root(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), 
     Ok(())
 }
 
-fn write_axes(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), LabelledError> {
+fn write_axes(writer: &mut LabelledWriter, outcome: &ComputedStudy<'_>) -> Result<(), LabelledError> {
     let study = outcome.study;
     let ids: Vec<String> = outcome.records.records.iter().map(|record| record.id.clone()).collect();
     writer.axis_text(axis::RECORD, &ids, "ground motion record")?;
@@ -143,7 +143,7 @@ fn write_drawn_structures(writer: &mut LabelledWriter, records: &[Record]) -> Re
 
 fn write_measure(
     writer: &mut LabelledWriter,
-    outcome: &Outcome<'_>,
+    outcome: &ComputedStudy<'_>,
     index: usize,
     stored: &MeasureSpectra,
 ) -> Result<(), LabelledError> {

@@ -14,7 +14,7 @@ use uplift_result::{
 };
 use uplift_uniform_risk::{BRANCHES, Spectra, write_branch_spectra};
 
-use super::Outcome;
+use super::ComputedStudy;
 
 /// Write the curves `[measure][site]` with their branches.
 pub(super) fn write_hazard(writer: &mut LabelledWriter, hazard: &[Vec<SiteHazard>]) -> Result<(), LabelledError> {
@@ -71,7 +71,7 @@ fn of_input(input: &HazardInput) -> (&HazardCurve, Option<&Path>) {
 /// Write the spectra of the branches of `spectra`, their mean and their fractiles.
 pub(super) fn write_branches(
     writer: &mut LabelledWriter,
-    outcome: &Outcome<'_>,
+    outcome: &ComputedStudy<'_>,
     spectra: &Spectra,
 ) -> Result<(), LabelledError> {
     let mut axes = BTreeSet::new();
@@ -90,7 +90,7 @@ pub(super) fn write_branches(
 /// Write the spectra of the structures that may be, their mean and their fractiles.
 pub(super) fn write_structures(
     writer: &mut LabelledWriter,
-    outcome: &Outcome<'_>,
+    outcome: &ComputedStudy<'_>,
     spectra: &Spectra,
 ) -> Result<(), LabelledError> {
     for structures in &spectra.structures {

@@ -23,13 +23,10 @@ pub(super) type AskedBranches = BTreeMap<(IntensityMeasure, usize), Vec<AskedBra
 /// The answers for the branches of a site and the measure that the records are scaled to, one each.
 #[derive(Debug, Clone)]
 pub struct BranchFindings {
-    /// Position of the site.
     pub(crate) site: usize,
     /// The measure that the records are scaled to.
     pub(crate) scaled_to: IntensityMeasure,
-    /// Names of the branches.
     pub(crate) names: Vec<String>,
-    /// Their weights.
     pub(crate) weights: Vec<f64>,
     /// What each of them asks of the records, repaired.
     pub(crate) findings: Vec<Finding>,
@@ -37,9 +34,6 @@ pub struct BranchFindings {
 
 impl Question {
     /// The repairs of every site's branches.
-    ///
-    /// # Errors
-    /// As [`findings`](Self::findings).
     pub(crate) fn findings_of_branches(&self) -> Result<Vec<BranchFindings>, UniformRiskError> {
         let mut found = Vec::new();
         for (scaled_to, levels) in &self.analyses {

@@ -96,9 +96,6 @@ impl Question {
     }
 
     /// A set scaled to `levels`, with the hazard of the measure that it is scaled to and of the other one.
-    ///
-    /// # Errors
-    /// As [`findings`](Self::findings).
     pub(super) fn analysis<'a>(
         &self,
         levels: &[f64],

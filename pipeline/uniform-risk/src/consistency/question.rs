@@ -13,7 +13,6 @@ use uplift_study::{Consistency, UniformRiskStudy};
 use super::branches::{AskedBranch, AskedBranches};
 use crate::error::UniformRiskError;
 
-/// A record as far as consistency asks.
 #[derive(Debug, Clone)]
 pub(crate) struct AskedRecord {
     /// Its name.
@@ -57,7 +56,6 @@ pub struct Question {
     pub(crate) targets_per_year: Vec<f64>,
     /// Names of the sites.
     pub sites: Vec<String>,
-    /// The records.
     pub(crate) records: Vec<AskedRecord>,
     /// Names of the earthquakes.
     pub(crate) events: Vec<String>,
@@ -234,7 +232,6 @@ impl Question {
         self.analyses.iter().find(|(own, _)| *own == measure).map_or(&[], |(_, levels)| levels)
     }
 
-    /// The curve of a site.
     pub(crate) fn curve(&self, measure: IntensityMeasure, site: usize) -> Option<&HazardCurve> {
         self.curves.get(&measure)?.get(site)?.as_ref()
     }

@@ -1,7 +1,6 @@
 //! All spectra of all variants in one table, a row an ordinate.
 
-use polars::prelude::Column;
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 
 use super::{SweepReport, VariantReport, VariantSpectrum};
 use crate::error::UpliftError;
@@ -9,7 +8,6 @@ use crate::error::UpliftError;
 /// The column by which a table of this program is known.
 pub(super) const FIRST_COLUMN: &str = "variant";
 
-/// Writes the table of `report` to its place; `digest` is what it is known by.
 pub(super) fn write(report: &SweepReport, digest: &str) -> Result<(), UpliftError> {
     let line = format!(
         "uplift {} ({}); {} variants of the study {}; study digest {digest}",
@@ -19,50 +17,34 @@ pub(super) fn write(report: &SweepReport, digest: &str) -> Result<(), UpliftErro
         report.study.display()
     )
     .replace(['\n', '\r'], " ");
-    let rows: Vec<(&VariantReport, &VariantSpectrum, usize)> = (report.variants.iter())
-        .flat_map(|variant| {
-            let of_spectrum = move |spectrum| (0..variant.strengths.len()).map(move |at| (variant, spectrum, at));
-            variant.spectra.iter().flat_map(of_spectrum)
+    let rows = report.variants.iter().flat_map(|variant| {
+        let of_spectrum = move |spectrum| (0..variant.strengths.len()).map(move |at| (variant, spectrum, at));
+        variant.spectra.iter().flat_map(of_spectrum)
+    });
+    let has_repaired = report.variants.iter().flat_map(|of| &of.spectra).any(|of| of.repaired_m.is_some());
+    let columns = ColumnsOf::new(rows)
+        .with(FIRST_COLUMN, |(variant, ..)| variant.name.as_str())
+        .each(report.keys.iter().enumerate(), |columns, (place, key)| {
+            columns.with(key.as_str(), |(variant, ..)| variant.values[place].as_deref())
         })
-        .collect();
-    let texts = |value: &dyn Fn(&VariantReport, &VariantSpectrum) -> String| -> Vec<String> {
-        rows.iter().map(|(variant, spectrum, _)| value(variant, spectrum)).collect()
-    };
-    let mut columns = vec![Column::new(FIRST_COLUMN.into(), texts(&|variant, _| variant.name.clone()))];
-    for (place, key) in report.keys.iter().enumerate() {
-        let values: Vec<Option<&str>> = rows.iter().map(|(variant, ..)| variant.values[place].as_deref()).collect();
-        columns.push(Column::new(key.as_str().into(), values));
-    }
-    let numbers = |value: &dyn Fn(&VariantReport, &VariantSpectrum, usize) -> f64| -> Vec<f64> {
-        rows.iter().map(|(variant, spectrum, at)| value(variant, spectrum, *at)).collect()
-    };
-    columns.extend([
-        Column::new("site".into(), texts(&|_, spectrum| spectrum.site.clone())),
-        Column::new("im".into(), texts(&|_, spectrum| spectrum.im.to_owned())),
-        Column::new("poe".into(), numbers(&|_, spectrum, _| spectrum.poe)),
-        Column::new("years".into(), numbers(&|variant, _, _| variant.years)),
-        Column::new("strength".into(), numbers(&|variant, _, at| variant.strengths[at])),
+        .with("site", |(_, spectrum, _)| spectrum.site.as_str())
+        .with("im", |(_, spectrum, _)| spectrum.im)
+        .with("poe", |(_, spectrum, _)| spectrum.poe)
+        .with("years", |(variant, ..)| variant.years)
+        .with("strength", |(variant, _, at)| variant.strengths[at])
         // a censored ordinate is inf, as in the tables beside a result
-        Column::new("u_m".into(), numbers(&|_, spectrum, at| spectrum.u_m[at])),
-    ]);
-    let over: Vec<Option<f64>> =
-        rows.iter().map(|(variant, spectrum, at)| over_first(&report.variants[0], variant, spectrum, *at)).collect();
-    columns.push(Column::new("over_first".into(), over));
-    let repaired = |(_, spectrum, at): &(&VariantReport, &VariantSpectrum, usize)| {
-        Some(spectrum.repaired_m.as_ref()?[*at]).filter(|u_m| !u_m.is_nan())
-    };
-    if rows.iter().any(|row| row.1.repaired_m.is_some()) {
-        columns.push(Column::new("u_consistent_m".into(), rows.iter().map(repaired).collect::<Vec<Option<f64>>>()));
-    }
-    let flags: Vec<&str> = rows.iter().map(|(_, spectrum, at)| spectrum.flags[*at]).collect();
-    columns.extend([
-        Column::new("flag".into(), flags),
+        .with("u_m", |(_, spectrum, at)| spectrum.u_m[at])
+        .with("over_first", |(variant, spectrum, at)| over_first(&report.variants[0], variant, spectrum, at))
+        .each(has_repaired.then_some("u_consistent_m"), |columns, name| {
+            let repaired_m = |spectrum: &VariantSpectrum, at: usize| Some(spectrum.repaired_m.as_ref()?[at]);
+            columns.with(name, |(_, spectrum, at)| repaired_m(spectrum, at).filter(|u_m| !u_m.is_nan()))
+        })
+        .with("flag", |(_, spectrum, at)| spectrum.flags[at])
         // zero has no sign in a table
-        Column::new("lower_tail_share".into(), numbers(&|_, spectrum, at| spectrum.lower_tail_share[at] + 0.0)),
-        Column::new("upper_tail_share".into(), numbers(&|_, spectrum, at| spectrum.upper_tail_share[at] + 0.0)),
-        Column::new("cautions".into(), texts(&|variant, _| kinds(variant).join("; "))),
-    ]);
-    Ok(write_table(&report.table, &line, columns)?)
+        .with("lower_tail_share", |(_, spectrum, at)| spectrum.lower_tail_share[at] + 0.0)
+        .with("upper_tail_share", |(_, spectrum, at)| spectrum.upper_tail_share[at] + 0.0)
+        .with("cautions", |(variant, ..)| kinds(variant).join("; "));
+    Ok(write_table(&report.table, &line, columns.build())?)
 }
 
 /// Kinds of what is to be seen to before the numbers of a variant are used.

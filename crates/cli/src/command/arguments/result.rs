@@ -3,9 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use uplift::RunOptions;
 use uplift::result::is_hdf5;
-use uplift::result_of;
+use uplift::{RunOptions, result_of};
 use uplift_study::{Bootstrap, Repair, Structure, Study};
 
 use super::ForceArgument;

@@ -9,8 +9,7 @@ use uplift_report::{check_design_sheet, write_design_sheet};
 
 use crate::command::arguments::{ForceArgument, OneRiskArguments, StructureArguments, number};
 use crate::error::CommandError;
-use crate::show::print_shard;
-use crate::show::{print_design, print_json};
+use crate::show::{print_design, print_json, print_shard};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]

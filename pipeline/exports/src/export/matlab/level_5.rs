@@ -57,7 +57,6 @@ impl MatFile {
         self.push(name, &body);
     }
 
-    /// A text.
     pub(crate) fn text(&mut self, name: &str, text: &str) {
         let body = text_array(name, text);
         self.push(name, &body);

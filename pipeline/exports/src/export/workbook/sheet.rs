@@ -84,7 +84,6 @@ impl<'a> Sheet<'a> {
         Ok(())
     }
 
-    /// A text.
     pub(crate) fn text(&mut self, at: (usize, usize), text: &str) -> Result<(), XlsxError> {
         let (row, column) = place(at)?;
         self.sheet.write_string(row, column, clipped(text, LONGEST_CELL))?;

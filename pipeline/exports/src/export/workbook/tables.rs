@@ -11,7 +11,6 @@ use crate::export::source::Row;
 pub(super) const OF: usize = 5;
 
 impl Export {
-    /// The coefficients of Eq. 4.11.
     pub(super) fn coefficients(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
         self.coefficients_of(sheet, |row| Some(row.spectrum.fit))
     }

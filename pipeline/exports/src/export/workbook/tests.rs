@@ -14,9 +14,6 @@ const OF: [&str; 6] = ["order", "excitation", "class", "level", "record", "RSN"]
 
 impl TestsExport {
     /// A workbook; the same bytes for the same result.
-    ///
-    /// # Errors
-    /// More tests than Excel has rows.
     pub(crate) fn workbook(&self) -> Result<Vec<u8>, ExportsError> {
         self.sheets().map_err(|error| no_workbook(&self.file, &error))
     }

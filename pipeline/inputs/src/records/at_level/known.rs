@@ -17,7 +17,6 @@ const DATABASES: [&str; 3] = ["nga_w2_", "nga_w1_", "esm_2018_"];
 /// Endings of KiK-net's borehole: tools select the surface.
 const BOREHOLE: [&str; 2] = ["ew1", "ns1"];
 
-/// The records of a manifest.
 pub(super) struct KnownRecords {
     rows: Vec<Row>,
     names: Vec<[FileName; 2]>,
@@ -31,7 +30,7 @@ struct FileName {
 }
 
 impl FileName {
-    fn of(name: &str) -> Self {
+    fn from_name(name: &str) -> Self {
         let whole = name.to_lowercase();
         let mut name = whole.as_str();
         while let Some(shorter) = ENDINGS.iter().find_map(|ending| name.strip_suffix(ending)) {
@@ -49,7 +48,7 @@ impl FileName {
     }
 
     /// What a tool may mean by the name of a file: with its folders as PEER's names have them, or without.
-    fn of_tool(name: &str) -> Vec<Self> {
+    fn from_tool(name: &str) -> Vec<Self> {
         let mut name = name.replace('\\', "/").to_lowercase();
         for ending in ENDINGS {
             name.truncate(name.strip_suffix(ending).map_or(name.len(), str::len));
@@ -57,7 +56,7 @@ impl FileName {
         let series = SERIES.iter().find_map(|series| name.strip_suffix(series)).unwrap_or(&name);
         let bare = DATABASES.iter().find_map(|database| series.strip_prefix(database)).unwrap_or(series);
         let last = bare.rsplit('/').next().unwrap_or(bare);
-        let mut names = vec![Self::of(last), Self::of(&bare.replace('/', "_"))];
+        let mut names = vec![Self::from_name(last), Self::from_name(&bare.replace('/', "_"))];
         names.dedup();
         names
     }
@@ -69,8 +68,8 @@ impl FileName {
 }
 
 impl KnownRecords {
-    pub(super) fn of(rows: Vec<Row>) -> Self {
-        let name = |path: &Path| FileName::of(&path.file_name().unwrap_or_default().to_string_lossy());
+    pub(super) fn new(rows: Vec<Row>) -> Self {
+        let name = |path: &Path| FileName::from_name(&path.file_name().unwrap_or_default().to_string_lossy());
         let names = rows.iter().map(|row| row.components.each_ref().map(|file| name(&file.path))).collect();
         Self { rows, names }
     }
@@ -79,7 +78,7 @@ impl KnownRecords {
     pub(super) fn find(&self, selected: &SelectedName, component: SelectedComponent) -> Vec<String> {
         match selected {
             SelectedName::Files(files) => {
-                let files: Vec<Vec<FileName>> = files.iter().map(|file| FileName::of_tool(file)).collect();
+                let files: Vec<Vec<FileName>> = files.iter().map(|file| FileName::from_tool(file)).collect();
                 self.of_files(&files, component)
             }
             SelectedName::SequenceNumber(rsn) => self.of_rows(component, |row, names| {
@@ -172,7 +171,7 @@ mod tests {
             format: None,
             metadata: BTreeMap::new(),
         };
-        KnownRecords::of(pairs.iter().map(row).collect())
+        KnownRecords::new(pairs.iter().map(row).collect())
     }
 
     #[test]

@@ -8,9 +8,7 @@ use uplift_risk::Ordinate;
 use super::SiteConsistency;
 use super::files::{cell, json_number, number};
 
-/// The column of the spectra.
 pub(super) const SPECTRA: &str = "u_consistent_m";
-/// The columns of the coefficients.
 pub(super) const COEFFICIENTS: [&str; 9] = [
     "bias",
     "max",
@@ -28,7 +26,6 @@ pub(super) fn spectrum(consistency: &SiteConsistency, poe: usize, strengths: usi
     consistency.spectra.as_ref().ok().and_then(|spectra| spectra.ordinates.chunks(strengths).nth(poe))
 }
 
-/// The cells of the coefficients, each after a comma.
 pub(super) fn coefficient_cells(consistency: &SiteConsistency, poe: usize) -> String {
     let fit = consistency.spectra.as_ref().ok().map(|spectra| spectra.fits[poe].as_ref());
     let why = match (&consistency.spectra, fit) {

@@ -23,7 +23,6 @@ use crate::error::StudiesError;
 
 /// Strengths of which the map shows ordinates, unless the study names some.
 const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
-/// Columns of the spectra.
 const SPECTRA: [&str; 9] = ["site", "longitude", "latitude", "im", "poe", "years", "strength", "u_m", "flag"];
 /// Columns of the coefficients, before those of the study's own table.
 const COEFFICIENTS: [&str; 12] =
@@ -64,7 +63,6 @@ pub struct SiteTableLayout {
     is_repaired: bool,
 }
 
-/// The names of one measure.
 #[derive(Debug, Clone)]
 struct MeasureNames {
     label: &'static str,

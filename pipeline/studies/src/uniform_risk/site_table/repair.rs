@@ -38,7 +38,6 @@ pub struct SiteRepair<'a> {
     sets: Vec<Option<ScaledExport>>,
 }
 
-/// The records scaled to the measure of an export.
 struct ScaledExport {
     scaled_to: IntensityMeasure,
     levels: Vec<f64>,
@@ -49,9 +48,6 @@ struct ScaledExport {
 
 impl<'a> SiteRepair<'a> {
     /// For the exports of `list`.
-    ///
-    /// # Errors
-    /// Records without a measure.
     pub(crate) fn new(question: &'a Question, list: &SiteList) -> Result<Self, StudiesError> {
         let measures: Vec<IntensityMeasure> = list.all_exports().map(|export| export.measure).collect();
         let scaled = |export: &SiteExport| -> Result<Option<ScaledExport>, StudiesError> {

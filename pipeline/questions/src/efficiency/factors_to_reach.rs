@@ -12,7 +12,7 @@ use crate::error::QuestionsError;
 const DISPLACEMENTS: usize = 20;
 
 /// By what each record is multiplied until it brings the structure to a displacement.
-pub(super) struct Reaching {
+pub(super) struct FactorsToReach {
     /// The largest displacement, m: the largest that every record reaches; none of a strength where some record does
     /// not lift the structure, `[strength]`.
     pub(super) up_to_m: Vec<Option<f64>>,
@@ -20,12 +20,9 @@ pub(super) struct Reaching {
     ln_factors: Vec<Vec<Vec<f64>>>,
 }
 
-impl Reaching {
+impl FactorsToReach {
     /// Of the runs of `own`, which the records were scaled to as `measured` says.
-    ///
-    /// # Errors
-    /// Demands that are not demands, in a file that was changed.
-    pub(super) fn of(
+    pub(super) fn new(
         stored: &StoredStripes,
         own: &StoredMeasure,
         measured: Measured<'_>,

@@ -11,14 +11,14 @@ use crate::error::EngineError;
 
 /// What is asked, and of which result.
 #[derive(Debug, Clone, Copy)]
-pub struct Beside<'a> {
+pub struct ResultJob<'a> {
     /// The result file.
     pub result: &'a Path,
     /// What is asked, for the names of files: command and structure.
     pub name: &'a str,
 }
 
-impl Beside<'_> {
+impl ResultJob<'_> {
     /// Where a shard of the work goes unless it is told where.
     pub fn shard_path(&self, Shard { index, count }: Shard) -> PathBuf {
         let width = count.to_string().len();
