@@ -22,11 +22,11 @@ pub(super) struct HazardArguments {
 
 #[derive(Debug, Subcommand)]
 enum HazardCommand {
-    /// Take the curves of a site from an export of OpenQuake or the USGS: curve files, and the lines for a study
+    /// Import the curves of a site from OpenQuake or the USGS
     Import(ImportArguments),
-    /// Show what a curve file or an export holds
+    /// Show hazard curves
     Show(ShowArguments),
-    /// Draw curves in one figure
+    /// Draw hazard curves
     Plot(PlotArguments),
 }
 
@@ -41,10 +41,10 @@ pub(super) fn hazard(arguments: &HazardArguments, terminal: &Terminal) -> Result
 /// Which site of an export with several.
 #[derive(Debug, Args)]
 struct SiteArguments {
-    /// The site of this name in the export
+    /// Name of the site in the export
     #[arg(long, value_name = "NAME", conflicts_with = "near")]
     name: Option<String>,
-    /// The site nearest to this place, longitude and latitude in degrees, e.g. 23.73,37.98
+    /// Take the nearest site: longitude,latitude in degrees, e.g. 23.73,37.98
     #[arg(long, value_name = "LON,LAT", value_parser = place, allow_hyphen_values = true)]
     near: Option<[f64; 2]>,
 }
@@ -72,13 +72,13 @@ impl SiteArguments {
 /// What a table does not say.
 #[derive(Debug, Args)]
 struct TableArguments {
-    /// Measure of a table that does not name it: PGV, PGA
+    /// Intensity measure, if the table does not name it: PGV, PGA
     #[arg(long, value_name = "NAME")]
     measure: Option<String>,
-    /// Unit of the levels of such a table: cm/s, m/s, g, m/s2, cm/s2
+    /// Unit of the levels: cm/s, m/s, g, m/s2, cm/s2
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
-    /// Years that the probabilities of a table refer to
+    /// Years of the probabilities
     #[arg(long, value_name = "YEARS", value_parser = number)]
     years: Option<f64>,
 }
@@ -97,23 +97,21 @@ impl TableArguments {
 
 #[derive(Debug, Args)]
 struct ImportArguments {
-    /// Exports: OpenQuake CSV or NRML, USGS JSON; several files for several measures, or for the realizations of a
-    /// logic tree
+    /// Exports (OpenQuake CSV or NRML, USGS JSON): one a measure or realization
     #[arg(required = true, value_name = "EXPORT")]
     exports: Vec<PathBuf>,
-    /// Folder for the curve files; made if it is not there
+    /// Folder for the curve files
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
     #[command(flatten)]
     site: SiteArguments,
-    /// How the ground-motion models combine horizontal components: geometric mean, GMRotI50, RotD50, RotD100, larger,
-    /// arbitrary. Exports do not say it
+    /// Definition of the horizontal component: geometric mean, GMRotI50, RotD50, RotD100, larger, arbitrary
     #[arg(long, value_name = "WORD")]
     component: Option<ComponentDefinition>,
-    /// Weights of the realizations (OpenQuake's realizations_*.csv)
+    /// Weights of the realizations (realizations_*.csv of OpenQuake)
     #[arg(long, value_name = "FILE")]
     weights: Option<PathBuf>,
-    /// Refuse a site farther from --near than this, km
+    /// Largest distance from --near, km
     #[arg(long, value_name = "KM", default_value_t = 100.0, value_parser = number)]
     within_km: f64,
     #[command(flatten)]
@@ -136,7 +134,7 @@ fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), Comman
 
 #[derive(Debug, Args)]
 struct ShowArguments {
-    /// Table with two columns, or an export of OpenQuake (CSV, NRML) or the USGS (JSON); .gz too
+    /// Curve with two columns, or an export of OpenQuake or the USGS; .gz too
     file: PathBuf,
     #[command(flatten)]
     site: SiteArguments,
@@ -150,10 +148,10 @@ fn show(arguments: &ShowArguments, terminal: &Terminal) -> Result<(), CommandErr
 
 #[derive(Debug, Args)]
 struct PlotArguments {
-    /// Tables with two columns, or exports of OpenQuake or the USGS
+    /// Curves with two columns, or exports of OpenQuake or the USGS
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// The figure, .svg or .png
+    /// Figure, .svg or .png
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]

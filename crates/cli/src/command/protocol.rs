@@ -24,10 +24,10 @@ pub(super) struct ProtocolShape {
     /// Factor from the amplitude of a set to that of the next
     #[arg(long, value_name = "R", default_value_t = 1.25, allow_negative_numbers = true, value_parser = number)]
     ratio: f64,
-    /// Sets
+    /// Number of sets
     #[arg(long, value_name = "N", default_value_t = 18)]
     sets: u32,
-    /// Cycles in each set
+    /// Cycles in a set
     #[arg(long, value_name = "N", default_value_t = 2)]
     cycles: u32,
     /// Rate of drift, 1/s
@@ -49,13 +49,13 @@ pub(super) struct ProtocolArguments {
     /// Points in a quarter of a cycle
     #[arg(long, value_name = "N", default_value_t = 1)]
     parts: u32,
-    /// Write drift over time to this CSV file
+    /// Write drift over time
     #[arg(short, long, value_name = "FILE.csv")]
     output: Option<PathBuf>,
-    /// Draw it as SVG or PNG (Figure 5.11)
+    /// Draw the protocol
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
-    /// Print it as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
     #[command(flatten)]

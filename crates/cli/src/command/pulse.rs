@@ -50,13 +50,13 @@ pub(super) struct PulseArguments {
         value_parser = axis, allow_negative_numbers = true
     )]
     half_widths: Grid,
-    /// Values of omega_p/p that have a line over the acceleration
+    /// Values of omega_p/p drawn over the acceleration
     #[arg(
         long, value_name = "GRID", default_value = "1,2,3,4,6,8", help_heading = AXES,
         value_parser = lines, allow_negative_numbers = true
     )]
     frequency_lines: Grid,
-    /// Values of a_p/(g tan alpha) that have a line over the size-frequency parameter
+    /// Values of a_p/(g tan alpha) drawn over the size-frequency parameter
     #[arg(
         long, value_name = "GRID", default_value = "1.25,1.5,2,3,5,8", help_heading = AXES,
         value_parser = lines, allow_negative_numbers = true
@@ -81,7 +81,7 @@ pub(super) struct PulseArguments {
         value_parser = axis, allow_negative_numbers = true
     )]
     sizes_m: Grid,
-    /// Slendernesses that have a line each, rad
+    /// Slendernesses to draw, rad
     #[arg(
         long, value_name = "GRID", default_value = "0.1:0.1:0.6", help_heading = BLOCKS,
         value_parser = lines, allow_negative_numbers = true

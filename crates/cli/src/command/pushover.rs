@@ -19,37 +19,37 @@ use crate::terminal::Terminal;
 #[command(after_help = "Structures to start from: configs/structures/column-j.toml, shake-table.toml. \
                   Method and a worked design: docs/restrained-columns.md")]
 pub(super) struct PushoverArguments {
-    /// Structure file (TOML): a block, a frame, or a restrained frame with its [restrainer]
+    /// Structure file
     structure: PathBuf,
-    /// Push up to this displacement, m [default: a little beyond the capacity]
+    /// Largest displacement, m [default: a little beyond the capacity]
     #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     to_m: Option<f64>,
-    /// Rows, evenly spaced from 0
+    /// Number of rows
     #[arg(long, value_name = "N", default_value_t = PushoverOptions::default().rows)]
     rows: u32,
-    /// The linearised law beside the exact one (Eq. 5.2 to 5.7, 6.1, 6.2)
+    /// Add the linearised law (Eq. 5.2 to 5.7, 6.1, 6.2)
     #[arg(long)]
     linear: bool,
-    /// Linear restrainers of these stiffnesses beside the structure's own, N/m
+    /// Add linear restrainers of these stiffnesses, N/m
     #[arg(
         long, value_name = "K[,K…]", value_delimiter = ',', allow_negative_numbers = true, value_parser = number
     )]
     stiffness_n_m: Vec<f64>,
-    /// Tendons that are lost
+    /// Number of lost tendons
     #[arg(long, value_name = "N", default_value_t = 0)]
     lost: u32,
-    /// Put the columns through a loading protocol; stoppers that yield dissipate
+    /// Apply a cyclic loading protocol
     #[arg(long)]
     protocol: bool,
     #[command(flatten, next_help_heading = "Protocol")]
     shape: ProtocolShape,
-    /// Lay a measured curve over it: CSV with displacement_m (or _mm, drift, drift_percent) and force_n (or force_kn)
+    /// Measured curve to compare: CSV with displacement_m (or _mm, drift) and force_n (or _kn)
     #[arg(long, value_name = "FILE.csv", help_heading = "Measured")]
     measured: Option<PathBuf>,
-    /// Write the rows to this CSV file; of a protocol its history
+    /// Write the rows
     #[arg(short, long, value_name = "FILE.csv", help_heading = "Output")]
     output: Option<PathBuf>,
-    /// Draw force over displacement as SVG or PNG
+    /// Draw force over displacement
     #[arg(long, value_name = "FILE.svg|png", help_heading = "Output")]
     plot: Option<PathBuf>,
     /// Print JSON

@@ -24,15 +24,15 @@ pub(super) struct RecordsArguments {
 
 #[derive(Debug, Subcommand)]
 enum RecordsCommand {
-    /// Find the records in a folder or zip archive of downloads, pair and measure them, write a manifest
+    /// Import a folder of records into a manifest
     Import(ImportArguments),
     /// List the records of a manifest
     List(ListArguments),
-    /// Show a record of a manifest, or what a record file holds
+    /// Show one record
     Show(ShowArguments),
-    /// Choose records of a manifest: the lines for a study, and a manifest of those chosen
+    /// Select records by their properties
     Select(SelectArguments),
-    /// Make a table of sets at each level, for a study, of what tools of record selection write
+    /// Convert records selected per level into a table
     AtLevel(AtLevelArguments),
     /// Make synthetic records of a scenario
     Synthesize(synthesize::SynthesizeArguments),
@@ -46,10 +46,10 @@ struct ListArguments {
 
 #[derive(Debug, Args)]
 struct ShowArguments {
-    /// Manifest of a record set, or a record file
+    /// Manifest or record file
     #[arg(value_name = "SET|FILE")]
     input: PathBuf,
-    /// Name of a record of the manifest
+    /// Name of a record in the manifest
     record: Option<String>,
     #[command(flatten)]
     files: FileArguments,
@@ -59,7 +59,7 @@ struct ShowArguments {
 struct SelectArguments {
     #[command(flatten)]
     set: SetArguments,
-    /// Write a manifest of the chosen records
+    /// Write a manifest of the selected records
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -102,13 +102,13 @@ fn select(arguments: &SelectArguments, terminal: &Terminal) -> Result<(), Comman
 /// What the files do not say.
 #[derive(Debug, Clone, Copy, Args)]
 struct FileArguments {
-    /// Format of the files: at2, esm, knet, cosmos, csmip or columns [default: told by their content]
+    /// File format: at2, esm, knet, cosmos, csmip or columns [default: detected]
     #[arg(long, value_name = "FORMAT")]
     format: Option<RecordFormat>,
-    /// Unit of files that name none: g, m/s2, cm/s2 or gal
+    /// Unit, if the files name none: g, m/s2, cm/s2 or gal
     #[arg(long, value_name = "UNIT")]
     unit: Option<AccelerationUnit>,
-    /// Time step of files with one column that name none, s
+    /// Time step, s, if the files name none
     #[arg(long, value_name = "SECONDS", value_parser = number)]
     dt_s: Option<f64>,
     /// Acceleration of gravity, m/s2
@@ -119,13 +119,13 @@ struct FileArguments {
 /// A manifest, and which of its records.
 #[derive(Debug, Args)]
 struct SetArguments {
-    /// Manifest of a record set (CSV), as `uplift records import` writes it
+    /// Manifest, from uplift records import
     #[arg(value_name = "SET")]
     set: PathBuf,
-    /// Only rows whose `set_tags` contain this word
+    /// Only records with this word in set_tags
     #[arg(long, value_name = "WORD", help = "Only rows whose set_tags contain this word")]
     tag: Option<String>,
-    /// How the peaks of two components make one: geometric-mean, rotd50 or rotd100
+    /// Combination of two components: geometric-mean, rotd50 or rotd100
     #[arg(long, value_name = "WORD", default_value_t = Combination::GeometricMean)]
     intensity: Combination,
     #[command(flatten)]
@@ -163,7 +163,7 @@ struct CriteriaArguments {
     /// Significant duration D5-95, s
     #[arg(long = "d5-95-s", value_name = "RANGE", value_parser = range)]
     d5_95_s: Option<Range>,
-    /// Whether the motion has a velocity pulse (Shahi and Baker 2014): true or false
+    /// Velocity pulse (Shahi and Baker 2014): true or false
     #[arg(long, value_name = "BOOL")]
     pulse_like: Option<bool>,
 }
@@ -213,16 +213,15 @@ impl SetArguments {
 
 #[derive(Debug, Args)]
 struct ImportArguments {
-    /// Folder with record files, in folders of their own if you like; or the zip archive that PEER gives, which is
-    /// unpacked into a folder of its name beside the manifest
+    /// Folder with record files, or the zip archive of PEER
     #[arg(value_name = "FOLDER|ZIP")]
     folder: PathBuf,
-    /// The manifest to write (CSV); a folder gets a manifest.csv
+    /// Manifest to write (CSV), or a folder for it
     #[arg(short, long, value_name = "SET")]
     output: PathBuf,
     #[command(flatten)]
     files: FileArguments,
-    /// Leave out the search for velocity pulses, which takes most of the time
+    /// Skip the search for velocity pulses (faster)
     #[arg(long)]
     no_pulses: bool,
     #[command(flatten)]
@@ -252,7 +251,7 @@ fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), Comman
 
 #[derive(Debug, Args)]
 struct AtLevelArguments {
-    /// What the tool wrote, a file a level
+    /// Selections, one file a level
     #[arg(
         required = true,
         value_name = "FILE",
@@ -261,23 +260,23 @@ struct AtLevelArguments {
                 records_....json"
     )]
     selections: Vec<PathBuf>,
-    /// Manifest of a record set (CSV) that has the records, as `uplift records import` writes it
+    /// Manifest with the records, from uplift records import
     #[arg(long, value_name = "SET")]
     manifest: PathBuf,
-    /// The measure that they were selected for
+    /// Intensity measure of the selection
     #[arg(
         long,
         value_name = "MEASURE",
         help = "The measure that they were selected for: pgv, pga, sa_1s (SA at 0.5 s is sa_0p5s), ..."
     )]
     measure: IntensityMeasure,
-    /// The level of each file, in their order, in cm/s or g; haselREC and Djura write it themselves
+    /// Level of each file, cm/s or g (haselREC and Djura name it)
     #[arg(long = "level", value_name = "LEVEL,...", value_delimiter = ',', value_parser = number)]
     levels: Vec<f64>,
-    /// Let each pair stand as two records, one a component, for a study with component = "both"
+    /// Count each component as a record (for component = "both")
     #[arg(long)]
     both: bool,
-    /// The table to write (CSV)
+    /// Table to write (CSV)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]

@@ -19,10 +19,10 @@ use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(super) struct ResponseArguments {
-    /// Record: PEER AT2, or text with one column (acceleration) or two (time, acceleration)
+    /// Record file
     #[arg(required_unless_present = "structure", conflicts_with = "structure")]
     record: Option<PathBuf>,
-    /// Strength of the oscillator: uplift force over weight
+    /// Uplift strength: uplift force over weight
     #[arg(
         long,
         value_name = "ETA",
@@ -32,7 +32,7 @@ pub(super) struct ResponseArguments {
         value_parser = number,
     )]
     strength: Option<f64>,
-    /// Factor on the record
+    /// Scale factor of the record
     #[arg(long, default_value_t = 1.0, allow_negative_numbers = true, value_parser = number)]
     scale: f64,
     /// Displacement at uplift, m
@@ -45,28 +45,27 @@ pub(super) struct ResponseArguments {
         value_parser = number
     )]
     uplift_displacement_m: f64,
-    /// Displacement where the restoring force vanishes, m: a negative-stiffness system that can overturn
+    /// Displacement capacity, m: negative stiffness after uplift
     #[arg(
         long, value_name = "M", conflicts_with_all = ["post_uplift_stiffness_per_s2", "block", "structure"],
         allow_negative_numbers = true,
         value_parser = number,
     )]
     capacity_m: Option<f64>,
-    /// Stiffness after uplift over the mass, 1/s2: a system of positive post-uplift stiffness
+    /// Stiffness after uplift over mass, 1/s2: positive stiffness
     #[arg(
         long, value_name = "K", conflicts_with_all = ["block", "structure"], allow_negative_numbers = true,
         value_parser = number,
     )]
     post_uplift_stiffness_per_s2: Option<f64>,
-    /// Coefficient of restitution at impact [default: 0.95; of a block Housner's, Eq. 2.3; of a planar frame that of
-    /// its file, else of momentum, Eq. 6.5]
+    /// Coefficient of restitution [default: 0.95; block Eq. 2.3; frame its file's, else Eq. 6.5]
     #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
     restitution: Option<f64>,
     #[command(flatten)]
     block: BlockArguments,
     #[command(flatten)]
     frame: FrameArguments,
-    /// Acceleration of gravity, m/s2; of a frame that of its file
+    /// Acceleration of gravity, m/s2
     #[arg(
         long,
         default_value_t = STANDARD_GRAVITY_M_S2,
@@ -76,27 +75,25 @@ pub(super) struct ResponseArguments {
         value_parser = number
     )]
     gravity_m_s2: f64,
-    /// Sampling interval of a one-column record, s
+    /// Time step of a one-column record, s
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     dt_s: Option<f64>,
     /// Unit of a text record: g, m/s2, cm/s2 or gal
     #[arg(long)]
     unit: Option<AccelerationUnit>,
-    /// Which component of a file with several, counted from 1; of a frame one for each of --h1, --h2 and --v given
+    /// Component of a file with several, from 1; of a frame one each for --h1, --h2, --v
     #[arg(long, value_name = "N[,N…]", value_delimiter = ',')]
     channel: Vec<usize>,
-    /// Follow the free vibration after the record for so many seconds; without it an oscillator is followed to the end
-    /// of the record, a block or a frame to its first peak after it
+    /// Seconds of free motion after the record
     #[arg(long, default_value_t = 0.0, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     free_vibration_s: f64,
-    /// Print the response as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Write the time history, with uplifts and impacts in their places, to this CSV file
+    /// Write the time history with uplifts and impacts
     #[arg(long, value_name = "FILE.csv")]
     history: Option<PathBuf>,
-    /// Draw the time history, its impacts marked, as SVG or PNG; of a frame the path of its deck in plan, drift, base
-    /// shear and tendons
+    /// Draw the time history
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
     #[command(flatten)]
@@ -107,7 +104,7 @@ pub(super) struct ResponseArguments {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Rigid rocking block (two of its numbers)")]
 struct BlockArguments {
-    /// Shake a rigid rocking block in place of an oscillator: its full nonlinear motion
+    /// Shake a rigid block instead of an oscillator
     #[arg(long)]
     block: bool,
     /// Width 2b, m
@@ -128,27 +125,25 @@ struct BlockArguments {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Rocking frame (Chapter 6)")]
 struct FrameArguments {
-    /// Shake the frame of this structure file (TOML), for instance configs/structures/shake-table.toml
+    /// Shake the frame of this structure file
     #[arg(long, value_name = "FRAME.toml", conflicts_with = "block")]
     structure: Option<PathBuf>,
     /// First horizontal component
     #[arg(long, value_name = "FILE", requires = "structure")]
     h1: Option<PathBuf>,
-    /// Second horizontal component, which begins with the first
+    /// Second horizontal component
     #[arg(long, value_name = "FILE", requires = "structure")]
     h2: Option<PathBuf>,
     /// Vertical component, upwards positive
     #[arg(long, value_name = "FILE", requires = "structure")]
     v: Option<PathBuf>,
-    /// planar: in the plane of each horizontal component in turn; wobbling: in space, under both [default: by the
-    /// `column_shape` of the structure, wobbling for cylinders]
+    /// Model of the frame: planar or wobbling [default: by its column_shape]
     #[arg(long, value_name = "MODEL", requires = "structure", value_parser = model)]
     model: Option<Model>,
-    /// The frame rests where its energy is below that of this rotation and the ground does not lift it, rad [default:
-    /// 1e-5 wobbling, 0 planar]
+    /// Rotation below which the frame rests, rad [default: 1e-5 wobbling, 0 planar]
     #[arg(long, value_name = "RAD", requires = "structure", allow_negative_numbers = true, value_parser = number)]
     rest_amplitude_rad: Option<f64>,
-    /// Tilt with which a wobbling frame leaves the ground, rad [default: 1e-12]
+    /// Initial tilt of a wobbling frame, rad [default: 1e-12]
     #[arg(long, value_name = "RAD", requires = "structure", allow_negative_numbers = true, value_parser = number)]
     start_rotation_rad: Option<f64>,
 }

@@ -24,9 +24,9 @@ pub(super) struct RestrainerArguments {
 
 #[derive(Debug, Subcommand)]
 enum RestrainerCommand {
-    /// Force over elongation of a restrainer (Figures 5.9, 6.8)
+    /// Compute the force of a restrainer over its elongation
     Curve(CurveArguments),
-    /// Stacks out of a catalogue that give the columns of a structure what they need (Sections 5.3.3, 6.3.3)
+    /// Choose disc springs from a catalogue
     Design(Box<design::DesignArguments>),
 }
 
@@ -39,21 +39,21 @@ pub(super) fn restrainer(arguments: &RestrainerArguments, terminal: &Terminal) -
 
 #[derive(Debug, Args)]
 struct CurveArguments {
-    /// A file with the table [restrainer]: a structure file, or one of that table alone
+    /// File with the table [restrainer]
     restrainer: PathBuf,
-    /// Stretch it up to this elongation, m [default: to flat springs or the yield of the tendon]
+    /// Largest elongation, m [default: flat springs or yield]
     #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     to_m: Option<f64>,
-    /// Rows, evenly spaced from 0
+    /// Number of rows
     #[arg(long, value_name = "N", default_value_t = RestrainerCurveOptions::default().rows)]
     rows: u32,
-    /// Write the rows to this CSV file
+    /// Write the rows
     #[arg(short, long, value_name = "FILE.csv")]
     output: Option<PathBuf>,
-    /// Draw springs and restrainer as SVG or PNG
+    /// Draw springs and restrainer
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
-    /// Print everything as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
     #[command(flatten)]

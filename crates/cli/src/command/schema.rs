@@ -10,7 +10,7 @@ use crate::terminal::output;
 
 #[derive(Debug, Args)]
 pub(crate) struct SchemaArguments {
-    /// Of which files
+    /// Kind of file
     #[arg(value_enum, default_value = "study")]
     of: Files,
 }

@@ -20,49 +20,49 @@ use crate::terminal::Terminal;
                   none.\nWhat the tests ask, and what \"small or none\" does not mean: docs/validation.md"
 )]
 pub(super) struct ValidateArguments {
-    /// Table of measured peaks: CSV with a header row; or the result of a shaking table
+    /// Measured peaks: CSV with a header, or a shake table's result
     measured: PathBuf,
-    /// Table of computed peaks: CSV with a header row; or the result of a shaking table
+    /// Computed peaks: CSV with a header, or a shake table's result
     computed: PathBuf,
-    /// Column of the peaks with its unit; either table may have it in another, as u_mm
+    /// Column of the peaks with its unit
     #[arg(long, value_name = "COLUMN", default_value = "u_m")]
     value: String,
-    /// Columns that say which rows are of the same motion [default: exc_id, where both tables have it]
+    /// Columns that identify a motion [default: exc_id, if there]
     #[arg(long, value_name = "COLUMN[,…]", value_delimiter = ',')]
     key: Vec<String>,
-    /// Columns to group by; of the first also all values together
+    /// Columns to group by
     #[arg(long, value_name = "COLUMN[,…]", value_delimiter = ',')]
     by: Vec<String>,
-    /// Whose p decides, of the Kolmogorov-Smirnov test; kstest2 is what Table 6.2 prints
+    /// p-value of the Kolmogorov-Smirnov test (Table 6.2 has kstest2)
     #[arg(long, value_enum, default_value_t = Rule::Exact, help_heading = STATISTICS)]
     p: Rule,
-    /// Also p by swaps within pairs, which takes account of the motions' being the same
+    /// Add the p-value by permutations within pairs
     #[arg(long, help_heading = STATISTICS)]
     permutation: bool,
-    /// Significance that the power is for
+    /// Significance level of the power
     #[arg(
         long, value_name = "P", default_value_t = ValidateOptions::default().significance,
         allow_negative_numbers = true, value_parser = number, help_heading = STATISTICS
     )]
     significance: f64,
-    /// Replicates of the bands, and of the swaps
+    /// Number of resamples and permutations
     #[arg(
         long, value_name = "N", default_value_t = ValidateOptions::default().replicates, help_heading = STATISTICS
     )]
     replicates: u32,
-    /// Seed of the replicates
+    /// Random seed
     #[arg(long, value_name = "N", default_value_t = ValidateOptions::default().seed, help_heading = STATISTICS)]
     seed: u64,
-    /// Write the statistics, a row a group, to this CSV file
+    /// Write the statistics
     #[arg(short, long, value_name = "FILE.csv", help_heading = OUTPUT)]
     output: Option<PathBuf>,
-    /// Draw the distributions as SVG or PNG (Figure 6.18)
+    /// Draw the distributions
     #[arg(long, value_name = "FILE.svg|png", help_heading = OUTPUT)]
     plot: Option<PathBuf>,
-    /// Band of the measured distribution in it
+    /// Band of the measured distribution
     #[arg(long, value_enum, default_value_t = BandWord::Greenwood, help_heading = OUTPUT)]
     band: BandWord,
-    /// Draw computed over measured peaks as SVG or PNG (Figure 6.19)
+    /// Draw computed over measured peaks
     #[arg(long, value_name = "FILE.svg|png", help_heading = OUTPUT)]
     plot_pairs: Option<PathBuf>,
     /// Print JSON

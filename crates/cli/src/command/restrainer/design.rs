@@ -23,34 +23,33 @@ use crate::terminal::Terminal;
                   is a stack its kind is \"tendon\". A worked design: docs/restrained-columns.md"
 )]
 pub(super) struct DesignArguments {
-    /// Structure file (TOML): a restrained frame with the tendon in its [restrainer]
+    /// Structure file: a restrained frame with its tendon
     structure: PathBuf,
-    /// Discs to choose from: CSV with outer_diameter_mm, inner_diameter_mm, thickness_mm, cone_height_mm (or
-    /// free_height_mm), and where known reduced_thickness_mm, mass_kg, price, name
+    /// Catalogue of discs (CSV), e.g. configs/structures/disc-springs.csv
     #[arg(long, value_name = "FILE.csv")]
     catalogue: PathBuf,
-    /// Secant stiffness of springs and tendon, N/m, at the travel --at-m
+    /// Target secant stiffness of springs and tendon, N/m, at --at-m
     #[arg(
         long, value_name = "K", group = "target", help_heading = TARGET, allow_negative_numbers = true,
         value_parser = number
     )]
     stiffness_n_m: Option<f64>,
-    /// Displacement capacity, m
+    /// Target displacement capacity, m
     #[arg(
         long, value_name = "M", group = "target", help_heading = TARGET, allow_negative_numbers = true,
         value_parser = number
     )]
     capacity_m: Option<f64>,
-    /// The capacity that the spectrum of this result asks for: demand times safety factor
+    /// Target the capacity required by the spectrum of this result
     #[arg(long, value_name = "RESULT", group = "target", help_heading = TARGET)]
     urs: Option<PathBuf>,
-    /// A force that stays after uplift
+    /// Target zero stiffness after uplift
     #[arg(long, group = "target", help_heading = TARGET)]
     zero_stiffness: bool,
-    /// A force that rises after uplift
+    /// Target positive stiffness after uplift
     #[arg(long, group = "target", help_heading = TARGET)]
     positive_stiffness: bool,
-    /// Travel of the deck at which a stiffness counts, m [default: twice the width of a column]
+    /// Displacement of the deck for a stiffness, m [default: two column widths]
     #[arg(long, value_name = "M", help_heading = TARGET, allow_negative_numbers = true, value_parser = number)]
     at_m: Option<f64>,
     /// Site [default: the only one]
@@ -69,28 +68,28 @@ pub(super) struct DesignArguments {
     safety_factor: f64,
     #[command(flatten)]
     limits: LimitArguments,
-    /// Size stoppers that engage at this deformation of the springs, m
+    /// Spring deformation at which stoppers engage, m
     #[arg(
         long, value_name = "M", requires = "stopper_stiffness_n_m", help_heading = STOPPER,
         allow_negative_numbers = true, value_parser = number
     )]
     stopper_gap_m: Option<f64>,
-    /// Stiffness EA/L of their rods, N/m
+    /// Stiffness EA/L of the stoppers' rods, N/m
     #[arg(
         long, value_name = "K", requires = "stopper_gap_m", help_heading = STOPPER, allow_negative_numbers = true,
         value_parser = number
     )]
     stopper_stiffness_n_m: Option<f64>,
-    /// Rank by mass, length or price, or by what the target is missed by
+    /// Rank by target, mass, length or price
     #[arg(long, value_enum, default_value_t = By::Mass, help_heading = OUTPUT)]
     rank: By,
-    /// Most stacks that are printed
+    /// Number of stacks to print
     #[arg(long, value_name = "N", default_value_t = 12, help_heading = OUTPUT)]
     most: usize,
-    /// Tell what imperfections do to this stack, as the list calls it, e.g. "6 x 2 x 160/82/10" [default: the first]
+    /// Stack whose tolerances are reported [default: the first]
     #[arg(long, value_name = "STACK", help_heading = OUTPUT)]
     tolerances_of: Option<String>,
-    /// Write every stack to this CSV file
+    /// Write every stack
     #[arg(short, long, value_name = "FILE.csv", help_heading = OUTPUT)]
     output: Option<PathBuf>,
     /// Print JSON
@@ -109,25 +108,25 @@ const OUTPUT: &str = "Output";
 /// What limits a stack.
 #[derive(Debug, Args)]
 struct LimitArguments {
-    /// By how much a stiffness may miss its target, as a share of it
+    /// Relative tolerance of a stiffness
     #[arg(
         long, value_name = "SHARE", default_value_t = 0.1, help_heading = LIMITS, allow_negative_numbers = true,
         value_parser = number
     )]
     tolerance: f64,
-    /// By how much a capacity may exceed what is asked for, as a share of it
+    /// Relative tolerance of a capacity
     #[arg(
         long, value_name = "SHARE", default_value_t = 0.25, help_heading = LIMITS, allow_negative_numbers = true,
         value_parser = number
     )]
     excess: f64,
-    /// Share of its stroke that a stack may be pressed by: 1 is flat, 0.75 lets it last
+    /// Largest share of the stroke: 1 is flat, 0.75 for durability
     #[arg(
         long, value_name = "SHARE", default_value_t = 1.0, help_heading = LIMITS, allow_negative_numbers = true,
         value_parser = number
     )]
     stroke: f64,
-    /// Factor between the tendon's yield and its largest force
+    /// Safety factor on the tendon's yield
     #[arg(
         long, value_name = "FS", default_value_t = 1.5, help_heading = LIMITS, allow_negative_numbers = true,
         value_parser = number
@@ -139,16 +138,16 @@ struct LimitArguments {
     /// Largest outer diameter, m
     #[arg(long, value_name = "M", help_heading = LIMITS, allow_negative_numbers = true, value_parser = number)]
     largest_diameter_m: Option<f64>,
-    /// Least inner diameter, m: what has to pass through
+    /// Smallest inner diameter, m
     #[arg(long, value_name = "M", help_heading = LIMITS, allow_negative_numbers = true, value_parser = number)]
     least_inner_diameter_m: Option<f64>,
     /// Largest height of the unloaded stack, m
     #[arg(long, value_name = "M", help_heading = LIMITS, allow_negative_numbers = true, value_parser = number)]
     largest_length_m: Option<f64>,
-    /// Most discs in the same sense
+    /// Most discs in parallel
     #[arg(long, value_name = "N", default_value_t = 2, help_heading = LIMITS)]
     parallel: u32,
-    /// Most packets in alternate sense
+    /// Most packets in series
     #[arg(long, value_name = "N", default_value_t = 40, help_heading = LIMITS)]
     springs: u32,
 }
