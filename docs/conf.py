@@ -1,0 +1,33 @@
+"""The book: `make book` builds it into target/book without network."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent / "_ext"))
+
+project = "uplift"
+author = "the authors of uplift"
+copyright = "the authors of uplift, MIT or Apache-2.0"
+
+extensions = ["myst_parser", "sphinx.ext.napoleon", "mathml", "python_api"]
+source_suffix = {".md": "markdown"}
+exclude_patterns = ["_build", "_ext", "notebooks"]
+
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4
+# a $ in running text is mathematics only where it hugs what it encloses
+myst_dmath_double_inline = False
+suppress_warnings = ["myst.header"]
+html_math_renderer = "mathml"
+default_role = "code"
+napoleon_use_rtype = False
+
+html_theme = "furo"
+html_title = "uplift"
+html_theme_options = {"navigation_with_keys": True}
+html_copy_source = False
+html_show_sourcelink = False
+html_show_sphinx = False
+html_last_updated_fmt = None
+# the same book for the same text
+html_permalinks = True
