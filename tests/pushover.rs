@@ -475,7 +475,7 @@ fn what_is_typed_wrong() {
     );
 }
 
-/// The blocks of docs/restrained-columns.md that begin with `$ uplift`: what they print is what is printed.
+/// The block of docs/restrained-columns.md that begins with `$ uplift`: what it shows is what is printed.
 // Last digits belong to a machine's mathematical functions.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[test]
