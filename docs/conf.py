@@ -11,7 +11,7 @@ copyright = "the authors of uplift, MIT or Apache-2.0"
 
 extensions = ["myst_parser", "sphinx.ext.napoleon", "mathml", "python_api"]
 source_suffix = {".md": "markdown"}
-exclude_patterns = ["_build", "_ext", "notebooks"]
+exclude_patterns = ["_ext", "_static", "notebooks"]
 
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
@@ -25,6 +25,8 @@ napoleon_use_rtype = False
 html_theme = "furo"
 html_title = "uplift"
 html_theme_options = {"navigation_with_keys": True}
+html_static_path = ["_static"]
+html_css_files = ["book.css"]
 html_copy_source = False
 html_show_sourcelink = False
 html_show_sphinx = False

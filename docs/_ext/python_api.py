@@ -73,7 +73,8 @@ def entries(node, docs):
         seen.add(member.name)
         doc, marks = own(f"{node.name}.{member.name}", member), decorators(member)
         if "property" in marks or "cached_property" in marks:
-            lines += described("property", member.name, doc, "   ")
+            # those without a text of their own are among the attributes of the class
+            lines += described("property", member.name, doc, "   ") if doc else []
         else:
             kind = "classmethod" if "classmethod" in marks else "method"
             lines += described(kind, f"{member.name}({signature(member, 'staticmethod' not in marks)})", doc, "   ")
