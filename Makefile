@@ -22,7 +22,7 @@ ifeq ($(wildcard $(or $(CARGO_TARGET_DIR),$(CARGO_BUILD_TARGET_DIR),target)/debu
 export CARGO_INCREMENTAL ?= 0
 endif
 
-.PHONY: run build install wheel dist test tests-built test-long check test-cluster torture doc-figures lint docs \
+.PHONY: run build install wheel dist test tests-built test-long check test-cluster torture doc-figures doc-outputs lint docs \
 	book python sbom notices bench fuzz clean
 
 run: build
@@ -48,6 +48,10 @@ install: build
 # (docs/contributing.md).
 doc-figures:
 	UPDATE_DOCS=1 cargo test --locked --workspace --test end_to_end figures:: -- --include-ignored
+
+# What the documents show of commands, written anew where it differs.
+doc-outputs: build
+	tests/outputs --program $(UPLIFT) --update
 
 # Crates, the built program, its result file from Python; the packages for that arrive while the tests are compiled.
 test:
