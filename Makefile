@@ -22,8 +22,8 @@ ifeq ($(wildcard $(or $(CARGO_TARGET_DIR),$(CARGO_BUILD_TARGET_DIR),target)/debu
 export CARGO_INCREMENTAL ?= 0
 endif
 
-.PHONY: run build install wheel dist test tests-built test-long check test-cluster torture doc-figures doc-outputs lint \
-	docs book python sbom notices bench fuzz clean
+.PHONY: run build install wheel dist test tests-built test-long check test-cluster torture doc-figures doc-outputs \
+	lint docs book python sbom notices bench fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
