@@ -15,9 +15,6 @@ exclude_patterns = ["_ext", "_static", "notebooks"]
 
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
-# a $ in running text is mathematics only where it hugs what it encloses
-myst_dmath_double_inline = False
-suppress_warnings = ["myst.header"]
 html_math_renderer = "mathml"
 default_role = "code"
 napoleon_use_rtype = False
@@ -30,6 +27,3 @@ html_css_files = ["book.css"]
 html_copy_source = False
 html_show_sourcelink = False
 html_show_sphinx = False
-html_last_updated_fmt = None
-# the same book for the same text
-html_permalinks = True
