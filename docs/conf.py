@@ -17,6 +17,7 @@ myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 html_math_renderer = "mathml"
 default_role = "code"
+highlight_language = "none"
 napoleon_use_rtype = False
 
 html_theme = "furo"
