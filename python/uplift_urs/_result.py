@@ -64,6 +64,11 @@ def open_result(path: _PathLike, measure: str | None = None) -> Result:
     return Result(path, measure)
 
 
+def _has_arrays(group: Mapping[str, Any]) -> bool:
+    """Whether it holds more than groups."""
+    return any(not hasattr(item, "keys") for item in group.values())
+
+
 class Result(StructureCommands):
     """A result file, seen by one of its intensity measures.
 
@@ -113,8 +118,7 @@ class Result(StructureCommands):
         found: list[str] = []
         with open_file(self.path) as file:
             file.visititems(lambda name, item: found.append(name) if hasattr(item, "keys") else None)
-            # those that hold more than groups
-            return [group for group in found if any(not hasattr(item, "keys") for item in file[group].values())]
+            return [group for group in found if _has_arrays(file[group])]
 
     @property
     def records(self) -> Dataset:
@@ -368,7 +372,8 @@ class Result(StructureCommands):
         return ValueError(f"{self.path}: has no {place}: {remedy}")
 
     def _place(self, group: str) -> str:
-        return group if "/" in group or group in ("records", "spectra", "design", "shake_table") else self._own(group)
+        with open_file(self.path) as file:
+            return group if "/" in group or _has_arrays(file.get(group, {})) else self._own(group)
 
     def _own(self, group: str) -> str:
         return f"{group}/{self.measure}"

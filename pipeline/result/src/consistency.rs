@@ -1,11 +1,13 @@
 //! What a result knows of the consistency of its records with the hazard.
 
+use uplift_consistency::{Diagnosis, Repaired};
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
+use uplift_risk::Ordinate;
 
 use super::declared::{Group, Quantity, group, of_measure};
 use super::file::ResultFile;
-use super::layout::axis::{self, POE, RATE, SITE, STRENGTH};
+use super::layout::axis::{self, KNOT, POE, RATE, RECORD, SITE, STRENGTH};
 use super::spectra::{Fit, Fits, regression};
 use crate::error::ResultError;
 
@@ -66,23 +68,68 @@ group! {
 }
 
 group! {
-    /// Levels that weighted records bring.
-    pub const REPAIRED_LEVEL: Array<2> = CONSISTENCY.path;
-    "<other>_repaired" [SITE, RATE] F64 "<other_unit>" "level that the weighted records bring, <label>"
-        = |of, at| of[at];
+    /// What else was found of the records at each site.
+    pub const DIAGNOSES: Diagnosis = CONSISTENCY.path;
+    "<other>_rms" [SITE] Made "1" "root mean square of ln(implied/site)"
+        = |of, _at| of.deviation.as_ref().map_or(f64::NAN, |deviation| deviation.rms);
+    "<other>_times_as_often" [SITE, POE] Made "1" "how many times as often as it should the site's level is reached"
+        = |of, at| of.targets[at].times_as_often.unwrap_or(f64::NAN);
+    "scale_factor_05" [SITE, POE] Made "1" "5 % of the scale factors"
+        ("5 % of the factors that records are multiplied by at the level of the probability")
+        = |of, at| of.targets[at].scale_factors.percentiles[0];
+    "scale_factor_50" [SITE, POE] Made "1" "median of the scale factors"
+        = |of, at| of.targets[at].scale_factors.percentiles[1];
+    "scale_factor_95" [SITE, POE] Made "1" "95 % of the scale factors"
+        = |of, at| of.targets[at].scale_factors.percentiles[2];
+    "scale_factors_outside" [SITE, POE] Made "1" "share of the scale factors outside consistency.scale_factors"
+        ("share of them outside `consistency.scale_factors`") = |of, at| of.targets[at].scale_factors.outside_limits;
+    "effective_events" [SITE, POE] Made "1" "effective earthquakes"
+        ("effective earthquakes there; NaN where they are not known")
+        = |of, at| of.stripes[of.targets[at].stripe].effective_events.unwrap_or(f64::NAN);
 }
 
 group! {
-    /// Effective records under the weights.
-    pub const EFFECTIVE_RECORDS: Array<2> = CONSISTENCY.path;
-    "effective_records" [SITE, "<im>_level"] F64 "1" "effective records under the weights" = |of, at| of[at];
+    /// Levels that the weighted records of each site bring.
+    pub const REPAIRED_LEVELS: Repaired = CONSISTENCY.path;
+    "<other>_repaired" [SITE, RATE] Made "<other_unit>" "level that the weighted records bring, <label>"
+        = |of, at| of.diagnosis.deviation.as_ref().map_or(f64::NAN, |deviation| deviation.implied_levels[at]);
 }
 
 group! {
-    /// The spectra of weighted records.
-    pub const REPAIRED_U_M: Array<3> = CONSISTENCY.path;
+    /// The weights of each site's repair, and what the records are under them.
+    pub const REPAIRS: Repaired = CONSISTENCY.path;
+    "effective_records" [SITE, "<im>_level"] Made "1" "effective records under the weights"
+        ("effective records under the weights; after a repair, as all that follows")
+        = |of, at| of.diagnosis.stripes[at].effective_records;
+    "exponent" [SITE, KNOT] Made "1" "exponent of the weights" = |of, at| of.fit.exponents[at];
+    "knot" [SITE, KNOT] Made "<other_unit>" "<label> of the knots"
+        ("levels of the other measure at which the exponents hold") = |of, at| of.knot_levels[at];
+    "iterations" [SITE] Made "1" "steps of the fit" = |of, _at| f64::from(of.fit.iterations);
+    "mean_ln_ratio" [SITE, "<im>_level"] Made "1" "mean of ln(other measure/measure scaled to) under the weights"
+        = |of, at| of.diagnosis.stripes[at].mean_ln_ratio;
+    "sd_ln_ratio" [SITE, "<im>_level"] Made "1" "standard deviation of it"
+        = |of, at| of.diagnosis.stripes[at].sd_ln_ratio;
+}
+
+group! {
+    /// The weights of all runs; kept where it is asked for.
+    pub const WEIGHTS: Repaired = CONSISTENCY.path;
+    "weight" [SITE, "<im>_level", RECORD] Made "1" "share of the record at the level"
+        ("share of each record at each level; only with `--keep-weights`") = |of, at| of.weights.shares()[at];
+}
+
+group! {
+    /// The spectra of weighted records, a row each ordinate.
+    pub const REPAIRED_SPECTRA: Ordinate = CONSISTENCY.path;
     "u_m" [SITE, POE, STRENGTH] F64 "m" "uniform risk displacement of the weighted records"
-        ("the spectra of the weighted records, as `/urs`; NaN where there is no repair") = |of, at| of[at];
+        ("the spectra of the weighted records, as `/urs`; NaN where there is no repair") = |of, _at| of.displacement_m;
+    "lower_tail_share" [SITE, POE, STRENGTH] Made "1" "share of its risk from below the first stripe"
+        ("as that of `/urs`; NaN where there is no repair") = |of, _at| of.lower_tail_share;
+    "upper_tail_share" [SITE, POE, STRENGTH] Made "1" "share of its risk from above the last stripe"
+        ("as that of `/urs`; NaN where there is no repair") = |of, _at| of.upper_tail_share;
+    "flag" [SITE, POE, STRENGTH] Flag "1"
+        "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored, 3 no repair"
+        ("as that of `/urs`, and 3: no repair") = |of, _at| of.flag;
 }
 
 /// Names of the arrays of the analysis by a measure, about another one.
@@ -137,7 +184,7 @@ impl ResultFile {
 
     /// Whether there are spectra of weighted records.
     pub fn has_repair(&self) -> bool {
-        self.measures().into_iter().any(|own| REPAIRED_U_M.is_in(self, &of_measure(own)))
+        self.measures().into_iter().any(|own| REPAIRED_SPECTRA.is_in(self, &of_measure(own)))
     }
 
     fn consistency_of(
@@ -173,13 +220,13 @@ impl ResultFile {
             fits: None,
         };
         CONSISTENCY.read(self, &names, &lengths, &mut found)?;
-        if REPAIRED_U_M.is_in(self, &names) {
-            let records = EFFECTIVE_RECORDS.read_array(self, &names, [(SITE, sites), (&level, levels)])?;
+        if REPAIRED_SPECTRA.is_in(self, &names) {
+            let records = REPAIRS.read_array(self, &names, [(SITE, sites), (&level, levels)])?;
             let least = self.least_effective(scaled_to, &axes.sites, &found.rate_per_year, &records)?;
             (found.effective_records, found.least_effective) = (Some(records), Some(least));
-            found.repaired_level = Some(REPAIRED_LEVEL.read_array(self, &names, [(SITE, sites), (RATE, rates)])?);
+            found.repaired_level = Some(REPAIRED_LEVELS.read_array(self, &names, [(SITE, sites), (RATE, rates)])?);
             let spectrum = [(SITE, sites), (POE, poes), (STRENGTH, strengths)];
-            found.u_m = Some(REPAIRED_U_M.read_array(self, &names, spectrum)?);
+            found.u_m = Some(REPAIRED_SPECTRA.read_array(self, &names, spectrum)?);
             found.fits = Some(self.repaired_fits(scaled_to, by_poe)?);
         }
         Ok(found)

@@ -12,6 +12,9 @@ use super::file::ResultFile;
 use super::spectra::{flag_number, flag_of};
 use crate::error::ResultError;
 
+/// The flag of an ordinate that does not exist, of records that could not be repaired.
+const NO_ORDINATE: u8 = 3;
+
 /// What stands in a result for the names in angle brackets of a declaration: `<im>`, `<site>`.
 pub type Names<'a> = &'a [(&'a str, &'a str)];
 
@@ -48,7 +51,7 @@ pub enum Field<T: 'static> {
     Flag(Place<T, OrdinateFlag>),
     /// Texts.
     Text(Place<T, String>),
-    /// Floats made of the value as they are written; nothing reads them back.
+    /// Floats made of the value as they are written; read back as an array alone, if at all.
     Made(fn(&T, usize) -> f64),
 }
 
@@ -162,10 +165,16 @@ impl<T> Quantity<T> {
         }
     }
 
+    /// Its axes; those with an empty name are not there.
+    fn axes(&self, names: Names<'_>) -> Vec<String> {
+        let axes = self.axes.iter().map(|axis| named(axis, names).into_owned());
+        axes.filter(|axis| !axis.is_empty()).collect()
+    }
+
     /// Its axes with their lengths.
-    fn shape(&self, names: Names<'_>, lengths: Lengths<'_>) -> Vec<(Cow<'static, str>, usize)> {
+    fn shape(&self, names: Names<'_>, lengths: Lengths<'_>) -> Vec<(String, usize)> {
         let length = |axis: &str| lengths.iter().find(|(name, _)| *name == axis).map_or(0, |(_, length)| *length);
-        self.axes.iter().map(|axis| named(axis, names)).map(|axis| (axis.clone(), length(&axis))).collect()
+        self.axes(names).into_iter().map(|axis| (axis.clone(), length(&axis))).collect()
     }
 
     fn write(
@@ -173,56 +182,56 @@ impl<T> Quantity<T> {
         writer: &mut LabelledWriter,
         path: &str,
         (names, lengths): (Names<'_>, Lengths<'_>),
-        value: &T,
+        rows: &[Option<&T>],
     ) -> Result<(), LabelledError> {
-        fn all<T, V, W>(value: &T, place: Place<T, V>, count: usize, of: impl Fn(&V) -> W) -> Vec<W> {
-            (0..count).map(|index| of((place.get)(value, index))).collect()
+        fn all<T, V: Clone>(rows: &[Option<&T>], each: usize, of: impl Fn(&T, usize) -> V, none: &V) -> Vec<V> {
+            let value = |row: Option<&T>, at| row.map_or_else(|| none.clone(), |row| of(row, at));
+            rows.iter().flat_map(|row| (0..each).map(|at| value(*row, at))).collect()
         }
         let shape = self.shape(names, lengths);
         let dims: &[&str] = &shape.iter().map(|(name, _)| name.as_ref()).collect::<Vec<_>>();
-        let count = shape.iter().map(|(_, length)| length).product();
+        let each = shape.iter().map(|(_, length)| length).product::<usize>() / rows.len().max(1);
         let (unit, long_name) = (&*named(self.unit, names), &*named(self.long_name, names));
         match self.field {
-            Field::F64(place) => writer.array_f64(path, dims, &all(value, place, count, Clone::clone), unit, long_name),
-            Field::U32(place) => writer.array_u32(path, dims, &all(value, place, count, Clone::clone), unit, long_name),
-            Field::Bool(place) => {
-                writer.array_u8(path, dims, &all(value, place, count, |&is| u8::from(is)), unit, long_name)
+            Field::F64(Place { get, .. }) => {
+                let values = all(rows, each, |row, at| *get(row, at), &f64::NAN);
+                writer.array_f64(path, dims, &values, unit, long_name)
             }
-            Field::Flag(place) => {
-                writer.array_u8(path, dims, &all(value, place, count, |&flag| flag_number(flag)), unit, long_name)
+            Field::Made(number) => writer.array_f64(path, dims, &all(rows, each, number, &f64::NAN), unit, long_name),
+            Field::U32(Place { get, .. }) => {
+                writer.array_u32(path, dims, &all(rows, each, |row, at| *get(row, at), &0), unit, long_name)
             }
-            Field::Text(place) => writer.array_text(path, dims, &all(value, place, count, Clone::clone), long_name),
-            Field::Made(number) => {
-                let numbers: Vec<f64> = (0..count).map(|index| number(value, index)).collect();
-                writer.array_f64(path, dims, &numbers, unit, long_name)
+            Field::Bool(Place { get, .. }) => {
+                writer.array_u8(path, dims, &all(rows, each, |row, at| u8::from(*get(row, at)), &0), unit, long_name)
+            }
+            Field::Flag(Place { get, .. }) => {
+                let flags = all(rows, each, |row, at| flag_number(*get(row, at)), &NO_ORDINATE);
+                writer.array_u8(path, dims, &flags, unit, long_name)
+            }
+            Field::Text(Place { get, .. }) => {
+                let texts = all(rows, each, |row, at| get(row, at).clone(), &String::new());
+                writer.array_text(path, dims, &texts, long_name)
             }
         }
     }
 
-    fn read(
-        &self,
-        file: &ResultFile,
-        path: &str,
-        shape: &[(Cow<'_, str>, usize)],
-        value: &mut T,
-    ) -> Result<(), ResultError> {
+    fn read(&self, file: &ResultFile, path: &str, shape: &[(String, usize)], value: &mut T) -> Result<(), ResultError> {
         fn fill<T, V>(value: &mut T, place: Place<T, V>, values: impl IntoIterator<Item = V>) {
             for (index, own) in values.into_iter().enumerate() {
                 *(place.get_mut)(value, index) = own;
             }
         }
-        let axes: Vec<(&str, usize)> = shape.iter().map(|(name, length)| (name.as_ref(), *length)).collect();
         let reader = &file.reader;
         match self.field {
-            Field::F64(place) => fill(value, place, file.checked(path, reader.array_f64(path)?, &axes)?),
-            Field::U32(place) => fill(value, place, file.checked(path, reader.array_u32(path)?, &axes)?),
-            Field::Text(place) => fill(value, place, file.checked(path, reader.array_text(path)?, &axes)?),
+            Field::F64(place) => fill(value, place, file.checked(path, reader.array_f64(path)?, shape)?),
+            Field::U32(place) => fill(value, place, file.checked(path, reader.array_u32(path)?, shape)?),
+            Field::Text(place) => fill(value, place, file.checked(path, reader.array_text(path)?, shape)?),
             Field::Bool(place) => {
-                let numbers = file.checked(path, reader.array_u8(path)?, &axes)?;
+                let numbers = file.checked(path, reader.array_u8(path)?, shape)?;
                 fill(value, place, numbers.into_iter().map(|number| number == 1));
             }
             Field::Flag(place) => {
-                let numbers = file.checked(path, reader.array_u8(path)?, &axes)?;
+                let numbers = file.checked(path, reader.array_u8(path)?, shape)?;
                 if let Some(unknown) = numbers.iter().find(|&&number| flag_of(number).is_none()) {
                     return Err(file.damaged(format!("{path} has the unknown flag {unknown}")));
                 }
@@ -246,19 +255,9 @@ impl<const N: usize> Group<Array<N>> {
         values: &[f64],
     ) -> Result<(), LabelledError> {
         let own = &self.quantities[0];
-        let axes: Vec<_> = own.axes.iter().map(|axis| named(axis, names)).collect();
+        let axes = own.axes(names);
         let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
         writer.array_f64(&self.path(own, names), &dims, values, &named(own.unit, names), &named(own.long_name, names))
-    }
-
-    /// Reads its only array.
-    pub(super) fn read_array(
-        &self,
-        file: &ResultFile,
-        names: Names<'_>,
-        lengths: [(&str, usize); N],
-    ) -> Result<Array<N>, ResultError> {
-        file.array(&self.first_path(names), lengths)
     }
 }
 
@@ -274,7 +273,7 @@ impl<const N: usize> Group<Array<N, u32>> {
         values: &[u32],
     ) -> Result<(), LabelledError> {
         let own = &self.quantities[0];
-        let axes: Vec<_> = own.axes.iter().map(|axis| named(axis, names)).collect();
+        let axes = own.axes(names);
         let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
         writer.array_u32(&self.path(own, names), &dims, values, &named(own.unit, names), &named(own.long_name, names))
     }
@@ -286,9 +285,14 @@ impl<T> Group<T> {
         self.path.split_once("/<").map_or(self.path, |(root, _)| root)
     }
 
+    /// Its path with names for what stands in angle brackets.
+    pub fn group(&self, names: Names<'_>) -> String {
+        named(self.path, names).into_owned()
+    }
+
     /// The group of one measure.
     pub fn of_measure(&self, measure: IntensityMeasure) -> String {
-        named(self.path, &of_measure(measure)).into_owned()
+        self.group(&of_measure(measure))
     }
 
     /// The path of an array of one measure.
@@ -321,9 +325,48 @@ impl<T> Group<T> {
         lengths: Lengths<'_>,
         value: &T,
     ) -> Result<(), LabelledError> {
+        self.write_rows(writer, names, lengths, [Some(value)])
+    }
+
+    /// Writes every array, each value of `rows` being a row of them along their first axes; a missing one is a row of
+    /// NaN, of 0 for counts, of empty texts.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write_rows<'a>(
+        &self,
+        writer: &mut LabelledWriter,
+        names: Names<'_>,
+        lengths: Lengths<'_>,
+        rows: impl IntoIterator<Item = Option<&'a T>>,
+    ) -> Result<(), LabelledError> {
+        let rows: Vec<_> = rows.into_iter().collect();
         self.quantities
             .iter()
-            .try_for_each(|quantity| quantity.write(writer, &self.path(quantity, names), (names, lengths), value))
+            .try_for_each(|quantity| quantity.write(writer, &self.path(quantity, names), (names, lengths), &rows))
+    }
+
+    /// Reads the first of its arrays, of floats.
+    pub(super) fn read_array<const N: usize>(
+        &self,
+        file: &ResultFile,
+        names: Names<'_>,
+        lengths: [(&str, usize); N],
+    ) -> Result<Array<N>, ResultError> {
+        file.array(&self.first_path(names), lengths)
+    }
+
+    /// The values of its array at `at`, of floats.
+    pub(super) fn read_floats(
+        &self,
+        at: usize,
+        file: &ResultFile,
+        names: Names<'_>,
+        lengths: Lengths<'_>,
+    ) -> Result<Vec<f64>, ResultError> {
+        let quantity = &self.quantities[at];
+        let (path, shape) = (self.path(quantity, names), quantity.shape(names, lengths));
+        file.checked(&path, file.reader.array_f64(&path)?, &shape)
     }
 
     /// Reads every array into `value`, which has a place for every value.
@@ -343,10 +386,10 @@ impl<T> Group<T> {
     #[cfg(test)]
     pub(super) fn rows(&self) -> String {
         let row = |quantity: &Quantity<T>| {
-            let Quantity { name, axes, unit, long_name, .. } = *quantity;
+            let Quantity { name, unit, long_name, .. } = *quantity;
             let note = if quantity.note.is_empty() { long_name } else { quantity.note };
             let unit = if quantity.element() == "text" { String::new() } else { format!(" {unit}") };
-            let (path, axes, element) = (self.path, axes.join(", "), quantity.element());
+            let (path, axes, element) = (self.path, quantity.axes(EXAMPLES).join(", "), quantity.element());
             named(&format!("| `{path}/{name}` | {axes} | {element} |{unit} | {note} |\n"), EXAMPLES).into_owned()
         };
         self.quantities.iter().map(row).collect()
@@ -356,6 +399,17 @@ impl<T> Group<T> {
 /// The names that `docs/hdf5-layout.md` shows.
 #[cfg(test)]
 const EXAMPLES: Names<'_> = &[
+    ("<curve>", "<site>/pgv"),
+    ("<axis>", "hazard_<site>_pgv"),
+    ("<quantity>", "strength_factor`, `restitution`, `uplift_displacement_m`, `capacity_m"),
+    ("<quantity_unit>", "1, 1, m, m"),
+    ("<line>", "LINE"),
+    ("<of_line>", ""),
+    ("<abscissa>", "ABSCISSA"),
+    ("<printed>", "printed_ABSCISSA"),
+    ("<motion>", "motion_<set>"),
+    ("<rounding>", ""),
+    ("<rounded>", ""),
     ("<lower>", "u05_m"),
     ("<median>", "u50_m"),
     ("<upper>", "u95_m"),
@@ -401,6 +455,9 @@ mod tests {
             RECORDS,
             MOTION_KEYS,
             INTENSITY,
+            DRAWN_STRUCTURE,
+            DRAWN_QUANTITY,
+            HAZARD_CURVE,
             PEAKS,
             IMPACTS,
             FACTORS,
@@ -410,9 +467,11 @@ mod tests {
             regression::GROUP,
             REPAIRED_FITS,
             CONSISTENCY,
-            REPAIRED_LEVEL,
-            EFFECTIVE_RECORDS,
-            REPAIRED_U_M,
+            DIAGNOSES,
+            REPAIRED_LEVELS,
+            REPAIRS,
+            WEIGHTS,
+            REPAIRED_SPECTRA,
             BANDS,
             SIMULTANEOUS_BANDS,
             INFERRED_BANDS,
@@ -436,8 +495,18 @@ mod tests {
             EFFICIENCY,
             TRENDS,
             FINDINGS,
+            SPECTRA,
+            ROUNDED_SPECTRA,
+            SET_SPECTRA,
+            MOTIONS,
+            RESTRAINED_DESIGN,
+            SOLITARY_DESIGN,
+            SOLITARY_CAPACITY,
             TABLE_EXCITATIONS,
             TABLE_TESTS,
+            TABLE_ORDER,
+            TABLE_SPECTRA,
+            DESIGN_SPECTRUM,
         ]
         .into_iter()
     }

@@ -3,12 +3,13 @@
 use serde::{Serialize, Serializer};
 use uplift_job::Array;
 use uplift_job::text::finite;
-use uplift_spectra::Noisy;
+use uplift_spectra::{Noisy, RestrainedExample, SolitaryExample};
 use uplift_structure::Rule;
 use uplift_study::Kind;
 
+use super::declared::{Names, group};
 use super::file::ResultFile;
-use super::layout::{axis, design};
+use super::layout::axis::{BOUND, RECORD_SET, RULE, SCALED_BY, SCALING};
 use crate::error::ResultError;
 
 /// The rules that a restrained bridge is designed by, in the order of the results.
@@ -21,6 +22,50 @@ pub const BOUNDS: [&str; 3] = ["value", "lowest", "highest"];
 pub fn bounds(noisy: Noisy) -> [f64; 3] {
     [noisy.value, noisy.lowest, noisy.highest]
 }
+
+group! {
+    /// The design of a restrained bridge, a row each; of [`VALUES`], or of what [`ROUNDING`] does to them.
+    pub const RESTRAINED_DESIGN: RestrainedExample = "/design";
+    "u_dem_zs_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "m"
+        "demand on the zero-stiffness system<rounded>" ("oscillators: demand on the zero-stiffness system")
+        = |of, at| bounds(of.zero_stiffness_m)[at];
+    "u_cap_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "m" "designed capacity (Eq. 3.15)<rounded>"
+        = |of, at| bounds(of.capacity_m)[at];
+    "u_dem_th_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "m"
+        "demand on the designed system by time histories<rounded>" = |of, at| bounds(of.time_history_m)[at];
+    "u_dem_rule_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "m"
+        "demand on the designed system by the rule<rounded>" = |of, at| bounds(of.rule_m)[at];
+    "error<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "1"
+        "(rule - time histories)/time histories<rounded>" = |of, at| bounds(of.error)[at];
+}
+
+group! {
+    /// The same of a block.
+    pub const SOLITARY_DESIGN: SolitaryExample = RESTRAINED_DESIGN.path;
+    "tan_alpha<rounding>" [RECORD_SET, SCALING, SCALED_BY, BOUND] Made "1" "design slenderness tan(alpha_D)<rounded>"
+        ("blocks: design slenderness; NaN where the capacity line meets no demand")
+        = |of, at| bounds(of.design_tangent)[at];
+    "u_endless_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, BOUND] Made "m"
+        "displacement of the endless block there<rounded>" = |of, at| bounds(of.endless_m)[at];
+    "u_block_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, BOUND] Made "m"
+        "displacement of the block itself there<rounded>" = |of, at| bounds(of.block_m)[at];
+    "error<rounding>" [RECORD_SET, SCALING, SCALED_BY, BOUND] Made "1" "(endless - block)/block<rounded>"
+        = |of, at| bounds(of.error)[at];
+}
+
+group! {
+    /// Capacities of the designed blocks.
+    pub const SOLITARY_CAPACITY: SolitaryExample = RESTRAINED_DESIGN.path;
+    "capacity_m" [RECORD_SET, SCALING, SCALED_BY] Made "m" "width 2b of the designed block, its capacity"
+        = |of, _at| of.capacity_m;
+}
+
+/// Names of the arrays of designs that hold values with their range over the sweep.
+pub const VALUES: [(&str, &str); 2] = [("<rounding>", ""), ("<rounded>", "")];
+/// Names of those that hold the same values with their range over scale factors that differ by rounding; absent in
+/// earlier results.
+pub const ROUNDING: [(&str, &str); 2] =
+    [("<rounding>", "_rounding"), ("<rounded>", ", with scale factors some 1e-15 smaller and larger")];
 
 /// The design example of a result.
 #[derive(Debug, Clone, PartialEq)]
@@ -123,9 +168,6 @@ pub fn rule_names(rule: Rule) -> [&'static str; 2] {
     }
 }
 
-/// A quantity of a design table: its name, its array, and what the array is multiplied by.
-type Quantity = (String, &'static str, f64);
-
 impl Serialize for DesignRow {
     /// The value beside its range; null where it does not exist or is infinite.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -153,11 +195,12 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn design(&self) -> Result<Option<StoredDesign>, ResultError> {
         self.require(Kind::Displacement)?;
-        if !self.reader.exists(design::GROUP) {
+        let group = RESTRAINED_DESIGN.path;
+        if !self.reader.exists(group) {
             return Ok(None);
         }
-        let number = |name: &str| self.reader.attribute_f64(design::GROUP, name);
-        let designed = if self.reader.exists(&design::array("u_cap_m")) {
+        let number = |name: &str| self.reader.attribute_f64(group, name);
+        let designed = if RESTRAINED_DESIGN.is_in(self, &VALUES) {
             StoredDesigned::Bridge
         } else {
             StoredDesigned::Block { height_m: number("height_m")?, endless_height_m: number("endless_height_m")? }
@@ -166,49 +209,42 @@ impl ResultFile {
             safety_factor: number("safety_factor")?,
             percentile: number("percentile")?,
             noise_relative: number("noise_relative")?,
-            noise_points: self.reader.attribute_u64(design::GROUP, "noise_points")?,
+            noise_points: self.reader.attribute_u64(group, "noise_points")?,
             designed,
             rows: self.design_rows(designed)?,
         }))
     }
 
     fn design_rows(&self, designed: StoredDesigned) -> Result<Vec<DesignRow>, ResultError> {
-        let (sets, to) = (self.reader.axis_text(axis::RECORD_SET)?, self.reader.axis_text(axis::SCALING)?);
-        let by = self.reader.axis_text(axis::SCALED_BY)?;
-        let (rules, quantities): (Vec<Option<&'static str>>, [Quantity; 4]) = match designed {
-            StoredDesigned::Bridge => (
-                RULES.map(|rule| Some(rule_names(rule)[1])).to_vec(),
-                [
-                    ("u_cap_m".to_owned(), "u_cap_m", 1.0),
-                    ("u_dem_TH_m".to_owned(), "u_dem_th_m", 1.0),
-                    ("u_dem_rule_m".to_owned(), "u_dem_rule_m", 1.0),
-                    ("error_pct".to_owned(), "error", 100.0),
-                ],
-            ),
-            StoredDesigned::Block { height_m, endless_height_m } => (
-                vec![None],
-                [
-                    ("tan_alpha_design".to_owned(), "tan_alpha", 1.0),
-                    (StoredDesigned::block_quantity(endless_height_m), "u_endless_m", 1.0),
-                    (StoredDesigned::block_quantity(height_m), "u_block_m", 1.0),
-                    ("error_pct".to_owned(), "error", 100.0),
-                ],
-            ),
+        let [sets, to, by] = [RECORD_SET, SCALING, SCALED_BY].map(|axis| self.reader.axis_text(axis));
+        let (sets, to, by) = (sets?, to?, by?);
+        // what the table has, by the names of its quantities, and where it begins among the arrays
+        let (rules, first, quantities) = match designed {
+            StoredDesigned::Bridge => {
+                let quantities = ["u_cap_m", "u_dem_TH_m", "u_dem_rule_m", "error_pct"].map(str::to_owned);
+                (RULES.map(|rule| Some(rule_names(rule)[1])).to_vec(), 1, quantities)
+            }
+            StoredDesigned::Block { height_m, endless_height_m } => {
+                let [endless, block] = [endless_height_m, height_m].map(StoredDesigned::block_quantity);
+                (vec![None], 0, ["tan_alpha_design".to_owned(), endless, block, "error_pct".to_owned()])
+            }
         };
-        let mut axes = vec![(axis::RECORD_SET, sets.len()), (axis::SCALING, to.len()), (axis::SCALED_BY, by.len())];
-        axes.extend((rules.len() > 1).then_some((axis::RULE, rules.len())));
-        axes.push((axis::BOUND, BOUNDS.len()));
+        let ways = [(RECORD_SET, sets.len()), (SCALING, to.len()), (SCALED_BY, by.len())];
+        let lengths = [ways[0], ways[1], ways[2], (RULE, rules.len()), (BOUND, BOUNDS.len())];
+        // [set, scaling, scaled_by, rule, bound]
+        let read = |at: usize, names: Names<'_>| -> Result<Array<5>, ResultError> {
+            let values = match designed {
+                StoredDesigned::Bridge => RESTRAINED_DESIGN.read_floats(at, self, names, &lengths)?,
+                StoredDesigned::Block { .. } => SOLITARY_DESIGN.read_floats(at, self, names, &lengths)?,
+            };
+            Array::new(lengths.map(|(_, length)| length), values).map_err(|error| self.damaged(error))
+        };
+        let is_rounded = RESTRAINED_DESIGN.is_in(self, &ROUNDING) || SOLITARY_DESIGN.is_in(self, &ROUNDING);
         let mut columns = Vec::new();
-        let read = |path: &str| -> Result<Array<5>, ResultError> {
-            let values = self.checked(path, self.reader.array_f64(path)?, &axes)?;
-            // [set, scaling, scaled_by, rule, bound]
-            Array::new([sets.len(), to.len(), by.len(), rules.len(), BOUNDS.len()], values)
-                .map_err(|error| self.damaged(format!("{path}: {error}")))
-        };
-        for (quantity, name, factor) in quantities {
-            let rounding = design::rounding(name);
-            let rounding = if self.reader.exists(&rounding) { Some(read(&rounding)?) } else { None };
-            columns.push((quantity, factor, read(&design::array(name))?, rounding));
+        for (at, quantity) in (first..).zip(quantities) {
+            let factor = if quantity.ends_with("_pct") { 100.0 } else { 1.0 };
+            let rounding = is_rounded.then(|| read(at, &ROUNDING)).transpose()?;
+            columns.push((quantity, factor, read(at, &VALUES)?, rounding));
         }
         let mut rows = Vec::new();
         for (set, record_set) in sets.iter().enumerate() {

@@ -1,14 +1,17 @@
 //! The displacement spectra of a result, as figures and tables read them.
 
+use std::collections::BTreeSet;
+
 use serde::Serialize;
 use uplift_job::Array;
 use uplift_job::text::metres;
 use uplift_spectra::Noisy;
-use uplift_study::Kind;
+use uplift_study::{Kind, Structures};
 
-use super::design::BOUNDS;
+use super::declared::group;
+use super::design::{BOUNDS, bounds};
 use super::file::ResultFile;
-use super::layout::{axis, set, spectra};
+use super::layout::axis::{self, BOUND, PERCENTILE, RECORD_SET, SCALED_BY, SCALING};
 use crate::error::ResultError;
 
 /// The displacement spectra of a result file.
@@ -84,7 +87,7 @@ impl StoredStructures {
     }
 
     /// The axes that tell lines of a spectrum apart, with their lengths.
-    fn line_axes(&self) -> Vec<(&'static str, usize)> {
+    pub fn line_axes(&self) -> Vec<(&'static str, usize)> {
         match self {
             Self::Oscillators { uplift_displacement_m, capacity_m } => {
                 vec![(axis::UPLIFT_DISPLACEMENT, uplift_displacement_m.len()), (axis::CAPACITY, capacity_m.len())]
@@ -93,21 +96,142 @@ impl StoredStructures {
         }
     }
 
-    /// The axis of those abscissae at which a run prints its spectra.
-    fn printed_axis(&self) -> &'static str {
+    /// The axes of a spectrum's abscissa, and of those of it at which a run prints its spectra.
+    pub fn abscissa_axes(&self) -> [&'static str; 2] {
         match self {
-            Self::Oscillators { .. } => axis::PRINTED_STRENGTH,
-            Self::Blocks { .. } => axis::PRINTED_SLENDERNESS,
+            Self::Oscillators { .. } => [axis::STRENGTH, axis::PRINTED_STRENGTH],
+            Self::Blocks { .. } => [axis::SLENDERNESS, axis::PRINTED_SLENDERNESS],
         }
     }
 
-    /// The axis of a spectrum's abscissa.
-    fn abscissa_axis(&self) -> &'static str {
-        match self {
-            Self::Oscillators { .. } => axis::STRENGTH,
-            Self::Blocks { .. } => axis::SLENDERNESS,
+    /// Names of the axes of a spectrum.
+    pub fn names(&self) -> [(&'static str, &'static str); 4] {
+        let [line, of_line] = match self {
+            Self::Oscillators { .. } => [axis::UPLIFT_DISPLACEMENT, axis::CAPACITY],
+            Self::Blocks { .. } => [axis::HEIGHT, ""],
+        };
+        let [abscissa, printed] = self.abscissa_axes();
+        [("<line>", line), ("<of_line>", of_line), ("<abscissa>", abscissa), ("<printed>", printed)]
+    }
+}
+
+impl From<&Structures> for StoredStructures {
+    fn from(structures: &Structures) -> Self {
+        match structures {
+            Structures::Oscillators(family) => Self::Oscillators {
+                uplift_displacement_m: family.uplift_displacement_m.to_vec(),
+                capacity_m: family.capacity_m.clone(),
+            },
+            Structures::Blocks(family) => Self::Blocks { height_m: family.height_m.to_vec() },
         }
     }
+}
+
+/// What a set asks of the structures. A way of scaling is `[to, by]` of the study; a line is a combination of uplift
+/// displacement and capacity, or a height; the abscissa is a strength or a slenderness.
+#[derive(Debug, Clone)]
+pub struct SetSpectra {
+    /// Peak displacements over `[way, line, abscissa, motion]`, m; infinite where the structure overturned.
+    pub displacement_m: Vec<f64>,
+    /// What each motion is multiplied by, over `[way, motion]`.
+    pub factors: Vec<f64>,
+    /// Their percentiles over `[way, line, percentile, abscissa]`, m.
+    pub percentile_m: Vec<f64>,
+    /// Shares of the motions under which the structure overturned, over `[way, line, abscissa]`.
+    pub overturned: Vec<f64>,
+    /// Largest abscissa at which a percentile is infinite, over `[way, line, percentile]`; NaN where it never is.
+    pub critical: Vec<f64>,
+}
+
+group! {
+    /// Percentiles over the motions of each set.
+    pub const SPECTRA: SetSpectra = "/spectra";
+    "u_m" [RECORD_SET, SCALING, SCALED_BY, "<line>", "<of_line>", PERCENTILE, "<abscissa>"] F64 "m"
+        "percentile of the peak displacements, infinite where it falls on an overturned structure"
+        ("percentile of the peak displacements; `inf` where it falls on a motion under which the structure overturns")
+        = |of, at| of.percentile_m[at];
+    "overturned" [RECORD_SET, SCALING, SCALED_BY, "<line>", "<of_line>", "<abscissa>"] F64 "1"
+        "share of the motions under which the structure overturns" = |of, at| of.overturned[at];
+    "critical" [RECORD_SET, SCALING, SCALED_BY, "<line>", "<of_line>", PERCENTILE] F64 "1"
+        "largest <abscissa> at which the percentile is infinite"
+        ("largest abscissa at which the percentile is infinite: the figures draw a line to the right of it; NaN where \
+          it stands throughout") = |of, at| of.critical[at];
+}
+
+group! {
+    /// Printed percentiles of each set with their range over scale factors that differ by rounding.
+    pub const ROUNDED_SPECTRA: Vec<Noisy> = SPECTRA.path;
+    "u_m_rounding" [RECORD_SET, SCALING, SCALED_BY, "<line>", "<of_line>", PERCENTILE, "<printed>", BOUND]
+        Made "m" "printed percentile of the peak displacements, with scale factors some 1e-15 smaller and larger"
+        ("the percentile there, and the lowest and highest that it takes with all scale factors up to 4e-15 smaller \
+          and larger ([method](method.md), Section 1.5); absent in earlier results")
+        = |of, at| bounds(of[at / BOUNDS.len()])[at % BOUNDS.len()];
+}
+
+group! {
+    /// Every peak displacement of a set.
+    pub const SET_SPECTRA: SetSpectra = MOTIONS.path;
+    "u_m" [SCALING, SCALED_BY, "<line>", "<of_line>", "<abscissa>", "<motion>"] F64 "m"
+        "peak displacement, infinite where overturned" ("every peak displacement; `inf` = overturned")
+        = |of, at| of.displacement_m[at];
+    "factor" [SCALING, SCALED_BY, "<motion>"] F64 "1" "factor on the motion" ("what the motion is multiplied by")
+        = |of, at| of.factors[at];
+}
+
+/// A motion of a set: a horizontal component of a record.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StoredMotion {
+    /// PGA, unscaled \[g\].
+    pub pga_g: f64,
+    /// PGV, unscaled \[cm/s\].
+    pub pgv_cm_s: f64,
+    /// PGA of the record \[g\].
+    pub record_pga_g: f64,
+    /// PGV of the record \[cm/s\].
+    pub record_pgv_cm_s: f64,
+    /// Its record.
+    pub record: String,
+    /// `h1` or `h2`.
+    pub component: String,
+    /// Its earthquake; empty if not known.
+    pub event: String,
+    /// Its station; empty if not known.
+    pub station: String,
+    /// Moment magnitude; NaN if not known.
+    pub magnitude: f64,
+    /// Closest distance to the rupture \[km\]; NaN if not known.
+    pub rrup_km: f64,
+    /// Mean shear-wave velocity of the upper 30 m \[m/s\]; NaN if not known.
+    pub vs30: f64,
+    /// Sampling interval \[s\].
+    pub dt_s: f64,
+    /// Number of samples.
+    pub samples: u32,
+    /// SHA-256 of the component.
+    pub checksum: String,
+}
+
+group! {
+    /// The motions of a set, a row each; first what figures put them in order by.
+    pub const MOTIONS: StoredMotion = "/sets/<set>";
+    "pgv_cm_s" ["<motion>"] F64 "cm/s" "PGV of the component, unscaled" = |of, _at| of.pgv_cm_s;
+    "pga_g" ["<motion>"] F64 "g" "PGA of the component, unscaled" = |of, _at| of.pga_g;
+    "record_pga_g" ["<motion>"] F64 "g" "PGA of the record, geometric mean"
+        ("PGA of the record, geometric mean over both components") = |of, _at| of.record_pga_g;
+    "record_pgv_cm_s" ["<motion>"] F64 "cm/s" "PGV of the record, geometric mean" = |of, _at| of.record_pgv_cm_s;
+    "record" ["<motion>"] Text "" "record" = |of, _at| of.record;
+    "component" ["<motion>"] Text "" "horizontal component" ("`h1` or `h2`") = |of, _at| of.component;
+    "event" ["<motion>"] Text "" "earthquake" ("earthquake; empty if not known") = |of, _at| of.event;
+    "station" ["<motion>"] Text "" "recording station" ("recording station; empty if not known")
+        = |of, _at| of.station;
+    "magnitude" ["<motion>"] F64 "1" "moment magnitude" ("moment magnitude; NaN if not known, as the next ones")
+        = |of, _at| of.magnitude;
+    "rrup_km" ["<motion>"] F64 "km" "closest distance to the rupture" = |of, _at| of.rrup_km;
+    "vs30" ["<motion>"] F64 "m/s" "mean shear-wave velocity of the upper 30 m" = |of, _at| of.vs30;
+    "dt_s" ["<motion>"] F64 "s" "sampling interval" = |of, _at| of.dt_s;
+    "samples" ["<motion>"] U32 "1" "number of samples" = |of, _at| of.samples;
+    "checksum" ["<motion>"] Text "" "SHA-256 of the component" ("SHA-256 of its file; of the samples if synthetic")
+        = |of, _at| of.checksum;
 }
 
 /// Which spectrum: positions in a result.
@@ -175,22 +299,33 @@ impl ResultFile {
         self.require(Kind::Displacement)?;
         let reader = &self.reader;
         let structures = self.structures()?;
-        let (scalings, scaled_by) = (reader.axis_text(axis::SCALING)?, reader.axis_text(axis::SCALED_BY)?);
-        let percentiles = reader.axis_f64(axis::PERCENTILE)?;
-        let abscissas = reader.axis_f64(structures.abscissa_axis())?;
-        let sets = reader.axis_text(axis::RECORD_SET)?;
-        let shape =
+        let (scalings, scaled_by) = (reader.axis_text(SCALING)?, reader.axis_text(SCALED_BY)?);
+        let percentiles = reader.axis_f64(PERCENTILE)?;
+        let (names, [abscissa, printed]) = (structures.names(), structures.abscissa_axes());
+        let abscissas = reader.axis_f64(abscissa)?;
+        let sets = reader.axis_text(RECORD_SET)?;
+        let mut shape =
             [sets.len(), scalings.len(), scaled_by.len(), structures.lines(), percentiles.len(), abscissas.len()];
         if shape.contains(&0) {
             return Err(self.damaged("an axis of its spectra is empty"));
         }
-        let mut axes =
-            vec![(axis::RECORD_SET, sets.len()), (axis::SCALING, scalings.len()), (axis::SCALED_BY, scaled_by.len())];
-        axes.extend(structures.line_axes());
-        axes.extend([(axis::PERCENTILE, percentiles.len()), (structures.abscissa_axis(), abscissas.len())]);
-        let percentile_m = self.checked(spectra::U_M, reader.array_f64(spectra::U_M)?, &axes)?;
-        axes.truncate(axes.len() - 1);
-        let rounding = self.rounding(&structures, axes, shape)?;
+        let mut lengths = vec![(RECORD_SET, sets.len()), (SCALING, scalings.len()), (SCALED_BY, scaled_by.len())];
+        lengths.extend(structures.line_axes());
+        lengths.extend([(PERCENTILE, percentiles.len()), (abscissa, abscissas.len()), (BOUND, BOUNDS.len())]);
+        let u_m = SPECTRA.read_floats(0, self, &names, &lengths)?;
+        let percentile_m = Array::new(shape, u_m).map_err(|error| self.damaged(error))?;
+        let rounding = if ROUNDED_SPECTRA.is_in(self, &names) {
+            let abscissas = reader.axis_f64(printed)?;
+            lengths.push((printed, abscissas.len()));
+            shape[5] = abscissas.len();
+            let values = ROUNDED_SPECTRA.read_floats(0, self, &names, &lengths)?;
+            let of = |bounds: &[f64]| Noisy { value: bounds[0], lowest: bounds[1], highest: bounds[2] };
+            let values = values.chunks_exact(BOUNDS.len()).map(of).collect();
+            let percentile_m = Array::new(shape, values).map_err(|error| self.damaged(error))?;
+            Some(StoredRounding { abscissas, percentile_m })
+        } else {
+            None
+        };
         Ok(StoredDisplacements {
             records: self.record_set()?,
             synthetic: self.is_synthetic()?,
@@ -200,31 +335,10 @@ impl ResultFile {
             percentiles,
             structures,
             abscissas,
-            percentile_m: Array::new(shape, percentile_m)
-                .map_err(|error| self.damaged(format!("{}: {error}", spectra::U_M)))?,
+            percentile_m,
             rounding,
-            analyses: reader.attribute_u64(spectra::GROUP, "analyses")?,
+            analyses: reader.attribute_u64(SPECTRA.path, "analyses")?,
         })
-    }
-
-    /// What rounding does to percentiles over the first `axes` of their `shape`.
-    fn rounding(
-        &self,
-        structures: &StoredStructures,
-        mut axes: Vec<(&'static str, usize)>,
-        mut shape: [usize; 6],
-    ) -> Result<Option<StoredRounding>, ResultError> {
-        if !self.reader.exists(spectra::U_M_ROUNDING) {
-            return Ok(None);
-        }
-        let abscissas = self.reader.axis_f64(structures.printed_axis())?;
-        axes.extend([(structures.printed_axis(), abscissas.len()), (axis::BOUND, BOUNDS.len())]);
-        shape[5] = abscissas.len();
-        let values = self.checked(spectra::U_M_ROUNDING, self.reader.array_f64(spectra::U_M_ROUNDING)?, &axes)?;
-        let of = |bounds: &[f64]| Noisy { value: bounds[0], lowest: bounds[1], highest: bounds[2] };
-        let percentile_m = Array::new(shape, values.chunks_exact(BOUNDS.len()).map(of).collect())
-            .map_err(|error| self.damaged(format!("{}: {error}", spectra::U_M_ROUNDING)))?;
-        Ok(Some(StoredRounding { abscissas, percentile_m }))
     }
 
     /// The motions of the set at the position `position`.
@@ -235,36 +349,28 @@ impl ResultFile {
         self.require(Kind::Displacement)?;
         let reader = &self.reader;
         let structures = self.structures()?;
-        let sets = reader.axis_text(axis::RECORD_SET)?;
+        let sets = reader.axis_text(RECORD_SET)?;
         let Some(set) = sets.get(position) else {
             return Err(self.fail(format!("has {} record sets, and number {} is wanted", sets.len(), position + 1)));
         };
-        let pgv_cm_s = reader.array_f64(&set::array(set, "pgv_cm_s"))?;
-        let [motion] = &pgv_cm_s.dims[..] else {
-            return Err(self.damaged(format!("{} does not run over motions", set::array(set, "pgv_cm_s"))));
-        };
-        let motion = motion.clone();
-        let motions = (motion.as_str(), pgv_cm_s.values.len());
-        let texts = |name: &str| {
-            let path = set::array(set, name);
-            self.checked(&path, reader.array_text(&path)?, &[motions])
-        };
-        let names = texts("record")?.into_iter().zip(texts("component")?);
-        let ways = [reader.axis_text(axis::SCALING)?.len(), reader.axis_text(axis::SCALED_BY)?.len()];
-        let abscissas = (structures.abscissa_axis(), reader.axis_f64(structures.abscissa_axis())?.len());
-        let mut axes = vec![(axis::SCALING, ways[0]), (axis::SCALED_BY, ways[1])];
-        axes.extend(structures.line_axes());
-        axes.extend([abscissas, motions]);
-        let path = set::array(set, "u_m");
-        let u_m = self.checked(&path, reader.array_f64(&path)?, &axes)?;
-        let shape = [ways[0], ways[1], structures.lines(), abscissas.1, motions.1];
+        let mut taken = BTreeSet::new();
+        let motion = sets[..=position].iter().map(|set| axis::motion(set, &mut taken)).last().unwrap_or_default();
+        let motions = reader.axis_text(&motion)?;
+        let names = [&structures.names()[..], &[("<set>", set), ("<motion>", &motion)]].concat();
+        let [abscissa, _] = structures.abscissa_axes();
+        let ways = [reader.axis_text(SCALING)?.len(), reader.axis_text(SCALED_BY)?.len()];
+        let mut lengths = vec![(SCALING, ways[0]), (SCALED_BY, ways[1]), (motion.as_str(), motions.len())];
+        lengths.extend(structures.line_axes());
+        lengths.push((abscissa, reader.axis_f64(abscissa)?.len()));
+        let shape = [ways[0], ways[1], structures.lines(), lengths[lengths.len() - 1].1, motions.len()];
         if shape.contains(&0) {
-            return Err(self.damaged(format!("an axis of {path} is empty")));
+            return Err(self.damaged(format!("an axis of {} is empty", SET_SPECTRA.first_path(&names))));
         }
+        let u_m = SET_SPECTRA.read_floats(0, self, &names, &lengths)?;
         Ok(StoredMotions {
-            names: names.map(|(record, component)| format!("{record} {component}")).collect(),
-            u_m: Array::new(shape, u_m).map_err(|error| self.damaged(format!("{path}: {error}")))?,
-            pgv_cm_s: pgv_cm_s.values,
+            names: motions,
+            u_m: Array::new(shape, u_m).map_err(|error| self.damaged(error))?,
+            pgv_cm_s: MOTIONS.read_floats(0, self, &names, &lengths)?,
         })
     }
 
@@ -281,7 +387,7 @@ impl ResultFile {
     }
 
     fn set(&self, name: String) -> Result<StoredSet, ResultError> {
-        let group = set::group(&name);
+        let group = MOTIONS.group(&[("<set>", &name)]);
         Ok(StoredSet {
             records: self.reader.attribute_u64(&group, "records")?,
             median_pga_g: self.reader.attribute_f64(&group, "median_pga_g")?,

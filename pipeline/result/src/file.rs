@@ -221,9 +221,9 @@ impl ResultFile {
         &self,
         path: &str,
         array: LabelledArray<T>,
-        axes: &[(&str, usize)],
+        axes: &[(impl AsRef<str>, usize)],
     ) -> Result<Vec<T>, ResultError> {
-        let names: Vec<&str> = axes.iter().map(|(name, _)| *name).collect();
+        let names: Vec<&str> = axes.iter().map(|(name, _)| name.as_ref()).collect();
         let shape: Vec<usize> = axes.iter().map(|(_, length)| *length).collect();
         if array.dims != names {
             return Err(self.damaged(format!(

@@ -3,9 +3,9 @@
 use uplift_hazard::HazardCurve;
 use uplift_motion::IntensityMeasure;
 
-use super::declared::of_measure;
+use super::declared::{group, of_measure};
 use super::file::ResultFile;
-use super::layout::{axis, hazard};
+use super::layout::axis;
 use super::peaks::PEAKS;
 use crate::error::ResultError;
 
@@ -36,6 +36,25 @@ pub struct StoredBranch {
     pub weight: f64,
     /// The curve.
     pub curve: HazardCurve,
+}
+
+group! {
+    /// A curve as used, of the name `<curve>`, over levels of its own.
+    pub const HAZARD_CURVE: HazardCurve = "/hazard/<curve>";
+    "maf_per_year" ["<axis>"] Made "1/yr" "mean annual frequency of exceedance"
+        ("mean annual frequency of exceedance; of the n-th weighted curve in `branches/<n>`, over \
+          `hazard_<site>_pgv_<n>`")
+        = |of, at| of.maf()[at];
+}
+
+/// The name of the curve of a site: of its mean where it has branches.
+pub fn curve_name(site: &str, measure: IntensityMeasure) -> String {
+    format!("{site}/{}", measure.key())
+}
+
+/// The name of the weighted curve of a site at `index`.
+pub fn branch_curve_name(site: &str, measure: IntensityMeasure, index: usize) -> String {
+    format!("{}/branches/{}", curve_name(site, measure), index + 1)
 }
 
 impl ResultFile {
@@ -84,8 +103,9 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn mean_curve(&self, site: &str, measure: IntensityMeasure) -> Result<Option<HazardCurve>, ResultError> {
-        let group = hazard::group(site, measure);
-        self.reader.exists(&group).then(|| self.curve(&group, measure)).transpose()
+        let name = curve_name(site, measure);
+        let is_there = self.reader.exists(&HAZARD_CURVE.group(&[("<curve>", &name)]));
+        is_there.then(|| self.curve(&name, measure)).transpose()
     }
 
     /// The levels of every measure with stripes.
@@ -102,16 +122,14 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn branches(&self, site: &str, measure: IntensityMeasure) -> Result<Vec<StoredBranch>, ResultError> {
-        let of_group = |group: String| {
+        let of_curve = |curve: String| {
+            let group = HAZARD_CURVE.group(&[("<curve>", &curve)]);
             let (name, weight) =
                 (self.reader.attribute_text(&group, "name")?, self.reader.attribute_f64(&group, "weight")?);
-            Ok(StoredBranch { name, weight, curve: self.curve(&group, measure)? })
+            Ok(StoredBranch { name, weight, curve: self.curve(&curve, measure)? })
         };
-        (0..)
-            .map(|index| hazard::branch(site, measure, index))
-            .take_while(|group| self.reader.exists(group))
-            .map(of_group)
-            .collect()
+        let names = (0..).map(|index| branch_curve_name(site, measure, index));
+        names.take_while(|curve| HAZARD_CURVE.is_in(self, &[("<curve>", curve)])).map(of_curve).collect()
     }
 
     /// The curve of a site; the mean where it has several.
@@ -119,16 +137,16 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn site_curve(&self, site: &str, measure: IntensityMeasure) -> Result<HazardCurve, ResultError> {
-        self.curve(&hazard::group(site, measure), measure)
+        self.curve(&curve_name(site, measure), measure)
     }
 
-    /// The curve in the group `group`.
-    fn curve(&self, group: &str, measure: IntensityMeasure) -> Result<HazardCurve, ResultError> {
-        let path = hazard::maf_per_year(group);
+    /// The curve of this name.
+    fn curve(&self, name: &str, measure: IntensityMeasure) -> Result<HazardCurve, ResultError> {
+        let path = HAZARD_CURVE.first_path(&[("<curve>", name)]);
         let maf = self.reader.array_f64(&path)?;
         let [axis] = &maf.dims[..] else { return Err(self.damaged(format!("{path} is not a curve"))) };
         let im = self.reader.axis_f64(axis)?;
         HazardCurve::new(measure.label(), measure.unit(), "", im, maf.values)
-            .map_err(|error| self.fail(format!("{group}: {error}")))
+            .map_err(|error| self.fail(format!("{path}: {error}")))
     }
 }

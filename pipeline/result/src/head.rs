@@ -8,8 +8,8 @@ use uplift_study::Kind;
 
 use super::digest::UNSAID_NUMERICS;
 use super::file::ResultFile;
-use super::layout::{axis, design, set, shake_table, spectra, structures};
-use super::{BANDS, EFFICIENCY, INFLUENCE, PEAKS};
+use super::layout::{axis, structures};
+use super::{BANDS, EFFICIENCY, INFLUENCE, MOTIONS, PEAKS, RESTRAINED_DESIGN, SPECTRA, TABLE_EXCITATIONS};
 use crate::error::ResultError;
 
 /// Where the numbers of a result come from: what results of every kind say at their root.
@@ -141,19 +141,21 @@ impl ResultFile {
     pub fn overview(&self) -> Result<Overview, ResultError> {
         let reader = &self.reader;
         if self.kind() == Kind::Displacement {
-            let records = |name: String| Ok((reader.attribute_u64(&set::group(&name), "records")?, name));
-            let sets = reader.children(set::ROOT)?.into_iter().map(records).collect::<Result<Vec<_>, ResultError>>()?;
+            let group = |name: &str| MOTIONS.group(&[("<set>", name)]);
+            let records = |name: String| Ok((reader.attribute_u64(&group(&name), "records")?, name));
+            let sets =
+                reader.children(MOTIONS.root())?.into_iter().map(records).collect::<Result<Vec<_>, ResultError>>()?;
             return Ok(Overview::Displacement {
                 structure: reader.attribute_text("/", "structure")?,
-                analyses: reader.attribute_u64(spectra::GROUP, "analyses")?,
+                analyses: reader.attribute_u64(SPECTRA.path, "analyses")?,
                 sets: sets.into_iter().map(|(records, name)| (name, records)).collect(),
-                designed: reader.exists(design::GROUP),
+                designed: reader.exists(RESTRAINED_DESIGN.path),
             });
         }
         if self.kind() == Kind::ShakeTable {
             return Ok(Overview::ShakeTable {
-                structure: reader.attribute_text(shake_table::GROUP, "structure")?,
-                analyses: reader.attribute_u64(shake_table::GROUP, "analyses")?,
+                structure: reader.attribute_text(TABLE_EXCITATIONS.path, "structure")?,
+                analyses: reader.attribute_u64(TABLE_EXCITATIONS.path, "analyses")?,
                 levels: reader.axis_text(axis::LEVEL)?,
                 excitations: reader.axis_text(axis::EXCITATION)?.len(),
             });

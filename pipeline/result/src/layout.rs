@@ -1,4 +1,4 @@
-//! Where things are in a result file: every group, array and axis by its name (docs/hdf5-layout.md).
+//! Names in a result file that are declared beside no array: of axes and of answers (docs/hdf5-layout.md).
 
 use std::collections::BTreeSet;
 
@@ -7,74 +7,8 @@ use uplift_motion::IntensityMeasure;
 /// Version of the layout of the result file.
 pub const LAYOUT: i64 = 1;
 
-/// Arrays with fixed paths.
-macro_rules! in_group {
-    ($(#[$doc:meta])* $module:ident: $($constant:ident = $name:literal),+ $(,)?) => {
-        $(#[$doc])*
-        pub mod $module {
-            /// The group.
-            pub const GROUP: &str = concat!("/", stringify!($module));
-            /// The arrays in it.
-            pub const ARRAYS: &[&str] = &[$($name),+];
-            $(
-                #[doc = concat!("`", $name, "`.")]
-                pub const $constant: &str = concat!("/", stringify!($module), "/", $name);
-            )+
-        }
-    };
-}
-
-in_group! {
-    /// The structures that records shake, where these are not known exactly.
-    records:
-    STRUCTURE = "structure", STRENGTH_FACTOR = "strength_factor", RESTITUTION = "restitution",
-    UPLIFT_DISPLACEMENT_M = "uplift_displacement_m", CAPACITY_M = "capacity_m",
-}
-
 /// The sentence on how well the records know the spectra of a measure, an attribute of its group in `/urs`.
 pub const URS_PRECISION: &str = "precision";
-
-/// Whether the records bring the hazard of the other measure.
-pub mod consistency {
-    use uplift_motion::IntensityMeasure;
-
-    /// The group of all measures.
-    pub const ROOT: &str = "/consistency";
-    /// The arrays of a measure but for those of the other one ([`OF_OTHER`]).
-    pub const ARRAYS: &[&str] = &[
-        "scale_factor_05",
-        "scale_factor_50",
-        "scale_factor_95",
-        "scale_factors_outside",
-        "effective_events",
-        "exponent",
-        "knot",
-        "iterations",
-        "mean_ln_ratio",
-        "sd_ln_ratio",
-        "weight",
-        "flag",
-        "lower_tail_share",
-        "upper_tail_share",
-    ];
-    /// What the names of the arrays of the other measure end with: `pga_site`.
-    pub const OF_OTHER: &[&str] = &["rms", "times_as_often"];
-
-    /// The group of the analysis by a measure.
-    pub fn group(measure: IntensityMeasure) -> String {
-        format!("{ROOT}/{}", measure.key())
-    }
-
-    /// An array of the analysis by a measure.
-    pub fn array(measure: IntensityMeasure, name: &str) -> String {
-        format!("{}/{name}", group(measure))
-    }
-
-    /// The name of an array that is about the `other` measure.
-    pub fn of_other(other: IntensityMeasure, name: &str) -> String {
-        format!("{}_{name}", other.key())
-    }
-}
 
 /// What structures were asked, and the answers.
 pub mod structures {
@@ -89,109 +23,6 @@ pub mod structures {
     /// The answer of a command to the question of this key.
     pub fn answer(structure: &str, command: &str, key: &str) -> String {
         format!("{}/{command}/{key}", group(structure))
-    }
-}
-
-/// Hazard curves as used.
-pub mod hazard {
-    use uplift_motion::IntensityMeasure;
-
-    /// The curve of a site: its mean where it has branches.
-    pub fn group(site: &str, measure: IntensityMeasure) -> String {
-        format!("/hazard/{site}/{}", measure.key())
-    }
-
-    /// The weighted curve of a site at `index`.
-    pub fn branch(site: &str, measure: IntensityMeasure, index: usize) -> String {
-        format!("{}/branches/{}", group(site, measure), index + 1)
-    }
-
-    /// Mean annual frequencies of the curve in `group`.
-    pub fn maf_per_year(group: &str) -> String {
-        format!("{group}/maf_per_year")
-    }
-}
-
-in_group! {
-    /// Percentiles of displacement spectra.
-    spectra: U_M = "u_m", U_M_ROUNDING = "u_m_rounding", OVERTURNED = "overturned", CRITICAL = "critical",
-}
-
-in_group! {
-    /// The tests of a shaking table.
-    shake_table:
-    ORDER = "order",
-    SPECTRAL_ACCELERATION_M_S2 = "spectral_acceleration_m_s2", DESIGN_SPECTRUM_M_S2 = "design_spectrum_m_s2",
-}
-
-/// The motions of a set of records.
-pub mod set {
-    /// The group of all sets.
-    pub const ROOT: &str = "/sets";
-    /// The arrays of a set.
-    pub const ARRAYS: &[&str] = &[
-        "u_m",
-        "factor",
-        "pga_g",
-        "pgv_cm_s",
-        "record_pga_g",
-        "record_pgv_cm_s",
-        "record",
-        "component",
-        "event",
-        "station",
-        "magnitude",
-        "rrup_km",
-        "vs30",
-        "dt_s",
-        "samples",
-        "checksum",
-    ];
-
-    /// The group of a set.
-    pub fn group(set: &str) -> String {
-        format!("{ROOT}/{set}")
-    }
-
-    /// An array of a set, by its name.
-    pub fn array(set: &str, name: &str) -> String {
-        format!("{ROOT}/{set}/{name}")
-    }
-}
-
-/// The design example of a study of displacement spectra.
-pub mod design {
-    /// The group.
-    pub const GROUP: &str = "/design";
-    /// The arrays of oscillators and of blocks.
-    pub const ARRAYS: &[&str] = &[
-        "u_dem_zs_m",
-        "u_cap_m",
-        "u_dem_th_m",
-        "u_dem_rule_m",
-        "error",
-        "tan_alpha",
-        "u_endless_m",
-        "u_block_m",
-        "capacity_m",
-        "u_dem_zs_m_rounding",
-        "u_cap_m_rounding",
-        "u_dem_th_m_rounding",
-        "u_dem_rule_m_rounding",
-        "error_rounding",
-        "tan_alpha_rounding",
-        "u_endless_m_rounding",
-        "u_block_m_rounding",
-    ];
-
-    /// What rounding does to the values of an array, by its name.
-    pub fn rounding(name: &str) -> String {
-        format!("{GROUP}/{name}_rounding")
-    }
-
-    /// An array, by its name.
-    pub fn array(name: &str) -> String {
-        format!("{GROUP}/{name}")
     }
 }
 
@@ -363,27 +194,10 @@ mod tests {
         assert_eq!(limit_names(0.68), ["u16_m", "u50_m", "u84_m"]);
     }
 
-    /// The page that describes the file names every group, array and axis.
+    /// The page that describes the file names every axis.
     #[test]
-    fn the_documentation_has_every_array_and_axis() {
+    fn the_documentation_has_every_axis() {
         let page = include_str!("../../../docs/hdf5-layout.md");
-        let documented = |group: &str, name: &str| {
-            page.lines().any(|line| line.contains(group) && line.contains(&format!("{name}`")))
-        };
-        let groups: [(&str, &[&str]); 7] = [
-            ("`/records/", records::ARRAYS),
-            ("`/consistency/pgv/", consistency::ARRAYS),
-            ("`/hazard/<site>/pgv/", &["maf_per_year"]),
-            ("`/spectra/", spectra::ARRAYS),
-            ("`/sets/<set>/", set::ARRAYS),
-            ("`/design/", design::ARRAYS),
-            ("`/shake_table/", shake_table::ARRAYS),
-        ];
-        for (group, arrays) in groups {
-            for name in arrays {
-                assert!(documented(group, name), "docs/hdf5-layout.md has no {group}{name}`");
-            }
-        }
         for name in axis::ALL {
             assert!(page.contains(&format!("| `{name}` |")), "docs/hdf5-layout.md has no axis {name}");
         }

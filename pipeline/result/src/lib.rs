@@ -1,6 +1,7 @@
 //! The result of a study: one HDF5 file, and tidy tables beside it; how both are opened, extended and read.
 //!
-//! [`ResultFile`] opens a result and reads it part by part; [`layout`] knows where everything is.
+//! [`ResultFile`] opens a result and reads it part by part; arrays are [`declared`] beside the values that they hold,
+//! and [`layout`] names the axes.
 
 mod asked_spectra;
 mod bands;
@@ -37,13 +38,14 @@ pub use bands::{
     BandMethod, InferredBands, MeasureBands, SiteJointBands, StoredBands, StoredDraws, StoredJointBands,
     StoredRepairedBands, StoredSpectraBands, WidestInferred, band_lengths, band_names,
 };
-pub use consistency::{
-    CONSISTENCY, EFFECTIVE_RECORDS, REPAIRED_FITS, REPAIRED_LEVEL, REPAIRED_U_M, StoredConsistency, consistency_names,
-};
-pub use design::{BOUNDS, bounds, rule_names};
+pub use consistency::{CONSISTENCY, DIAGNOSES, REPAIRED_FITS, REPAIRED_LEVELS, REPAIRED_SPECTRA, REPAIRS, WEIGHTS};
+pub use consistency::{StoredConsistency, consistency_names};
+pub use design::{BOUNDS, RESTRAINED_DESIGN, ROUNDING, SOLITARY_CAPACITY, SOLITARY_DESIGN, VALUES, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
+pub use displacements::{MOTIONS, ROUNDED_SPECTRA, SET_SPECTRA, SPECTRA};
 pub use displacements::{
-    SpectrumPlace, StoredDisplacements, StoredMotions, StoredRounding, StoredSet, StoredStructures,
+    SetSpectra, SpectrumPlace, StoredDisplacements, StoredMotion, StoredMotions, StoredRounding, StoredSet,
+    StoredStructures,
 };
 pub use efficiency::{EFFICIENCY, EFFICIENCY_OF_STRIPES, REACHING, TRENDS};
 pub use efficiency::{StoredEfficiency, StoredTrend};
@@ -52,6 +54,7 @@ pub use extend::{Addition, sign};
 pub use file::{ResultFile, RiskAxes};
 pub use findings::{DOCUMENT, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST};
 pub use findings::{FINDINGS, Finding, FindingRow, Inquiry, StoredFinding};
+pub use hazard::{HAZARD_CURVE, branch_curve_name, curve_name};
 pub use hazard::{StoredBranch, StoredCurves, StoredHazard};
 pub use head::{Head, Overview};
 pub use influence::{DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, StoredInfluence};
@@ -59,10 +62,10 @@ pub use peaks::{FACTORS, IMPACTS, PEAKS, RISK_SURFACE, SHARES};
 pub use peaks::{SetsOfLevels, StoredPeaks};
 pub use provenance::Origin;
 pub use provenance::Provenance;
-pub use records::{INTENSITY, MOTION_KEYS, RECORDS, StoredRecords, intensity_names};
-pub use shake_table::{
-    DIRECTIONS, Excitation, ShakeTable, TABLE_EXCITATIONS, TABLE_TESTS, TableLevel, TableSpectra, TableTest,
-};
+pub use records::{DRAWN_QUANTITY, DRAWN_STRUCTURE, INTENSITY, MOTION_KEYS, RECORDS};
+pub use records::{StoredRecords, drawn_names, intensity_names};
+pub use shake_table::{DESIGN_SPECTRUM, TABLE_EXCITATIONS, TABLE_ORDER, TABLE_SPECTRA, TABLE_TESTS};
+pub use shake_table::{DIRECTIONS, Excitation, ShakeTable, TableLevel, TableSpectra, TableTest};
 pub use spectra::{Fit, Fits, MeasureSpectra, Spectrum, StoredSpectra, regression, urs};
 pub use spectra::{flag_number, flag_word};
 pub use spread::{

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
+use uplift_structure::UncertainQuantity;
 use uplift_study::Kind;
 
 use super::declared::group;
@@ -88,6 +89,33 @@ group! {
         ("of the unscaled pair, combined as the study's `records.intensity` says (by default the geometric mean); so \
           `pga_g`, and `sa_1s_g` and whatever other measure the study is analysed by or has a curve of")
         = |of, at| of[at];
+}
+
+group! {
+    /// Which structure each record shakes, where structures are not known exactly.
+    pub const DRAWN_STRUCTURE: Array<1, u32> = RECORDS.path;
+    "structure" [RECORD] U32 "1" "number of the structure that the record shakes"
+        ("number of the structure that the record shakes; only where structures are not known exactly, as the \
+          next ones")
+        = |of, at| of[at];
+}
+
+group! {
+    /// A quantity of these structures that is not known exactly.
+    pub const DRAWN_QUANTITY: Array<1> = RECORDS.path;
+    "<quantity>" [RECORD] F64 "<quantity_unit>" "<words> of the structure"
+        ("what of it is not known exactly: the factor on each strength, and the values") = |of, at| of[at];
+}
+
+/// Names of the array of a quantity that is not known exactly.
+pub fn drawn_names(quantity: UncertainQuantity) -> [(&'static str, &'static str); 3] {
+    let (name, unit, words) = match quantity {
+        UncertainQuantity::Strength => ("strength_factor", "1", "factor on the strength"),
+        UncertainQuantity::Restitution => ("restitution", "1", "restitution"),
+        UncertainQuantity::UpliftDisplacement => ("uplift_displacement_m", "m", "displacement at uplift"),
+        UncertainQuantity::Capacity => ("capacity_m", "m", "displacement capacity"),
+    };
+    [("<quantity>", name), ("<quantity_unit>", unit), ("<words>", words)]
 }
 
 /// Names of the array of the intensities by a measure.

@@ -1,13 +1,13 @@
 //! The tests of a shaking table: what a run computed, and what a result file holds of it.
 
 use serde::Serialize;
+use uplift_job::Array;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_study::Kind;
 
 use super::declared::group;
 use super::file::ResultFile;
-use super::layout::axis::{self, EXCITATION, LEVEL};
-use super::layout::shake_table as layout;
+use super::layout::axis::{DIRECTION, EXCITATION, LEVEL, PERIOD};
 use crate::error::ResultError;
 
 /// Every test of a shaking table.
@@ -110,7 +110,7 @@ pub struct TableTest {
 
 group! {
     /// What is played, at which levels.
-    pub const TABLE_EXCITATIONS: ShakeTable = layout::GROUP;
+    pub const TABLE_EXCITATIONS: ShakeTable = "/shake_table";
     "pgv_srss_m_s" [LEVEL] F64 "m/s" "SRSS of both PGV on the table"
         ("root of the sum of squares of both PGV on the table (Eq. 6.9)") = |of, at| of.levels[at].pgv_srss_m_s;
     "class" [EXCITATION] Text "" "class of the excitation" = |of, at| of.excitations[at].class;
@@ -123,7 +123,7 @@ group! {
 
 group! {
     /// What the frame does in each test; places of [`ShakeTable::tests`] are `[level, excitation]`.
-    pub const TABLE_TESTS: ShakeTable = layout::GROUP;
+    pub const TABLE_TESTS: ShakeTable = TABLE_EXCITATIONS.path;
     "factor" [LEVEL, EXCITATION] F64 "1" "factor on the accelerations of the record" = |of, at| of.tests[at].factor;
     "pga_srss_m_s2" [LEVEL, EXCITATION] F64 "m/s2" "SRSS of both PGA on the table"
         = |of, at| of.tests[at].pga_srss_m_s2;
@@ -144,6 +144,31 @@ group! {
         = |of, at| of.tests[at].deck_acceleration_m_s2;
 }
 
+group! {
+    /// Place of each test in the [order](ShakeTable::order) of rising displacement.
+    pub const TABLE_ORDER: Array<2, u32> = TABLE_EXCITATIONS.path;
+    "order" [LEVEL, EXCITATION] U32 "1" "place in the order of rising displacement, from 1" = |of, at| of[at];
+}
+
+group! {
+    /// Response spectra of what is played.
+    pub const TABLE_SPECTRA: TableSpectra = TABLE_EXCITATIONS.path;
+    "spectral_acceleration_m_s2" [EXCITATION, DIRECTION, PERIOD] F64 "m/s2"
+        "spectral acceleration at 5 % damping of the component in the time of the table, accelerations as recorded: \
+         times factor it is that on the table"
+        ("at 5 % damping, in the time of the table with the accelerations as recorded: times `factor` it is that on \
+          the table") = |of, at| of.recorded_m_s2[at];
+}
+
+group! {
+    /// The code's spectrum, where one was asked for.
+    pub const DESIGN_SPECTRUM: Vec<f64> = TABLE_EXCITATIONS.path;
+    "design_spectrum_m_s2" [PERIOD] F64 "m/s2"
+        "elastic response spectrum of EN 1998-1 in the time of the table, NaN beyond its longest period"
+        ("elastic spectrum of EN 1998-1 in the time of the table, NaN beyond 4 s of the prototype; where \
+          `[spectra.design]` asks for it") = |of, at| of[at];
+}
+
 impl ShakeTable {
     /// Writes every test.
     ///
@@ -152,7 +177,8 @@ impl ShakeTable {
     pub fn write(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
         let lengths = &[(LEVEL, self.levels.len()), (EXCITATION, self.excitations.len())];
         TABLE_EXCITATIONS.write(writer, &[], lengths, self)?;
-        TABLE_TESTS.write(writer, &[], lengths, self)
+        TABLE_TESTS.write(writer, &[], lengths, self)?;
+        TABLE_ORDER.write_counts(writer, &[], &self.order())
     }
 
     /// The tests of a level with their excitations.
@@ -201,8 +227,8 @@ impl ResultFile {
         let mut table = ShakeTable {
             records: self.record_set()?,
             synthetic: self.is_synthetic()?,
-            structure: reader.attribute_text(layout::GROUP, "structure")?,
-            length_scale: reader.attribute_f64(layout::GROUP, "length_scale")?,
+            structure: reader.attribute_text(TABLE_EXCITATIONS.path, "structure")?,
+            length_scale: reader.attribute_f64(TABLE_EXCITATIONS.path, "length_scale")?,
             levels: names.into_iter().map(|name| TableLevel { name, pgv_srss_m_s: f64::NAN }).collect(),
             tests: vec![TableTest::default(); level.1 * excitation.1],
             excitations: ids.into_iter().map(|exc_id| Excitation { exc_id, ..Excitation::default() }).collect(),
@@ -216,17 +242,16 @@ impl ResultFile {
 
     /// The spectra of what a table plays; none in a result of a version that had none.
     fn table_spectra(&self, excitation: (&str, usize)) -> Result<Option<TableSpectra>, ResultError> {
-        let reader = &self.reader;
-        if !reader.exists(layout::SPECTRAL_ACCELERATION_M_S2) {
+        if !TABLE_SPECTRA.is_in(self, &[]) {
             return Ok(None);
         }
-        let periods_s = reader.axis_f64(axis::PERIOD)?;
-        let period = (axis::PERIOD, periods_s.len());
-        let numbers = |path: &str, axes: &[(&str, usize)]| self.checked(path, reader.array_f64(path)?, axes);
-        let axes = [excitation, (axis::DIRECTION, DIRECTIONS.len()), period];
-        let recorded_m_s2 = numbers(layout::SPECTRAL_ACCELERATION_M_S2, &axes)?;
-        let design = layout::DESIGN_SPECTRUM_M_S2;
-        let design_m_s2 = reader.exists(design).then(|| numbers(design, &[period])).transpose()?;
-        Ok(Some(TableSpectra { periods_s, recorded_m_s2, design_m_s2 }))
+        let periods_s = self.reader.axis_f64(PERIOD)?;
+        let lengths = [excitation, (DIRECTION, DIRECTIONS.len()), (PERIOD, periods_s.len())];
+        let nan = |axes: &[(&str, usize)]| vec![f64::NAN; axes.iter().map(|(_, length)| length).product()];
+        let design_m_s2 = DESIGN_SPECTRUM.is_in(self, &[]).then(|| nan(&lengths[2..]));
+        let mut spectra = TableSpectra { periods_s, recorded_m_s2: nan(&lengths), design_m_s2 };
+        TABLE_SPECTRA.read(self, &[], &lengths, &mut spectra)?;
+        spectra.design_m_s2.iter_mut().try_for_each(|own| DESIGN_SPECTRUM.read(self, &[], &lengths, own))?;
+        Ok(Some(spectra))
     }
 }

@@ -20,7 +20,7 @@ pub use plan::{needs, plan};
 pub use report::{RunReport, SetReport, SpectraReport};
 pub use rounding::printed;
 pub use run::run;
-pub use spectra::{SetSpectra, set_spectra, structures};
+pub use spectra::{set_spectra, structures};
 pub use uplift_result::{DesignRow, RULES};
 pub use work::{Inputs, KeyedMotions, run_shard};
 pub use write::{DisplacementOutcome, write_displacements};

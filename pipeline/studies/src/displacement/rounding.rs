@@ -5,10 +5,10 @@
 
 use uplift_ida::{IdaError, Peaks, Plan, System};
 use uplift_job::text::nearest;
+use uplift_result::SetSpectra;
 use uplift_spectra::{MotionSet, NUDGES, Noisy, nudges, percentile};
 use uplift_study::DisplacementStudy;
 
-use super::SetSpectra;
 use super::spectra::with_free_vibration;
 
 /// Strengths or slendernesses at which a run prints its spectra, or those nearest to them.

@@ -3,26 +3,11 @@
 use uplift_block::RockingBlock;
 use uplift_ida::{Peaks, System};
 use uplift_oscillator::{Oscillator, PostUplift};
+use uplift_result::SetSpectra;
 use uplift_spectra::{MotionSet, SpectraError, critical, percentile};
 use uplift_study::{BlockFamily, DisplacementStudy, OscillatorFamily, Structures};
 
 use crate::error::StudiesError;
-
-/// What a set asks of the structures. A way of scaling is `[to, by]` of the study; a line is a combination of uplift
-/// displacement and capacity, or a height; the abscissa is a strength or a slenderness.
-#[derive(Debug, Clone)]
-pub struct SetSpectra {
-    /// Peak displacements over `[way, line, abscissa, motion]`, m; infinite where the structure overturned.
-    pub displacement_m: Vec<f64>,
-    /// What each motion is multiplied by, over `[way, motion]`.
-    pub factors: Vec<f64>,
-    /// Their percentiles over `[way, line, percentile, abscissa]`, m.
-    pub percentile_m: Vec<f64>,
-    /// Shares of the motions under which the structure overturned, over `[way, line, abscissa]`.
-    pub overturned: Vec<f64>,
-    /// Largest abscissa at which a percentile is infinite, over `[way, line, percentile]`; NaN where it never is.
-    pub critical: Vec<f64>,
-}
 
 /// The structures of a study over `[line, abscissa]`.
 ///

@@ -3,8 +3,10 @@
 use std::path::Path;
 
 use uplift_labelled::LabelledWriter;
-use uplift_result::layout::{axis, shake_table as layout};
-use uplift_result::{DIRECTIONS, Origin, Provenance, ShakeTable, TableSpectra};
+use uplift_result::layout::axis;
+use uplift_result::{
+    DESIGN_SPECTRUM, DIRECTIONS, Origin, Provenance, ShakeTable, TABLE_EXCITATIONS, TABLE_SPECTRA, TableSpectra,
+};
 use uplift_study::{Kind, ShakeTableStudy};
 
 use crate::error::StudiesError;
@@ -47,28 +49,21 @@ pub fn write_shake_table(path: &Path, outcome: &ShakeTableOutcome<'_>) -> Result
     writer.axis_text(axis::LEVEL, &names, "level of shaking")?;
     writer.axis_text(axis::EXCITATION, &excitations, "excitation")?;
     table.write(&mut writer)?;
-    let order = "place in the order of rising displacement, from 1";
-    writer.array_u32(layout::ORDER, &[axis::LEVEL, axis::EXCITATION], &table.order(), "1", order)?;
-    table.spectra.iter().try_for_each(|spectra| write_spectra(&mut writer, spectra))?;
-    writer.attribute(layout::GROUP, "structure", table.structure.as_str())?;
-    writer.attribute(layout::GROUP, "length_scale", table.length_scale)?;
-    writer.attribute(layout::GROUP, "analyses", table.tests.len() as u64)?;
-    writer.attribute(layout::GROUP, "seconds", outcome.seconds)?;
+    table.spectra.iter().try_for_each(|spectra| write_spectra(&mut writer, spectra, excitations.len()))?;
+    writer.attribute(TABLE_EXCITATIONS.path, "structure", table.structure.as_str())?;
+    writer.attribute(TABLE_EXCITATIONS.path, "length_scale", table.length_scale)?;
+    writer.attribute(TABLE_EXCITATIONS.path, "analyses", table.tests.len() as u64)?;
+    writer.attribute(TABLE_EXCITATIONS.path, "seconds", outcome.seconds)?;
     writer.finish()?;
     Ok(())
 }
 
-fn write_spectra(writer: &mut LabelledWriter, spectra: &TableSpectra) -> Result<(), StudiesError> {
+fn write_spectra(writer: &mut LabelledWriter, spectra: &TableSpectra, excitations: usize) -> Result<(), StudiesError> {
     writer.axis_text(axis::DIRECTION, &DIRECTIONS.map(str::to_owned), "horizontal component")?;
     writer.axis_f64(axis::PERIOD, &spectra.periods_s, "s", "natural period in the time of the table")?;
-    let dims = &[axis::EXCITATION, axis::DIRECTION, axis::PERIOD];
-    let long_name = "spectral acceleration at 5 % damping of the component in the time of the table, accelerations as \
-                     recorded: times factor it is that on the table";
-    writer.array_f64(layout::SPECTRAL_ACCELERATION_M_S2, dims, &spectra.recorded_m_s2, "m/s2", long_name)?;
-    if let Some(design_m_s2) = &spectra.design_m_s2 {
-        let long_name =
-            "elastic response spectrum of EN 1998-1 in the time of the table, NaN beyond its longest period";
-        writer.array_f64(layout::DESIGN_SPECTRUM_M_S2, &[axis::PERIOD], design_m_s2, "m/s2", long_name)?;
-    }
+    let periods = (axis::PERIOD, spectra.periods_s.len());
+    let lengths = [(axis::EXCITATION, excitations), (axis::DIRECTION, DIRECTIONS.len()), periods];
+    TABLE_SPECTRA.write(writer, &[], &lengths, spectra)?;
+    spectra.design_m_s2.iter().try_for_each(|design| DESIGN_SPECTRUM.write(writer, &[], &lengths, design))?;
     Ok(())
 }

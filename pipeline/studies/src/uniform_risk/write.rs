@@ -8,12 +8,11 @@ use uplift_inputs::{DrawnStructure, Record, motion_keys};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_result::declared::of_measure;
-use uplift_result::layout::{URS_PRECISION, axis, records as layout};
+use uplift_result::layout::{URS_PRECISION, axis};
 use uplift_result::{
-    FACTORS, IMPACTS, INTENSITY, MOTION_KEYS, MeasureSpectra, Origin, PEAKS, RECORDS, RISK_SURFACE, SHARES,
-    StoredRecords, intensity_names, urs,
+    DRAWN_QUANTITY, DRAWN_STRUCTURE, FACTORS, IMPACTS, INTENSITY, MOTION_KEYS, MeasureSpectra, Origin, PEAKS, RECORDS,
+    RISK_SURFACE, SHARES, StoredRecords, drawn_names, intensity_names, urs,
 };
-use uplift_structure::UncertainQuantity;
 use uplift_uniform_risk::consistency::Keep;
 
 use super::Outcome;
@@ -42,10 +41,9 @@ pub fn write_result(path: &Path, outcome: &Outcome<'_>) -> Result<(), StudiesErr
 
 fn write_root(writer: &mut LabelledWriter, outcome: &Outcome<'_>) -> Result<(), StudiesError> {
     let Outcome { study, records, .. } = outcome;
-    let study_toml = study.to_toml()?;
     let origin = Origin {
         title: &study.title,
-        study_toml: &study_toml,
+        study_toml: &study.to_toml()?,
         gravity_m_s2: study.gravity_m_s2,
         record_set: &records.description,
         synthetic: records.synthetic,
@@ -132,22 +130,13 @@ fn stored_records(records: &[Record]) -> StoredRecords {
 
 /// The structure that each record shakes, where these are not known exactly.
 fn write_drawn_structures(writer: &mut LabelledWriter, records: &[Record]) -> Result<(), LabelledError> {
-    let dims = &[axis::RECORD];
     let drawn: Vec<&DrawnStructure> = records.iter().filter_map(|record| record.structure.as_ref()).collect();
     let Some(first) = drawn.first() else { return Ok(()) };
     let numbers: Vec<u32> = drawn.iter().map(|structure| u32::try_from(structure.number).unwrap_or(u32::MAX)).collect();
-    writer.array_u32(layout::STRUCTURE, dims, &numbers, "1", "number of the structure that the record shakes")?;
+    DRAWN_STRUCTURE.write_counts(writer, &[], &numbers)?;
     for (quantity, _) in &first.values {
         let values: Vec<f64> = drawn.iter().map(|structure| structure.value(*quantity).unwrap_or(f64::NAN)).collect();
-        let (path, unit, long_name) = match quantity {
-            UncertainQuantity::Strength => (layout::STRENGTH_FACTOR, "1", "factor on the strength of the structure"),
-            UncertainQuantity::Restitution => (layout::RESTITUTION, "1", "restitution of the structure"),
-            UncertainQuantity::UpliftDisplacement => {
-                (layout::UPLIFT_DISPLACEMENT_M, "m", "displacement at uplift of the structure")
-            }
-            UncertainQuantity::Capacity => (layout::CAPACITY_M, "m", "displacement capacity of the structure"),
-        };
-        writer.array_f64(path, dims, &values, unit, long_name)?;
+        DRAWN_QUANTITY.write_array(writer, &drawn_names(*quantity), &values)?;
     }
     Ok(())
 }

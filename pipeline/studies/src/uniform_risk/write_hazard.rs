@@ -7,8 +7,11 @@ use uplift_hazard::HazardCurve;
 use uplift_inputs::{HazardInput, OtherHazard, SiteHazard};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::declared::of_measure;
-use uplift_result::layout::{axis, hazard as layout};
-use uplift_result::{BRANCH_WEIGHTS, EPISTEMIC, EPISTEMIC_SPECTRA, UNCERTAINTY, UNCERTAINTY_SPECTRA};
+use uplift_result::layout::axis;
+use uplift_result::{
+    BRANCH_WEIGHTS, EPISTEMIC, EPISTEMIC_SPECTRA, HAZARD_CURVE, UNCERTAINTY, UNCERTAINTY_SPECTRA, branch_curve_name,
+    curve_name,
+};
 use uplift_uniform_risk::{BRANCHES, Spectra, write_branch_spectra};
 
 use super::Outcome;
@@ -19,10 +22,10 @@ pub(super) fn write_hazard(writer: &mut LabelledWriter, hazard: &[Vec<SiteHazard
     for site in hazard.iter().flatten() {
         let label = site.measure.label();
         let axis = axis::hazard(&site.site, site.measure, &mut axes);
-        write_curve(writer, of_input(&site.curve), &layout::group(&site.site, site.measure), &axis, label)?;
+        write_curve(writer, of_input(&site.curve), &curve_name(&site.site, site.measure), &axis, label)?;
         for (index, branch) in site.branches.iter().enumerate() {
-            let group = layout::branch(&site.site, site.measure, index);
-            write_curve(writer, of_input(&branch.input), &group, &format!("{axis}_{}", index + 1), label)?;
+            let name = branch_curve_name(&site.site, site.measure, index);
+            let group = write_curve(writer, of_input(&branch.input), &name, &format!("{axis}_{}", index + 1), label)?;
             writer.attribute(&group, "name", branch.name.as_str())?;
             writer.attribute(&group, "weight", branch.weight)?;
         }
@@ -36,26 +39,29 @@ pub(super) fn write_other_hazard(writer: &mut LabelledWriter, hazard: &[OtherHaz
     for other in hazard {
         let axis = axis::hazard(&other.site, other.measure, &mut axes);
         let file = other.file.as_deref();
-        let group = layout::group(&other.site, other.measure);
-        write_curve(writer, (&other.curve, file), &group, &axis, other.measure.label())?;
+        let name = curve_name(&other.site, other.measure);
+        write_curve(writer, (&other.curve, file), &name, &axis, other.measure.label())?;
     }
     Ok(())
 }
 
+/// Write a curve of this name; its group.
 fn write_curve(
     writer: &mut LabelledWriter,
     (curve, file): (&HazardCurve, Option<&Path>),
-    group: &str,
+    name: &str,
     axis: &str,
     label: &str,
-) -> Result<(), LabelledError> {
+) -> Result<String, LabelledError> {
     writer.axis_f64(axis, curve.im(), curve.unit(), &format!("{label} of the hazard curve"))?;
-    let path = layout::maf_per_year(group);
-    writer.array_f64(&path, &[axis], curve.maf(), "1/yr", "mean annual frequency of exceedance")?;
+    let names = [("<curve>", name), ("<axis>", axis)];
+    HAZARD_CURVE.write(writer, &names, &[(axis, curve.maf().len())], curve)?;
+    let group = HAZARD_CURVE.group(&names);
     let file = file.map(|file| file.display().to_string()).unwrap_or_default();
-    writer.attribute(group, "source", curve.source())?;
-    writer.attribute(group, "file", file.as_str())?;
-    writer.attribute(group, "unit", curve.unit())
+    writer.attribute(&group, "source", curve.source())?;
+    writer.attribute(&group, "file", file.as_str())?;
+    writer.attribute(&group, "unit", curve.unit())?;
+    Ok(group)
 }
 
 fn of_input(input: &HazardInput) -> (&HazardCurve, Option<&Path>) {

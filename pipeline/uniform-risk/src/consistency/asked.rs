@@ -93,7 +93,7 @@ pub(super) fn stored(
 }
 
 /// The finding of each site, where there is one.
-fn by_site<'a>(findings: &[&'a Finding], sites: usize) -> Vec<Option<&'a Finding>> {
+pub(super) fn by_site<'a>(findings: &[&'a Finding], sites: usize) -> Vec<Option<&'a Finding>> {
     let mut all = vec![None; sites];
     for &finding in findings {
         all[finding.site] = Some(finding);
