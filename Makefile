@@ -22,8 +22,8 @@ ifeq ($(wildcard $(or $(CARGO_TARGET_DIR),$(CARGO_BUILD_TARGET_DIR),target)/debu
 export CARGO_INCREMENTAL ?= 0
 endif
 
-.PHONY: run build install wheel dist test tests-built test-long check test-cluster torture doc-figures lint docs \
-	python sbom notices bench fuzz clean
+.PHONY: run build install wheel dist test tests-built test-long check test-cluster torture doc-figures doc-outputs \
+	lint docs book python sbom notices bench fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
@@ -44,9 +44,14 @@ install: build
 	@case ":$(ORIGINAL_PATH):" in *":$(PREFIX)/bin:"*) echo "installed: uplift --help" ;; \
 		*) echo "installed in $(PREFIX)/bin, which is not on your PATH: add it there, or make install PREFIX=..." ;; esac
 
-# The figures of the documents that take minutes, written anew where they differ; needs real records (CONTRIBUTING.md).
+# The figures of the documents that take minutes, written anew where they differ; needs real records
+# (docs/contributing.md).
 doc-figures:
 	UPDATE_DOCS=1 cargo test --locked --workspace --test end_to_end figures:: -- --include-ignored
+
+# What the documents show of commands, written anew where it differs.
+doc-outputs: build
+	tests/outputs --program $(UPLIFT) --update
 
 # Crates, the built program, its result file from Python; the packages for that arrive while the tests are compiled.
 test:
@@ -64,7 +69,7 @@ test-long: python
 		$(or $(LONG_TESTS),$(error no test is marked `#[ignore = "long: make test-long"]` right above its `fn`))
 
 # What CI asks of a change: every test, and formatting, lints and documentation besides.
-check: lint docs test test-long
+check: lint docs book test test-long
 
 # The Python package: its wheel in python/dist, with the program in it, installed into a fresh environment and tested
 # there (docs/python.md).
@@ -87,15 +92,20 @@ torture:
 lint:
 	.ci/check-line-width
 	.ci/check-paths
+	tests/words
 	.ci/check-dependencies
 	cargo fmt --all --check
 	cargo fmt --manifest-path python/Cargo.toml --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 
-# Without warnings, and every example in it runs.
+# Documentation of the code, without warnings; every example in it runs.
 docs:
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
 	cargo test --locked --workspace --doc
+
+# The documents as one searchable book, target/book/index.html: no warning, no broken link, nothing from other hosts.
+book:
+	.ci/build-book
 
 # Python reads the result files in the tests; without it those tests say that they were skipped.
 python:

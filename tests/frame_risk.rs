@@ -233,7 +233,7 @@ fn what_is_typed_wrong_is_told_and_figures_are_drawn() {
     ask("frame.toml", &["--site", "Here"]).fails(4, &["--manifest"]);
 }
 
-/// The blocks of docs/frames.md that begin with `$ uplift`.
+/// The block of docs/frames.md that begins with `$ uplift`.
 // Last digits belong to a machine's mathematical functions.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[test]
@@ -242,6 +242,5 @@ fn the_documentation_shows_what_is_printed() {
     let folder = with_structures();
     let quick = repository().join("configs/quick.toml");
     uplift(folder.path(), &["run", quick.to_str().unwrap(), "-q"]).ok();
-    uplift(folder.path(), &["records", "synthesize", "-o", "downloads", "--count", "1", "-q"]).ok();
-    hold_console(folder.path(), "docs/frames.md", 2);
+    hold_console(folder.path(), "docs/frames.md", 1);
 }

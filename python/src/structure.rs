@@ -49,7 +49,7 @@ impl Structure {
     /// Parameters
     /// ----------
     /// path : str or os.PathLike
-    ///     A structure file (docs/design.md).
+    ///     A structure file (docs/structure-file.md).
     ///
     /// Raises
     /// ------

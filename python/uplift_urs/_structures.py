@@ -14,8 +14,8 @@ def structure(**keys: Any) -> Structure:
     Parameters
     ----------
     **keys
-        As in a structure file (docs/design.md): ``kind="frame", columns=4, width_m=1.6, ...``; a restrainer is a
-        mapping.
+        As in a structure file (docs/structure-file.md): ``kind="frame", columns=4, width_m=1.6, ...``; a restrainer is
+        a mapping.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-//! The dissertation's design tables beside ours (docs/displacement-spectra.md).
+//! The dissertation's design tables beside ours (docs/comparison.md).
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! The rules' own errors (docs/design.md, "How large is it"): three structures at six sites, real records.
+//! The rules' own errors (docs/design-rules.md): three structures at six sites, real records.
 
 use serde_json::Value;
 

@@ -1,4 +1,4 @@
-//! What a fixed step explains of the dissertation's medians (docs/displacement-spectra.md): central differences at a
+//! What a fixed step explains of the dissertation's medians (docs/comparison.md): central differences at a
 //! tenth of the sampling interval and at the whole of it, impacts at the end of the step in which they happen, beside
 //! the exact solution and its noise, all of them to the end of the record. The program itself steps nowhere.
 

@@ -1,4 +1,4 @@
-//! What single records weigh by PGA (docs/method.md, section 9): real records.
+//! What single records weigh by PGA (docs/comparison.md): real records.
 
 use std::fmt::Write as _;
 

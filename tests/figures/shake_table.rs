@@ -1,4 +1,4 @@
-//! Our order of the tests of Chapter 6 beside the printed one (docs/shake-table.md), real records.
+//! Our order of the tests of Chapter 6 beside the printed one (docs/comparison.md), real records.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;

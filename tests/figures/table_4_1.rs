@@ -1,4 +1,4 @@
-//! Table 4.1 beside ours (docs/method.md, section 9): 301 strengths, real records.
+//! Table 4.1 beside ours (docs/comparison.md): 301 strengths, real records.
 
 use std::collections::BTreeMap;
 use std::path::Path;

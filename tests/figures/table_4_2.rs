@@ -1,4 +1,4 @@
-//! Table 4.2 beside ours (docs/method.md, section 15).
+//! Table 4.2 beside ours (docs/comparison.md).
 
 use serde_json::Value;
 

@@ -1,4 +1,4 @@
-//! What the displacement at uplift and the restitution do to spectra (docs/design.md, "How much they matter").
+//! What the displacement at uplift and the restitution do to spectra (docs/design-rules.md).
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Table 6.2 decoded, and what its tests would have seen (docs/validation.md).
+//! Table 6.2 decoded, and what its tests would have seen (docs/comparison.md).
 
 use uplift_validation::{Evidence, KolmogorovSmirnov, Resampling, Sample, detectable_factor};
 

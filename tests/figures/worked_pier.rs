@@ -1,4 +1,4 @@
-//! The worked example of docs/design.md: the pier by hand, from its dimensions alone, and what the program says of it.
+//! The worked example of docs/tutorial-pier.md: the pier by hand, from its dimensions alone, and what the program says.
 
 use std::f64::consts::PI;
 use std::path::Path;

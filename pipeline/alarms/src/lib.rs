@@ -2,7 +2,7 @@
 //! to do about it.
 //!
 //! It is derived from the result file, so that the summary of a run, `uplift table`, the page, an export and a design
-//! say the same; thresholds and their reasons: docs/method.md, section 17.
+//! say the same; thresholds and their reasons: docs/warnings.md.
 //!
 //! | module | what it looks at |
 //! |---|---|

@@ -360,8 +360,7 @@ pub(super) fn of_the_records_definition(
         return Err(format!(
             "the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same \
              definition, another records.intensity, or declare what the levels are multiplied by: [hazard] conversions \
-             = [{{ from = \"{from}\", to = \"{to}\", {key} = … }}], with the ratio of the two (docs/hazard.md, section \
-             4)"
+             = [{{ from = \"{from}\", to = \"{to}\", {key} = … }}], with the ratio of the two (docs/hazard.md)"
         ));
     };
     curve.converted(factor, wanted).map(Some).map_err(|error| error.to_string())

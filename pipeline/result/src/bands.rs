@@ -189,7 +189,7 @@ group! {
     pub const INFERRED_BANDS: InferredBands = BANDS.path;
     "truth_lower_m" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m"
         "limit of the spectrum of all records there could be"
-        ("limit of the spectrum of all records there could be; absent in results of before, as the next ones")
+        ("limit of the spectrum of all records there could be; absent in older results, as the next ones")
         = |of, at| of.truth_m[0][at];
     "truth_upper_m" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m"
         "limit of the spectrum of all records there could be" = |of, at| of.truth_m[1][at];

@@ -187,7 +187,7 @@ impl ResultFile {
             Kind::Displacement => {
                 "holds displacement spectra of record sets, and this command wants uniform risk spectra: `uplift \
                  table`, `plot`, `report`, `status` and `verify` take it, tables lie beside it as CSV, and \
-                 docs/displacement-spectra.md says how other programs read it"
+                 docs/exports.md says how other programs read it"
             }
             Kind::ShakeTable => {
                 "holds the tests of a shaking table: `uplift table`, `plot`, `report`, `validate`, `status` and \

@@ -1,4 +1,4 @@
-//! What is told, for a program that started this one: a line of JSON for each event (docs/study-file.md).
+//! What is told, for a program that started this one: a line of JSON for each event (docs/commands.md).
 
 use std::error::Error;
 use std::io::{self, Write};

@@ -90,7 +90,7 @@ const WHEN_FLAT: Key<Choice<WhenFlat>> =
     .meaning("once the springs are flat the tendon stretches on, or the law ends");
 const ANCHORAGE: Key<Choice<TendonAnchorage>> = choice("anchorage", &TendonAnchorage::ALL, TendonAnchorage::name)
     .without_default("`\"column\"`")
-    .meaning("where the tendon is anchored, and whether it shifts in its duct (section 1)");
+    .meaning("where the tendon is anchored, and whether it shifts in its duct");
 
 pub(super) const STOPPER_KEYS: SectionKeys =
     SectionKeys::new("restrainer.stopper", &[&GAP_M, &STOPPER_STIFFNESS_N_M, &YIELD_N]);

@@ -13,13 +13,12 @@ use super::super::{AnyStudy, Kind, structure, structure_schema, study_schema};
 use super::{displacement, resolving, shake_table};
 
 /// The pages with the keys of each kind of study, and of structures.
-fn pages() -> [(&'static str, &'static [SectionKeys]); 5] {
+fn pages() -> [(&'static str, &'static [SectionKeys]); 4] {
     [
         ("study-file.md", Kind::UniformRisk.keys()),
-        ("displacement-spectra.md", Kind::Displacement.keys()),
-        ("shake-table.md", Kind::ShakeTable.keys()),
-        ("design.md", &structure::KEYS),
-        ("restrained-columns.md", &structure::KEYS),
+        ("displacement-study.md", Kind::Displacement.keys()),
+        ("shake-table-study.md", Kind::ShakeTable.keys()),
+        ("structure-file.md", &structure::KEYS),
     ]
 }
 
