@@ -17,6 +17,8 @@ pub(super) struct Entry {
 #[derive(Clone, Copy)]
 enum Kind {
     Line,
+    /// A line in the middle of a band.
+    LineInBand,
     Dots,
     Area,
     Level,
@@ -28,7 +30,12 @@ pub(super) fn legend(figure: &Figure) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     for panel in &figure.panels {
         let lines = panel.series.iter().map(|series| {
-            let kind = if series.marks == Marks::Only { Kind::Dots } else { Kind::Line };
+            let has_band = panel.bands.iter().any(|band| band.name.is_empty() && band.tone == series.tone);
+            let kind = match series.marks {
+                Marks::Only => Kind::Dots,
+                _ if has_band => Kind::LineInBand,
+                _ => Kind::Line,
+            };
             (&series.name, series.tone, kind)
         });
         let bands = panel.bands.iter().map(|band| (&band.name, band.tone, Kind::Area));
@@ -65,6 +72,10 @@ pub(super) fn draw_swatch(root: &Area<'_>, entry: &Entry, (x, top): (i32, i32)) 
             root.draw(&Rectangle::new(corners, colour(tone).stroke_width(FAINT_LINE)))?;
         }
         Kind::Dots => root.draw(&Circle::new((x + 11 * UNITS, middle), 2 * UNITS, colour(tone).filled()))?,
+        Kind::LineInBand => {
+            root.draw(&Rectangle::new(corners, colour(tone).mix(0.22).filled()))?;
+            draw_line(root, &[(x, middle), (right, middle)], tone, width(tone))?;
+        }
         Kind::Line => draw_line(root, &[(x, middle), (right, middle)], tone, width(tone))?,
     }
     Ok(())
