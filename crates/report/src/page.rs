@@ -1,13 +1,13 @@
-//! The report: one HTML file that opens anywhere. It leads with the answer; then how sure it is, where it comes from,
-//! and what is needed to compute with it and to make it again.
+//! The report: one HTML file that opens anywhere. It leads with the spectrum, its numbers and at most three warnings;
+//! then confidence, sources of the risk, fitted curves, structures, and what reproduces it.
 //!
 //! Styles and scripts are inside the file and nothing is fetched; its own policy forbids it. The figures are those of
 //! [`figures`](crate::figures), as SVG, with their values beside them for the script that reads them off.
 
-pub(crate) mod answer;
 mod consistency;
 mod differences;
 mod displacement;
+pub(crate) mod displacements;
 mod drawn;
 mod risk;
 mod shake_table;
@@ -19,7 +19,6 @@ use std::path::{Path, PathBuf};
 use minijinja::{Environment, Value, context};
 use serde::Serialize;
 
-use answer::Answer;
 use differences::{differences, names};
 use drawn::DrawnFigure;
 use structures::AskedStructure;
@@ -44,12 +43,14 @@ struct Section {
     key: String,
     title: String,
     file: String,
-    extent: String,
     record_set: String,
     alarms: Vec<Alarm>,
-    answer: Option<Answer>,
+    /// The figure before all others.
+    lead: Option<DrawnFigure>,
+    /// The table beside it.
+    summary: Option<TitledTable>,
     parts: Vec<ShownPart>,
-    /// What was asked under it.
+    /// The structures that were analysed under it.
     structures: Vec<AskedStructure>,
     facts: Vec<(&'static str, String)>,
     study_toml: String,
@@ -62,12 +63,10 @@ struct ShownPart {
     key: String,
     title: &'static str,
     /// A sentence below the title; empty for none.
-    note: String,
-    /// Shown before the figures.
-    tables: Vec<TitledTable>,
+    note: &'static str,
     figures: Vec<DrawnFigure>,
-    /// Shown after them.
-    details: Vec<TitledTable>,
+    /// Folded below them.
+    tables: Vec<TitledTable>,
 }
 
 /// A table and what is said of it; its headings have raised and lowered parts.
@@ -86,9 +85,10 @@ pub(crate) struct TitledTable {
 struct Content {
     /// What the result is of, e.g. `Uniform risk spectra`.
     subject: &'static str,
-    /// How much it is of, a sentence.
-    extent: String,
-    answer: Option<Answer>,
+    /// The sites or record sets that it is of, in a few words.
+    place: String,
+    lead: Option<Figure>,
+    summary: Option<TitledTable>,
     facts: Vec<(&'static str, String)>,
     parts: Vec<Part>,
     /// Its spectra, to be laid over those of others.
@@ -101,10 +101,9 @@ struct Part {
     key: &'static str,
     title: &'static str,
     /// A sentence below the title; empty for none.
-    note: String,
-    tables: Vec<TitledTable>,
+    note: &'static str,
     figures: Vec<Figure>,
-    details: Vec<TitledTable>,
+    tables: Vec<TitledTable>,
 }
 
 /// A result that was read.
@@ -148,6 +147,9 @@ pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result
     subjects.dedup();
     let subjects = subjects.join(", ");
     let several = results.len() > 1;
+    let mut places: Vec<String> = results.iter().map(|of| of.content.place.clone()).collect();
+    places.dedup();
+    let place = places.join("; ");
     let marks: Vec<&str> = results.iter().map(|of| of.mark.as_str()).collect();
     let mark = format!("{}; {}", outputs::mark(), marks.join("; "));
     let sections = results.into_iter().zip(&names).enumerate().map(|(index, (result, name))| {
@@ -158,7 +160,7 @@ pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result
     render(
         REPORT,
         context! {
-            sections, subjects, heading, several, names, differences, common,
+            sections, subjects, heading, place, several, names, differences, common,
             style => STYLE,
             script => include_str!("page/report.js"),
             mark,
@@ -196,7 +198,7 @@ impl TitledTable {
 }
 
 impl Read {
-    /// The title    /// The title of the study, or the name of the file where it has none.
+    /// The title of the study, or the name of the file where it has none.
     fn title(&self) -> &str {
         if self.head.title.is_empty() { &self.file } else { &self.head.title }
     }
@@ -218,7 +220,6 @@ fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftErro
     let Read { head, alarms, file, content, mut structures, .. } = result;
     let mut facts = vec![
         ("Result", file.clone()),
-        ("Records", head.record_set.clone()),
         ("Program", format!("uplift {} ({})", head.version, head.commit)),
         ("Made", head.created),
         ("Command", head.command),
@@ -236,9 +237,8 @@ fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftErro
             key: format!("{key}-{}", part.key),
             title: part.title,
             note: part.note,
-            tables: keyed(part.tables),
             figures,
-            details: keyed(part.details),
+            tables: keyed(part.tables),
         })
     };
     for answer in structures.iter_mut().flat_map(|structure| &mut structure.answers) {
@@ -249,10 +249,10 @@ fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftErro
         key: key.to_owned(),
         title,
         file,
-        extent: content.extent,
         record_set: head.record_set,
         alarms,
-        answer: content.answer,
+        lead: content.lead.map(|figure| DrawnFigure::new(key, &figure)).transpose()?,
+        summary: keyed(content.summary.into_iter().collect()).pop(),
         parts: content.parts.into_iter().map(shown).collect::<Result<_, UpliftError>>()?,
         facts,
         study_toml: head.study_toml,

@@ -1,152 +1,134 @@
 //! What the report shows of uniform risk spectra.
 
-use super::answer::{answer, significant};
-use super::consistency;
+use super::consistency::consistency;
+use super::displacements::{Row, rows, significant};
 use super::{Content, Part, TitledTable};
-use crate::figures::FigureSource;
+use crate::figures::{Extent, FigureSource};
 use uplift::UpliftError;
 use uplift::influence::{level_of_share, rank_records};
-use uplift::result::{MeasureBands, ResultFile, StoredBands, StoredSpectra, StoredSpectraBands, StoredStripes};
-use uplift::text::{Table, kind_of_risks, metres, nearest, per_cent, risk_in_words, risk_name, spectrum_words};
+use uplift::result::{MeasureBands, ResultFile, StoredSpectra, StoredSpectraBands};
+use uplift::text::{
+    Table, TableOf, kind_of_risks, metres, nearest, per_cent, risk_in_words, risk_name, spectrum_words,
+};
 
-/// Strengths in the table of displacements, and in that of intensities.
-const SHOWN_STRENGTHS: [f64; 5] = [0.05, 0.1, 0.2, 0.3, 0.4];
-const TAKEN_APART: [f64; 3] = [0.1, 0.2, 0.4];
+/// Strengths in the tables of displacements.
+const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
+/// Strength in the table of intensity levels.
+const TAKEN_APART: f64 = 0.2;
+/// Sites in the first table.
+const FIRST_SITES: usize = 9;
 /// What stands above columns of displacements.
-const UPLIFTS_AT: &str = "displacement, m, of a structure that uplifts at";
+const UPLIFTS_AT: &str = "at uplift strength η";
 /// In place of what is of other probabilities than those of the page.
-const INFLUENCE_LEFT_OUT: &str = "Which records and intensities carry the spectra is left out: uplift influence found \
-                                  it for the probabilities of the study, and this page is of others.";
-/// What Table 4.1 says of repaired spectra.
-const REPAIRED_BANDS: &str = " Those of repaired spectra have weights of their own in every resample.";
-
+const INFLUENCE_LEFT_OUT: &str = "Influence is left out: uplift influence found it for the probabilities of the study.";
 /// What rows of Table 4.1 are of where a site's weighted hazard curves are drawn too.
 const WITH_CURVES: &str = "with hazard curves";
-/// What Table 4.1 says of them.
-const JOINT_BANDS: &str = " With hazard curves: over the records and the site's weighted hazard curves together.";
-
-/// What the table of displacements says of repaired spectra.
-const REPAIRED: &str = " Repaired: of records weighted so that they bring the site's hazard of both measures, where as \
-                        they are they do not.";
+/// What tables say of repaired spectra.
+const REPAIRED: &str = "Repaired: from records weighted to match the site's hazard.";
 /// Records of each spectrum in the table of influence.
-const NAMED_RECORDS: usize = 3;
+const NAMED_RECORDS: usize = 1;
 
 pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let source = FigureSource::read(file)?;
-    let figures = source.figures()?;
+    let figures = source.figures(Extent::Main)?;
     let stored = &source.stored;
-    let mut parts = vec![
-        Part {
-            key: "answer",
-            title: "Displacements to survive",
-            note: String::new(),
-            tables: vec![summary(&source)],
-            figures: figures.answer,
-            details: Vec::new(),
-        },
+    let rows = rows(file, &source, &shown_strengths(&source))?;
+    let mut spectra = figures.answer.into_iter();
+    let lead = spectra.next();
+    let parts = vec![
         Part {
             key: "confidence",
-            title: "How sure it is",
-            // it is of the rarest probability of the study
-            note: if file.is_asked() { String::new() } else { how_sure(&file.precision()) },
-            tables: Vec::new(),
-            figures: figures.confidence,
-            details: source
-                .bands
-                .iter()
-                .map(|bands| confidence(&source.spectra, bands))
-                .chain(spread(&source))
+            title: "Confidence",
+            note: "",
+            figures: spectra.chain(figures.confidence).collect(),
+            tables: [Some(all(&source, &rows)), consistency(&source), bootstrap(&source), spread(&source)]
+                .into_iter()
+                .flatten()
                 .collect(),
         },
         Part {
             key: "causes",
-            title: "Where it comes from",
-            note: if file.is_asked() && file.has_influence() { INFLUENCE_LEFT_OUT } else { "" }.to_owned(),
-            tables: Vec::new(),
+            title: "Sources of the risk",
+            note: if file.is_asked() && file.has_influence() { INFLUENCE_LEFT_OUT } else { "" },
             figures: figures.causes,
-            details: [intensities(&source), records(&source)].into_iter().flatten().collect(),
+            tables: [intensities(&source), records(&source)].into_iter().flatten().collect(),
         },
         Part {
             key: "compute",
-            title: "To compute with",
-            note: String::new(),
-            tables: vec![coefficients(&source.spectra)],
+            title: "Fitted curves",
+            note: "",
             figures: figures.fits,
-            details: Vec::new(),
+            tables: vec![coefficients(&source.spectra)],
         },
     ];
-    if let Some(part) = consistency::part(&source, figures.consistency) {
-        // before where it comes from
-        parts.insert(2, part);
-    }
-    let mut facts = vec![("Seed", stored.seed.to_string())];
+    let mut facts = vec![("Seed", stored.seed.to_string()), ("Uplift strengths", stored.strengths.len().to_string())];
     if file.is_asked() {
         facts.push(("Probabilities", "asked for after the run, from the stripes of the result".to_owned()));
     }
     Ok(Content {
         subject: "Uniform risk spectra",
-        extent: format!(
-            "{}, {} uplift strengths, {} site{}.",
-            ground_motions(stored),
-            stored.strengths.len(),
-            stored.sites.len(),
-            if stored.sites.len() == 1 { "" } else { "s" }
-        ),
-        answer: answer(&source),
+        place: match &source.spectra.sites[..] {
+            sites if sites.len() <= FIRST_SITES => sites.join(", "),
+            sites => format!("{} sites", sites.len()),
+        },
+        lead,
+        summary: first(&source, &rows),
         facts,
         parts,
         source: Some(source),
     })
 }
 
-/// How many ground motions there are, in words: azimuths and structures make several records of a pair.
-fn ground_motions(stored: &StoredStripes) -> String {
-    let (records, pairs) = (stored.records.len(), stored.units.firsts().count());
-    if records == pairs {
-        format!("{records} ground motions")
-    } else {
-        format!("{pairs} pairs of ground motions, of which {records} records are made")
-    }
+/// The first table: the rarest displacements by the first measure; none without spectra.
+fn first(source: &FigureSource, rows: &[Row]) -> Option<TitledTable> {
+    let spectra = &source.spectra;
+    let (measure, poe) = (spectra.measures.first()?.measure, source.rarest());
+    let rows: Vec<&Row> =
+        rows.iter().filter(|row| row.measure == measure && row.poe == poe && row.site < FIRST_SITES).collect();
+    let risk = risk_in_words(spectra.poes[poe], spectra.years);
+    let title = format!("Displacement, m, of {risk} by {} (90 % confidence band)", measure.label());
+    let note = if rows.iter().any(|row| row.repaired) { REPAIRED } else { "" };
+    let table =
+        Table::of(rows.iter().copied()).left("site", |row| spectrum_words(&spectra.sites[row.site], row.repaired));
+    Some(of_strengths(source, ("summary", title, note), table))
 }
 
-/// Whether the records are enough, by every measure.
-fn how_sure(precision: &[String]) -> String {
-    let sentences: Vec<String> = precision.iter().map(|sentence| format!("{sentence}.")).collect();
-    sentences.join(" ")
+/// The displacements by every measure and probability.
+fn all(source: &FigureSource, rows: &[Row]) -> TitledTable {
+    let spectra = &source.spectra;
+    let table = Table::of(rows)
+        .left("site", |row| &spectra.sites[row.site])
+        .left("measure", |row| spectrum_words(row.measure.label(), row.repaired))
+        .left("probability", |row| risk_name(spectra.poes[row.poe], spectra.years));
+    let kind = kind_of_risks(&spectra.poes, spectra.years).map_or_else(String::new, |kind| format!(", {kind}"));
+    let title = format!("All displacements, m (90 % confidence band{kind})");
+    of_strengths(source, ("displacements", title, ""), table)
 }
 
-/// The strength at an index as the acceleration at which structures uplift.
-fn acceleration(stored: &StoredSpectra, eta: usize) -> String {
-    format!("{:.2} g", stored.strengths[eta])
+/// A table of displacements: a column for each strength shown.
+fn of_strengths<'a>(
+    source: &FigureSource,
+    (id, title, note): (&str, String, &str),
+    table: TableOf<&'a Row>,
+) -> TitledTable {
+    let strengths = shown_strengths(source).into_iter().enumerate();
+    let table = table.each(strengths, |table, (place, eta)| {
+        table.right(strength(&source.spectra, eta), |row| row.cells[place].clone())
+    });
+    TitledTable { group: UPLIFTS_AT, ..TitledTable::new(id, title, note, table) }
 }
 
-fn summary(source: &FigureSource) -> TitledTable {
-    let stored = &source.spectra;
-    let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
-    let places = stored.measures.iter().flat_map(|of| of.u_m.blocks::<2>().map(|(at, _)| at));
-    let mut rows = Vec::new();
-    let mut is_repaired = false;
-    for ([site, poe], spectrum) in places.zip(stored.rows()) {
-        let label = spectrum.measure.label();
-        rows.push((spectrum.site, label.to_owned(), spectrum.poe, spectrum.u_m));
-        if let Some(u_m) = source.repaired(spectrum.measure, site) {
-            rows.push((spectrum.site, spectrum_words(label, true), spectrum.poe, u_m.block([site, poe])));
-            is_repaired = true;
-        }
-    }
-    let repaired = if is_repaired { REPAIRED } else { "" };
-    let note = format!(
-        "What a structure goes beyond with the stated probability, if it uplifts at the stated acceleration.{repaired}"
-    );
-    let table = Table::of(&rows)
-        .left("site", |(site, ..)| site)
-        .left("measure", |(_, measure, ..)| measure)
-        .left("probability", |&(_, _, poe, _)| risk_in_words(poe, stored.years))
-        .each(shown, |table, eta| table.right(acceleration(stored, eta), |(.., u_m)| metres(u_m[eta])));
-    TitledTable { group: UPLIFTS_AT, ..TitledTable::new("summary", "Displacement in metres", note, table) }
+/// Positions of the strengths in the tables.
+fn shown_strengths(source: &FigureSource) -> Vec<usize> {
+    nearest(&source.spectra.strengths, &SHOWN_STRENGTHS)
 }
 
-/// How far the spectra lie apart over what is not known; none where all of it is.
+/// The strength at an index, as the heading of a column.
+fn strength(stored: &StoredSpectra, eta: usize) -> String {
+    format!("{:.2}", stored.strengths[eta])
+}
+
+/// Fractiles of the spectra over weighted hazard curves and uncertain structures; none without such.
 fn spread(source: &FigureSource) -> Option<TitledTable> {
     let stored = &source.spectra;
     let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
@@ -157,21 +139,20 @@ fn spread(source: &FigureSource) -> Option<TitledTable> {
         .left("probability", |(_, poe)| risk_name(stored.poes[poe], stored.years))
         .left("over", |(of, _)| of.over.words())
         .each(shown, |table, eta| {
-            table.right(acceleration(stored, eta), |(of, poe)| {
+            table.right(strength(stored, eta), |(of, poe)| {
                 let [_, lower, .., upper] = of.limits_m(poe);
                 format!("{} to {}", metres(lower[eta]), metres(upper[eta]))
             })
         });
-    let note = "5 to 95 % fractiles over weighted hazard curves, and over structures that may be: one of them holds, \
-                and nobody knows which. What the records leave open is not in it.";
-    let table = TitledTable::new("spread", "Spectra over what is not known", note, table);
+    let note = "One of the curves or structures is true. The uncertainty of the records is not included.";
+    let table = TitledTable::new("spread", "Displacement, m: 5 to 95 % fractiles over what is uncertain", note, table);
     TitledTable { group: UPLIFTS_AT, ..table }.unless_empty()
 }
 
-/// Which levels make the risk of the rarest probability; none before `uplift influence`.
+/// The levels that make up the risk of the rarest probability; none before `uplift influence`.
 fn intensities(source: &FigureSource) -> Option<TitledTable> {
     let stored = &source.stored;
-    let (poe, shown) = (source.rarest(), nearest(&stored.strengths, &TAKEN_APART));
+    let (poe, shown) = (source.rarest(), nearest(&stored.strengths, &[TAKEN_APART]));
     let mut rows = Vec::new();
     for (influence, measure) in source.influences() {
         for (site, name) in stored.sites.iter().enumerate() {
@@ -188,17 +169,16 @@ fn intensities(source: &FigureSource) -> Option<TitledTable> {
         }
     }
     let header =
-        ["site", "measure", "strength, g", "5 % below", "half below", "95 % below", "below all, %", "above all, %"];
+        ["site", "measure", "strength", "5 % below", "half below", "95 % below", "below all, %", "above all, %"];
     let note = format!(
-        "Levels of the measure below which 5 %, half and 95 % of the risk at the ordinate of {} lie, and what of it \
-         comes from below and above all analysed levels.",
+        "Levels below which 5 %, half and 95 % of the risk at {} lie; shares from below and above all levels.",
         risk_in_words(stored.poes[poe], stored.years)
     );
     let table = Table::new(header, rows).with_left(2);
-    TitledTable::new("intensities", "Intensities that make the risk", note, table).unless_empty()
+    TitledTable::new("intensities", "Intensity levels that make up the risk", note, table).unless_empty()
 }
 
-/// Which records carry the spectra of the rarest probability; none before `uplift influence`.
+/// The records that change the spectra of the rarest probability most; none before `uplift influence`.
 fn records(source: &FigureSource) -> Option<TitledTable> {
     let stored = &source.stored;
     let poe = source.rarest();
@@ -219,13 +199,12 @@ fn records(source: &FigureSource) -> Option<TitledTable> {
         }
     }
     let note = format!(
-        "Change of the spectrum of {} if one record is left out, on average over the strengths that rock, and where it \
-         is largest.",
+        "Change of the spectrum of {} without the record that changes it most.",
         risk_in_words(stored.poes[poe], stored.years)
     );
-    let header = ["site", "measure", "record left out", "mean change, %", "largest, %", "at strength, g"];
+    let header = ["site", "measure", "record", "mean change, %", "largest, %", "at strength"];
     let table = Table::new(header, rows).with_left(3);
-    TitledTable::new("records", "Records that carry the spectra", note, table).unless_empty()
+    TitledTable::new("records", "Influence of single records", note, table).unless_empty()
 }
 
 fn percentage(share: Option<f64>) -> String {
@@ -245,13 +224,16 @@ fn coefficients(spectra: &StoredSpectra) -> TitledTable {
         .right("c2, m", |spectrum| number(spectrum.fit.c2_m, 4))
         .right("RMSE, m", |spectrum| number(spectrum.fit.rmse_m, 4));
     let note = format!(
-        "u = c0 exp(c1 η) + c2 with c2 not negative, for strengths η above 0.05 or as the study says{}.",
+        "u = c0 exp(c1 η) + c2{}.",
         kind_of_risks(&spectra.poes, spectra.years).map_or_else(String::new, |kind| format!("; {kind}"))
     );
     TitledTable::new("table-4-2", "Coefficients (Table 4.2)", note, table)
 }
 
-fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> TitledTable {
+/// Errors and widths of the bands of all records; none before `uplift bootstrap`.
+fn bootstrap(source: &FigureSource) -> Option<TitledTable> {
+    let (stored, bands) = (&source.spectra, source.bands.as_ref()?);
+    let largest = bands.of_set(source.stored.records.len());
     let number = |value: f64, digits: usize| if value.is_nan() { "-".to_owned() } else { format!("{value:.digits$}") };
     let beyond = |of_measure: &MeasureBands, at @ [site, poe, _]: [usize; 3]| -> [String; 2] {
         let found = || {
@@ -278,7 +260,8 @@ fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> TitledTable {
         };
         let label = of_measure.measure.label();
         let mut rows = Vec::new();
-        for (at @ [site, _, size], _) in of_measure.plain.error_of_median.blocks::<3>() {
+        let places = of_measure.plain.error_of_median.blocks::<3>().map(|(at, _)| at);
+        for at @ [site, _, size] in places.filter(|at| at[2] == largest) {
             let mut add = |measure: String, own: &StoredSpectraBands, beyond: [String; 2]| {
                 rows.push(row(at, measure.clone(), (own.error_of_median[at], own.range_of_interval[at]), beyond));
                 if let Some(joint) = own.joint.as_ref().filter(|joint| !joint.limits_m[1].block(at)[0].is_nan()) {
@@ -294,17 +277,12 @@ fn confidence(stored: &StoredSpectra, bands: &StoredBands) -> TitledTable {
         rows
     };
     let note = format!(
-        "Error of the median and width of the {} interval over {}, at the strength where each is largest (Eq. 4.9, \
-             4.10). Truth: where the spectrum of all records like these lies, and another set: where that of another \
-             set of as many lies, each with {} confidence, from the ordinate at the strength where the first is widest \
-             in metres.{}{}",
+        "Error of the median and width of the {0} interval over {1} (Eq. 4.9, 4.10), and {0} bands of all records and \
+         of another set, over the ordinate, each where it is largest.",
         per_cent(bands.confidence),
-        bands.drawn_words(),
-        per_cent(bands.confidence),
-        if bands.measures.iter().any(|of| of.repaired.is_some()) { REPAIRED_BANDS } else { "" },
-        if bands.measures.iter().any(|of| of.plain.joint.is_some()) { JOINT_BANDS } else { "" }
+        bands.drawn_words()
     );
-    let header = ["site", "measure", "probability", "records", "e_{median}, %", "r, %", "truth, %", "another set, %"];
+    let header = ["site", "measure", "probability", "records", "e_{median}, %", "r, %", "all, %", "another set, %"];
     let table = Table::new(header, bands.measures.iter().flat_map(rows)).with_left(3);
-    TitledTable::new("table-4-1", "How sure the spectra are (Table 4.1)", note, table)
+    Some(TitledTable::new("table-4-1", "Bootstrap (Table 4.1)", note, table))
 }

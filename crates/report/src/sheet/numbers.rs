@@ -7,7 +7,7 @@ use uplift::text::{Table, per_cent, risk_in_words, share};
 use uplift_spectra::Noisy;
 
 use crate::page::TitledTable;
-use crate::page::answer::significant;
+use crate::page::displacements::significant;
 
 /// A sentence at the head of the sheet; `yes` or `no` where it is a verdict.
 #[derive(Debug, Serialize)]
