@@ -6,14 +6,14 @@ use uplift::result::FindingRow;
 use uplift_plot::{Scale, escaped, ticks};
 
 /// Pixels of the drawing, of the names at its left, and of a line.
-const WIDE: f64 = 640.0;
+const WIDE: f64 = 480.0;
 const LEFT: f64 = 190.0;
 const RIGHT: f64 = 24.0;
 const LINE: f64 = 19.0;
 /// What an axis has beyond the numbers at either end, as a share of what they take.
 const AROUND: f64 = 0.04;
 /// Labels on an axis, about.
-const TICKS: usize = 6;
+const TICKS: usize = 4;
 
 /// A unit with the axis on which its numbers stand.
 const UNITS: [(&str, Scale, &str); 2] = [("m", Scale::Linear, "m"), ("1/yr", Scale::Log, "annual rate, 1/yr")];
