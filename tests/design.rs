@@ -513,8 +513,8 @@ fn a_design_sheet_says_what_the_design_says() {
     assert_eq!(lead.contains("class=\"verdict no\""), !satisfied, "{lead}");
     // how sure that is, in words and drawn
     assert!(lead.contains("m (90 % band of records ") && lead.contains(" 90 % band of records: "), "{lead}");
-    let drawn = rest.split_once("aria-label=\"Numbers (dots) and their bands (bars), m\"").unwrap().1;
-    assert!(drawn.contains(">demand on the structure, Here, PGV</text>"), "{drawn}");
+    let drawn = rest.split_once("aria-label=\"Values (dots) with their 90 % confidence bands (bars), m\"").unwrap().1;
+    assert!(drawn.contains(">demand on the structure, Here, PGV: "), "{drawn}");
     // the block to scale, with its dimensions
     let drawing = rest.split_once("<svg").unwrap().1.split_once("</svg>").unwrap().0;
     assert!(drawing.contains(">0.8 m</text>") && drawing.contains(">4 m</text>"), "{drawing}");
