@@ -149,7 +149,7 @@ pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result
     let several = results.len() > 1;
     let mut places: Vec<String> = results.iter().map(|of| of.content.place.clone()).collect();
     places.dedup();
-    let place = places.join("; ");
+    let place = Some(places.join("; ")).filter(|place| !heading.iter().any(|title| title.contains(place)));
     let marks: Vec<&str> = results.iter().map(|of| of.mark.as_str()).collect();
     let mark = format!("{}; {}", outputs::mark(), marks.join("; "));
     let sections = results.into_iter().zip(&names).enumerate().map(|(index, (result, name))| {

@@ -79,17 +79,23 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     })
 }
 
-/// The first table: the rarest displacements by the first measure; none without spectra.
+/// The first table: displacements by the first measure, of a single site at every probability, of several at the rarest;
+/// none without spectra.
 fn first(source: &FigureSource, rows: &[Row]) -> Option<TitledTable> {
     let spectra = &source.spectra;
     let (measure, poe) = (spectra.measures.first()?.measure, source.rarest());
-    let rows: Vec<&Row> =
-        rows.iter().filter(|row| row.measure == measure && row.poe == poe && row.site < FIRST_SITES).collect();
-    let risk = risk_in_words(spectra.poes[poe], spectra.years);
-    let title = format!("Displacement, m, of {risk} by {} (90 % confidence band)", measure.label());
+    let is_one = spectra.sites.len() == 1;
+    let is_shown = |row: &&Row| row.measure == measure && (is_one || row.poe == poe && row.site < FIRST_SITES);
+    let rows: Vec<&Row> = rows.iter().filter(is_shown).collect();
+    let risk = |poe: usize| risk_in_words(spectra.poes[poe], spectra.years);
+    let of_risk = if is_one { String::new() } else { format!(" of {}", risk(poe)) };
+    let title = format!("Displacement, m,{of_risk} by {} (90 % confidence band)", measure.label());
     let note = if rows.iter().any(|row| row.repaired) { REPAIRED } else { "" };
-    let table =
-        Table::of(rows.iter().copied()).left("site", |row| spectrum_words(&spectra.sites[row.site], row.repaired));
+    let name = |row: &Row| {
+        let name = if is_one { risk(row.poe) } else { spectra.sites[row.site].clone() };
+        spectrum_words(&name, row.repaired)
+    };
+    let table = Table::of(rows.iter().copied()).left(if is_one { "probability" } else { "site" }, name);
     Some(of_strengths(source, ("summary", title, note), table))
 }
 

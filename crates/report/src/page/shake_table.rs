@@ -16,10 +16,11 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         table.levels.iter().map(|level| format!("{} ({} m/s)", level.name, level.pgv_srss_m_s)).collect();
     Ok(Content {
         subject: "Shaking table",
-        place: table.structure.clone(),
+        place: String::new(),
         lead,
         summary: None,
         facts: vec![
+            ("Structure", table.structure.clone()),
             ("Excitations", table.excitations.len().to_string()),
             ("Levels", levels.join(", ")),
             ("Length scale", table.length_scale.to_string()),

@@ -10,6 +10,8 @@ const WIDE: f64 = 480.0;
 const LEFT: f64 = 190.0;
 const RIGHT: f64 = 24.0;
 const LINE: f64 = 19.0;
+/// Letters that the space for names has room for.
+const LETTERS: usize = 32;
 /// What an axis has beyond the numbers at either end, as a share of what they take.
 const AROUND: f64 = 0.04;
 /// Labels on an axis, about.
@@ -32,6 +34,7 @@ pub(crate) fn bands(rows: &[FindingRow]) -> Vec<String> {
 
 fn drawing(rows: &[&FindingRow], (scale, label): (Scale, &str)) -> Option<String> {
     let axis = Axis::of(rows, scale)?;
+    let fits = |label: &String| label.chars().count() <= LETTERS;
     let mut text = String::new();
     let mut line = 0.0;
     let mut before: Option<[&str; 3]> = None;
@@ -51,7 +54,7 @@ fn drawing(rows: &[&FindingRow], (scale, label): (Scale, &str)) -> Option<String
             "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\" fill=\"#5b6270\">{}</text>",
             LEFT - 10.0,
             y + 4.0,
-            escaped(&format!("{} {}", row.band, row.band_shown()))
+            escaped(Some(format!("{} {}", row.band, row.band_shown())).filter(fits).as_ref().unwrap_or(&row.band))
         );
         let ends = row.limits.map(|limit| axis.place(limit));
         let [from, to] = ends.map(|end| axis.pixel(end));
