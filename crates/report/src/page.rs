@@ -49,24 +49,12 @@ struct Section {
     lead: Option<DrawnFigure>,
     /// The table beside it.
     summary: Option<TitledTable>,
-    parts: Vec<ShownPart>,
+    parts: Vec<Part>,
     /// The structures that were analysed under it.
     structures: Vec<AskedStructure>,
     facts: Vec<(&'static str, String)>,
     study_toml: String,
     checksums: BTreeMap<String, String>,
-}
-
-/// Tables and figures that answer one question, ready to be shown.
-#[derive(Debug, Serialize)]
-struct ShownPart {
-    key: String,
-    title: &'static str,
-    /// A sentence below the title; empty for none.
-    note: &'static str,
-    figures: Vec<DrawnFigure>,
-    /// Folded below them.
-    tables: Vec<TitledTable>,
 }
 
 /// A table and what is said of it; its headings have raised and lowered parts.
@@ -87,7 +75,7 @@ struct Content {
     subject: &'static str,
     /// The sites or record sets that it is of, in a few words.
     place: String,
-    lead: Option<Figure>,
+    lead: Option<DrawnFigure>,
     summary: Option<TitledTable>,
     facts: Vec<(&'static str, String)>,
     parts: Vec<Part>,
@@ -95,14 +83,16 @@ struct Content {
     source: Option<FigureSource>,
 }
 
-/// Tables and figures that answer one question.
+/// Figures and tables that answer one question.
+#[derive(Debug, Serialize)]
 struct Part {
     /// Its name in links.
     key: &'static str,
     title: &'static str,
     /// A sentence below the title; empty for none.
     note: &'static str,
-    figures: Vec<Figure>,
+    figures: Vec<DrawnFigure>,
+    /// Folded below them.
     tables: Vec<TitledTable>,
 }
 
@@ -140,7 +130,7 @@ pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result
         .filter_map(|(name, of)| Some((name.as_str(), of.content.source.as_ref()?)))
         .collect();
     let common = if sources.len() > 1 { together(&sources) } else { None };
-    let common = common.map(|figure| DrawnFigure::new("all", &figure)).transpose()?;
+    let common = common.map(|figure| DrawnFigure::new(&figure)).transpose()?;
     let mut heading = titles.iter().map(|&title| title.to_owned()).collect::<Vec<_>>();
     heading.dedup();
     let mut subjects: Vec<&str> = results.iter().map(|of| of.content.subject).collect();
@@ -154,9 +144,9 @@ pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result
     let mark = format!("{}; {}", outputs::mark(), marks.join("; "));
     let sections = results.into_iter().zip(&names).enumerate().map(|(index, (result, name))| {
         let title = if several { name.clone() } else { result.title().to_owned() };
-        section(&format!("r{}", index + 1), title, result)
+        section(format!("r{}", index + 1), title, result)
     });
-    let sections = sections.collect::<Result<Vec<Section>, UpliftError>>()?;
+    let sections: Vec<Section> = sections.collect();
     render(
         REPORT,
         context! {
@@ -197,6 +187,11 @@ impl TitledTable {
     }
 }
 
+/// Every one of `figures`, drawn.
+fn drawn(figures: impl IntoIterator<Item = Figure>) -> Result<Vec<DrawnFigure>, UpliftError> {
+    figures.into_iter().map(|figure| DrawnFigure::new(&figure)).collect()
+}
+
 impl Read {
     /// The title of the study, or the name of the file where it has none.
     fn title(&self) -> &str {
@@ -216,8 +211,8 @@ fn read(path: &Path, result: &ResultFile) -> Result<Read, UpliftError> {
     Ok(Read { head: result.head()?, alarms, mark: result.name_and_digest()?, file, content, structures })
 }
 
-fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftError> {
-    let Read { head, alarms, file, content, mut structures, .. } = result;
+fn section(key: String, title: String, result: Read) -> Section {
+    let Read { head, alarms, file, content, structures, .. } = result;
     let mut facts = vec![
         ("Result", file.clone()),
         ("Program", format!("uplift {} ({})", head.version, head.commit)),
@@ -225,37 +220,18 @@ fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftErro
         ("Command", head.command),
     ];
     facts.extend(content.facts);
-    let keyed = |mut tables: Vec<TitledTable>| {
-        for table in &mut tables {
-            table.id = format!("{key}-{}", table.id);
-        }
-        tables
-    };
-    let shown = |part: Part| {
-        let figures = part.figures.iter().map(|figure| DrawnFigure::new(key, figure)).collect::<Result<Vec<_>, _>>()?;
-        Ok(ShownPart {
-            key: format!("{key}-{}", part.key),
-            title: part.title,
-            note: part.note,
-            figures,
-            tables: keyed(part.tables),
-        })
-    };
-    for answer in structures.iter_mut().flat_map(|structure| &mut structure.answers) {
-        answer.table.id = format!("{key}-{}", answer.table.id);
-    }
-    Ok(Section {
-        structures,
-        key: key.to_owned(),
+    Section {
+        key,
         title,
         file,
         record_set: head.record_set,
         alarms,
-        lead: content.lead.map(|figure| DrawnFigure::new(key, &figure)).transpose()?,
-        summary: keyed(content.summary.into_iter().collect()).pop(),
-        parts: content.parts.into_iter().map(shown).collect::<Result<_, UpliftError>>()?,
+        lead: content.lead,
+        summary: content.summary,
+        parts: content.parts,
+        structures,
         facts,
         study_toml: head.study_toml,
         checksums: head.input_checksums,
-    })
+    }
 }

@@ -1,6 +1,6 @@
 //! What the report shows of displacement spectra.
 
-use super::{Content, Part, TitledTable};
+use super::{Content, Part, TitledTable, drawn};
 use crate::figures::{Extent, displacement_figures};
 use uplift::UpliftError;
 use uplift::result::{DesignRow, ResultFile, StoredDesign, StoredDisplacements, StoredStructures};
@@ -9,15 +9,9 @@ use uplift::text::{Table, thousands};
 pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let stored = file.displacements()?;
     let designs = file.design()?.map(|design| designs(&stored, &design)).unwrap_or_default();
-    let mut figures = displacement_figures(file, &stored, Extent::Main)?.into_iter();
-    let lead = figures.next();
-    let parts = vec![Part {
-        key: "spectra",
-        title: "Spectra and designs",
-        note: "",
-        figures: figures.collect(),
-        tables: designs,
-    }];
+    let mut figures = drawn(displacement_figures(file, &stored, Extent::Main)?)?;
+    let lead = (!figures.is_empty()).then(|| figures.remove(0));
+    let parts = vec![Part { key: "spectra", title: "Spectra and designs", note: "", figures, tables: designs }];
     let (structures, abscissas) = match stored.structures {
         StoredStructures::Oscillators { .. } => ("oscillators", "uplift strengths"),
         StoredStructures::Blocks { .. } => ("rocking blocks", "slendernesses"),

@@ -2,7 +2,7 @@
 
 use super::consistency::consistency;
 use super::displacements::{Row, rows, significant};
-use super::{Content, Part, TitledTable};
+use super::{Content, Part, TitledTable, drawn};
 use crate::figures::{Extent, FigureSource};
 use uplift::UpliftError;
 use uplift::influence::{level_of_share, rank_records};
@@ -33,14 +33,15 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let figures = source.figures(Extent::Main)?;
     let stored = &source.stored;
     let rows = rows(file, &source, &shown_strengths(&source))?;
-    let mut spectra = figures.answer.into_iter();
-    let lead = spectra.next();
+    let mut spectra = drawn(figures.answer)?;
+    let lead = (!spectra.is_empty()).then(|| spectra.remove(0));
+    spectra.extend(drawn(figures.confidence)?);
     let parts = vec![
         Part {
             key: "confidence",
             title: "Confidence",
             note: "",
-            figures: spectra.chain(figures.confidence).collect(),
+            figures: spectra,
             tables: [Some(all(&source, &rows)), consistency(&source), bootstrap(&source), spread(&source)]
                 .into_iter()
                 .flatten()
@@ -50,14 +51,14 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
             key: "causes",
             title: "Sources of the risk",
             note: if file.is_asked() && file.has_influence() { INFLUENCE_LEFT_OUT } else { "" },
-            figures: figures.causes,
+            figures: drawn(figures.causes)?,
             tables: [intensities(&source), records(&source)].into_iter().flatten().collect(),
         },
         Part {
             key: "compute",
             title: "Fitted curves",
             note: "",
-            figures: figures.fits,
+            figures: drawn(figures.fits)?,
             tables: vec![coefficients(&source.spectra)],
         },
     ];

@@ -1,6 +1,6 @@
 //! What the report shows of a shaking table.
 
-use super::{Content, Part, TitledTable};
+use super::{Content, Part, TitledTable, drawn};
 use crate::figures::shake_table_figures;
 use uplift::UpliftError;
 use uplift::result::{ResultFile, ShakeTable};
@@ -8,10 +8,9 @@ use uplift::text::{Table, thousands};
 
 pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let table = file.shake_table()?;
-    let mut figures = shake_table_figures(&table).into_iter();
-    let lead = figures.next();
-    let parts =
-        vec![Part { key: "tests", title: "Tests", note: "", figures: figures.collect(), tables: vec![tests(&table)] }];
+    let mut figures = drawn(shake_table_figures(&table))?;
+    let lead = (!figures.is_empty()).then(|| figures.remove(0));
+    let parts = vec![Part { key: "tests", title: "Tests", note: "", figures, tables: vec![tests(&table)] }];
     let levels: Vec<String> =
         table.levels.iter().map(|level| format!("{} ({} m/s)", level.name, level.pgv_srss_m_s)).collect();
     Ok(Content {

@@ -26,13 +26,13 @@ pub(super) struct AskedStructure {
     facts: Vec<(&'static str, String)>,
     /// What to know before the answers are used, but for what the page says of the result.
     alarms: Vec<Value>,
-    pub(super) answers: Vec<Answer>,
+    answers: Vec<Answer>,
 }
 
 /// What one question was answered.
 #[derive(Debug, Serialize)]
 pub(super) struct Answer {
-    pub(super) table: TitledTable,
+    table: TitledTable,
     /// Drawings of the numbers with bands.
     bands: Vec<String>,
 }
