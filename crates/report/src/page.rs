@@ -13,7 +13,6 @@ mod risk;
 mod shake_table;
 mod structures;
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use minijinja::{Environment, Value, context};
@@ -37,26 +36,6 @@ use crate::figures::{FigureSource, together};
 pub(crate) const STYLE: &str = include_str!("page/report.css");
 const REPORT: &str = concat!(include_str!("page/table.html"), include_str!("page/report.html"));
 
-/// What the page shows of one result.
-#[derive(Debug, Serialize)]
-struct Section {
-    key: String,
-    title: String,
-    file: String,
-    record_set: String,
-    alarms: Vec<Alarm>,
-    /// The figure before all others.
-    lead: Option<DrawnFigure>,
-    /// The table beside it.
-    summary: Option<TitledTable>,
-    parts: Vec<Part>,
-    /// The structures that were analysed under it.
-    structures: Vec<AskedStructure>,
-    facts: Vec<(&'static str, String)>,
-    study_toml: String,
-    checksums: BTreeMap<String, String>,
-}
-
 /// A table and what is said of it; its headings have raised and lowered parts.
 #[derive(Debug, Serialize)]
 pub(crate) struct TitledTable {
@@ -69,17 +48,21 @@ pub(crate) struct TitledTable {
     table: Table,
 }
 
-/// What is said of one result.
+/// What the page shows of one result.
+#[derive(Serialize)]
 struct Content {
     /// What the result is of, e.g. `Uniform risk spectra`.
     subject: &'static str,
     /// The sites or record sets that it is of, in a few words.
     place: String,
+    /// The figure before all others.
     lead: Option<DrawnFigure>,
+    /// The table beside it.
     summary: Option<TitledTable>,
     facts: Vec<(&'static str, String)>,
     parts: Vec<Part>,
     /// Its spectra, to be laid over those of others.
+    #[serde(skip)]
     source: Option<FigureSource>,
 }
 
@@ -143,10 +126,24 @@ pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result
     let marks: Vec<&str> = results.iter().map(|of| of.mark.as_str()).collect();
     let mark = format!("{}; {}", outputs::mark(), marks.join("; "));
     let sections = results.into_iter().zip(&names).enumerate().map(|(index, (result, name))| {
-        let title = if several { name.clone() } else { result.title().to_owned() };
-        section(format!("r{}", index + 1), title, result)
+        let title = if several { name } else { result.title() };
+        let Read { head, content, .. } = &result;
+        context! {
+            key => format!("r{}", index + 1),
+            title,
+            file => result.file,
+            record_set => head.record_set,
+            alarms => result.alarms,
+            structures => result.structures,
+            program => format!("uplift {} ({})", head.version, head.commit),
+            created => head.created,
+            command => head.command,
+            study_toml => head.study_toml,
+            checksums => head.input_checksums,
+            ..Value::from_serialize(content)
+        }
     });
-    let sections: Vec<Section> = sections.collect();
+    let sections: Vec<Value> = sections.collect();
     render(
         REPORT,
         context! {
@@ -209,29 +206,4 @@ fn read(path: &Path, result: &ResultFile) -> Result<Read, UpliftError> {
     let alarms = alarms(result)?;
     let structures = structures::structures(result, &alarms)?;
     Ok(Read { head: result.head()?, alarms, mark: result.name_and_digest()?, file, content, structures })
-}
-
-fn section(key: String, title: String, result: Read) -> Section {
-    let Read { head, alarms, file, content, structures, .. } = result;
-    let mut facts = vec![
-        ("Result", file.clone()),
-        ("Program", format!("uplift {} ({})", head.version, head.commit)),
-        ("Made", head.created),
-        ("Command", head.command),
-    ];
-    facts.extend(content.facts);
-    Section {
-        key,
-        title,
-        file,
-        record_set: head.record_set,
-        alarms,
-        lead: content.lead,
-        summary: content.summary,
-        parts: content.parts,
-        structures,
-        facts,
-        study_toml: head.study_toml,
-        checksums: head.input_checksums,
-    }
 }

@@ -42,8 +42,8 @@ fn sets(stored: &StoredDisplacements) -> TitledTable {
         .right("median PGA, g", |set| format!("{:.3}", set.median_pga_g))
         .right("median PGV, cm/s", |set| format!("{:.1}", set.median_pgv_cm_s));
     let note = format!(
-        "Multiples refer to the medians of the geometric means (Eq. 2.16, 2.17). Figures: motions scaled by {}, smallest \
-         uplift displacement.{}",
+        "Multiples refer to the medians of the geometric means (Eq. 2.16, 2.17). Figures: motions scaled by {}, \
+         smallest uplift displacement.{}",
         stored.scaled_by.first().map_or("", String::as_str),
         stored.rounding.as_ref().map_or_else(String::new, |rounding| {
             let abscissas: Vec<String> = rounding.abscissas.iter().map(|at| format!("{at:.3}")).collect();
@@ -57,8 +57,8 @@ fn sets(stored: &StoredDisplacements) -> TitledTable {
 fn designs(stored: &StoredDisplacements, design: &StoredDesign) -> Vec<TitledTable> {
     let StoredDesign { safety_factor, percentile, noise_points, noise_relative, .. } = design;
     let note = format!(
-        "FS = {safety_factor}; percentile {percentile}. In brackets: lowest and highest over {noise_points} points, from \
-         {} to {} times the abscissa.",
+        "FS = {safety_factor}; percentile {percentile}. In brackets: lowest and highest over {noise_points} points, \
+         from {} to {} times the abscissa.",
         1.0 - noise_relative,
         1.0 + noise_relative
     );

@@ -90,9 +90,9 @@ impl Displacement {
         if !self.u_m.is_finite() {
             return "not analysed".to_owned();
         }
-        let band = self.band_m.map_or_else(String::new, |[lower, upper]| match upper.is_finite() {
-            true => format!(" ({} to {})", significant(lower), significant(upper)),
-            false => format!(" ({} or more)", significant(lower)),
+        let band = self.band_m.map_or_else(String::new, |[lower, upper]| {
+            let upper = if upper.is_finite() { format!("to {}", significant(upper)) } else { "or more".to_owned() };
+            format!(" ({} {upper})", significant(lower))
         });
         significant(self.u_m) + &band
     }

@@ -80,7 +80,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     })
 }
 
-/// The first table: displacements by the first measure, of a single site at every probability, of several at the rarest;
+/// The first table: displacements by the first measure, of one site at every probability, of several at the rarest;
 /// none without spectra.
 fn first(source: &FigureSource, rows: &[Row]) -> Option<TitledTable> {
     let spectra = &source.spectra;
@@ -113,11 +113,7 @@ fn all(source: &FigureSource, rows: &[Row]) -> TitledTable {
 }
 
 /// A table of displacements: a column for each strength shown.
-fn of_strengths<'a>(
-    source: &FigureSource,
-    (id, title, note): (&str, String, &str),
-    table: TableOf<&'a Row>,
-) -> TitledTable {
+fn of_strengths(source: &FigureSource, (id, title, note): (&str, String, &str), table: TableOf<&Row>) -> TitledTable {
     let strengths = shown_strengths(source).into_iter().enumerate();
     let table = table.each(strengths, |table, (place, eta)| {
         table.right(strength(&source.spectra, eta), |row| row.cells[place].clone())

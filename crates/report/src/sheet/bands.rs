@@ -79,8 +79,8 @@ fn drawing(rows: &[&FindingRow], (scale, label): (Scale, &str)) -> Option<String
     let high = below + 40.0;
     Some(format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDE} {high}\" width=\"{WIDE}\" height=\"{high}\" \
-         role=\"img\" aria-label=\"Values (dots) with their 90 % confidence bands (bars), {label}\" font-family=\"sans-serif\" \
-         font-size=\"12\" fill=\"#1b1e23\">\n{text}</svg>"
+         role=\"img\" aria-label=\"Values (dots) with their 90 % confidence bands (bars), {label}\" \
+         font-family=\"sans-serif\" font-size=\"12\" fill=\"#1b1e23\">\n{text}</svg>"
     ))
 }
 
