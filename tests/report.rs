@@ -151,6 +151,36 @@ fn a_report_leads_with_the_answer() {
     }
 }
 
+/// The words of `page` that its reader sees before anything is unfolded, without those in figures.
+fn words_shown(page: &str) -> usize {
+    let (mut hidden, mut words) = (0, 0);
+    for piece in page.split_once("<body>").unwrap().1.split('<') {
+        let (tag, text) = piece.split_once('>').unwrap_or((piece, ""));
+        match tag.split_whitespace().next().unwrap_or_default() {
+            "details" | "svg" | "script" | "/summary" => hidden += 1,
+            "/details" | "/svg" | "/script" | "summary" => hidden -= 1,
+            _ => {}
+        }
+        words += if hidden == 0 { text.split_whitespace().count() } else { 0 };
+    }
+    words
+}
+
+#[test]
+fn a_report_of_six_sites_is_brief() {
+    let more = |name: &str| format!("[[sites]]\nname = \"{name}\"\npgv = \"here-pgv.csv\"\npga = \"pga.csv\"\n");
+    let sites = ["Aachen", "Baden", "Montreux", "Perugia"].map(more).concat();
+    let study = SmallStudy::with(&format!("{}{sites}", common::SMALL_STUDY));
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&["bootstrap", "r.h5", "--replicates", "30", "--sizes", "2,4", "-q"]).ok();
+    study.uplift(&["influence", "r.h5", "-q"]).ok();
+    study.write("block.toml", "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 1000\n");
+    study.uplift(&["design", "block.toml", "--urs", "r.h5", "--site", "Baden", "-q"]).ok();
+    study.uplift(&["report", "r.h5", "-q"]).ok();
+    let words = words_shown(&std::fs::read_to_string(study.path().join("r.html")).unwrap());
+    assert!((300..=1500).contains(&words), "{words} words");
+}
+
 #[test]
 fn a_report_says_whether_the_records_bring_the_hazard() {
     let study = SmallStudy::repaired();
