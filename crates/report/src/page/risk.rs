@@ -25,8 +25,6 @@ const INFLUENCE_LEFT_OUT: &str = "Influence is left out: uplift influence found 
 const WITH_CURVES: &str = "with hazard curves";
 /// What tables say of repaired spectra.
 const REPAIRED: &str = "Repaired: from records weighted to match the site's hazard.";
-/// Records of each spectrum in the table of influence.
-const NAMED_RECORDS: usize = 1;
 
 pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let source = FigureSource::read(file)?;
@@ -152,66 +150,53 @@ fn spread(source: &FigureSource) -> Option<TitledTable> {
     TitledTable { group: UPLIFTS_AT, ..table }.unless_empty()
 }
 
-/// The levels that make up the risk of the rarest probability; none before `uplift influence`.
+/// The levels that make up the risk of the rarest probability at one strength; none before `uplift influence`.
 fn intensities(source: &FigureSource) -> Option<TitledTable> {
-    let stored = &source.stored;
-    let (poe, shown) = (source.rarest(), nearest(&stored.strengths, &[TAKEN_APART]));
+    let (stored, poe) = (&source.stored, source.rarest());
+    let strength = *nearest(&stored.strengths, &[TAKEN_APART]).first()?;
+    let per_cent = |share: Option<&f64>| share.map_or(f64::NAN, |share| 100.0 * share);
+    let number = |value: f64| if value.is_finite() { format!("{value:.1}") } else { "–".to_owned() };
     let mut rows = Vec::new();
     for (influence, measure) in source.influences() {
         for (site, name) in stored.sites.iter().enumerate() {
-            for &strength in &shown {
-                let shares = influence.shares.block([site, poe, strength]);
-                let level = |share: f64| significant(level_of_share(&measure.levels, shares, share));
-                let mut row =
-                    vec![name.clone(), format!("{}, {}", influence.measure.label(), influence.measure.unit())];
-                row.push(format!("{:.2}", stored.strengths[strength]));
-                row.extend([0.05, 0.5, 0.95].map(level));
-                row.extend([shares.first(), shares.last()].map(|share| percentage(share.copied())));
-                rows.push(row);
-            }
+            let shares = influence.shares.block([site, poe, strength]);
+            let levels = [0.05, 0.5, 0.95].map(|share| significant(level_of_share(&measure.levels, shares, share)));
+            let outside = [shares.first(), shares.last()].map(|share| number(per_cent(share)));
+            let measure = format!("{}, {}", influence.measure.label(), influence.measure.unit());
+            rows.push([name.clone(), measure].into_iter().chain(levels).chain(outside).collect());
         }
     }
-    let header =
-        ["site", "measure", "strength", "5 % below", "half below", "95 % below", "below all, %", "above all, %"];
+    let header = ["site", "measure", "5 % below", "half below", "95 % below", "below all, %", "above all, %"];
     let note = format!(
-        "Levels below which 5 %, half and 95 % of the risk at {} lie; shares from below and above all levels.",
-        risk_in_words(stored.poes[poe], stored.years)
+        "Levels below which 5 %, half and 95 % of the risk at {} lie, at strength {:.2}; shares from below and above \
+         all levels.",
+        risk_in_words(stored.poes[poe], stored.years),
+        stored.strengths[strength]
     );
     let table = Table::new(header, rows).with_left(2);
     TitledTable::new("intensities", "Intensity levels that make up the risk", note, table).unless_empty()
 }
 
-/// The records that change the spectra of the rarest probability most; none before `uplift influence`.
+/// The record that changes each spectrum of the rarest probability most; none before `uplift influence`.
 fn records(source: &FigureSource) -> Option<TitledTable> {
-    let stored = &source.stored;
-    let poe = source.rarest();
+    let (stored, poe) = (&source.stored, source.rarest());
     let mut rows = Vec::new();
     for (influence, measure) in source.influences() {
-        let Some(without_m) = &influence.without_m else { continue };
-        for (site, name) in stored.sites.iter().enumerate() {
-            for of in rank_records(stored, &measure.exact_m, without_m, [site, poe]).iter().take(NAMED_RECORDS) {
-                rows.push(vec![
-                    name.clone(),
-                    influence.measure.label().to_owned(),
-                    stored.units.name(of.record).to_owned(),
-                    format!("{:+.1}", 100.0 * of.mean_change),
-                    format!("{:+.1}", 100.0 * of.largest_change),
-                    format!("{:.3}", of.strength),
-                ]);
-            }
+        for site in 0..stored.sites.len() {
+            let ranked = |without_m| rank_records(stored, &measure.exact_m, without_m, [site, poe]).into_iter().next();
+            rows.extend(influence.without_m.as_ref().and_then(ranked).map(|of| (site, influence.measure.label(), of)));
         }
     }
-    let note = format!(
-        "Change of the spectrum of {} without the record that changes it most.",
-        risk_in_words(stored.poes[poe], stored.years)
-    );
-    let header = ["site", "measure", "record", "mean change, %", "largest, %", "at strength"];
-    let table = Table::new(header, rows).with_left(3);
+    let table = Table::of(&rows)
+        .left("site", |(site, ..)| &stored.sites[*site])
+        .left("measure", |(_, label, _)| label)
+        .left("record", |(.., of)| stored.units.name(of.record))
+        .right("mean change, %", |(.., of)| format!("{:+.1}", 100.0 * of.mean_change))
+        .right("largest, %", |(.., of)| format!("{:+.1}", 100.0 * of.largest_change))
+        .right("at strength", |(.., of)| format!("{:.3}", of.strength));
+    let risk = risk_in_words(stored.poes[poe], stored.years);
+    let note = format!("Change of the spectrum of {risk} without the record that changes it most.");
     TitledTable::new("records", "Influence of single records", note, table).unless_empty()
-}
-
-fn percentage(share: Option<f64>) -> String {
-    share.filter(|share| share.is_finite()).map_or_else(|| "–".to_owned(), |share| format!("{:.1}", 100.0 * share))
 }
 
 fn coefficients(spectra: &StoredSpectra) -> TitledTable {
@@ -236,56 +221,54 @@ fn coefficients(spectra: &StoredSpectra) -> TitledTable {
 /// Errors and widths of the bands of all records; none before `uplift bootstrap`.
 fn bootstrap(source: &FigureSource) -> Option<TitledTable> {
     let (stored, bands) = (&source.spectra, source.bands.as_ref()?);
-    let largest = bands.of_set(source.stored.records.len());
-    let number = |value: f64, digits: usize| if value.is_nan() { "-".to_owned() } else { format!("{value:.digits$}") };
-    let beyond = |of_measure: &MeasureBands, at @ [site, poe, _]: [usize; 3]| -> [String; 2] {
-        let found = || {
-            let of = stored.measures.iter().find(|own| own.measure == of_measure.measure)?;
-            let spectrum = (stored.strengths.as_slice(), of.u_m.block([site, poe]));
-            let found = of_measure.inferred.as_ref()?.widest(spectrum, at)?;
-            Some([found.truth, found.prediction].map(|[lower, upper]| format!("{lower:+.0} to {upper:+.0}")))
-        };
-        found().unwrap_or_else(|| ["-", "-"].map(str::to_owned))
+    let size = bands.of_set(source.stored.records.len());
+    let number =
+        |value: f64, digits: usize| if value.is_nan() { "–".to_owned() } else { format!("{value:.digits$}") };
+    // of another set, less the ordinate, where the band of all records is widest
+    let another = |of: &MeasureBands, at @ [site, poe, _]: [usize; 3]| {
+        let own = stored.measures.iter().find(|own| own.measure == of.measure)?;
+        let spectrum = (stored.strengths.as_slice(), own.u_m.block([site, poe]));
+        let [lower, upper] = of.inferred.as_ref()?.widest(spectrum, at)?.prediction;
+        Some(format!("{lower:+.0} to {upper:+.0}"))
     };
-    let rows = |of_measure: &MeasureBands| -> Vec<Vec<String>> {
-        let row = |at: [usize; 3], measure: String, (error, range): (f64, f64), [truth, another]: [String; 2]| {
-            let [site, poe, size] = at;
-            vec![
-                stored.sites[site].clone(),
-                measure,
-                risk_name(stored.poes[poe], stored.years),
-                bands.sizes[size].to_string(),
-                number(error, 1),
-                number(range, 0),
-                truth,
-                another,
-            ]
-        };
-        let label = of_measure.measure.label();
-        let mut rows = Vec::new();
-        let places = of_measure.plain.error_of_median.blocks::<3>().map(|(at, _)| at);
-        for at @ [site, _, size] in places.filter(|at| at[2] == largest) {
-            let mut add = |measure: String, own: &StoredSpectraBands, beyond: [String; 2]| {
-                rows.push(row(at, measure.clone(), (own.error_of_median[at], own.range_of_interval[at]), beyond));
-                if let Some(joint) = own.joint.as_ref().filter(|joint| !joint.limits_m[1].block(at)[0].is_nan()) {
-                    let measure = format!("{measure}, {WITH_CURVES}");
-                    rows.push(row(at, measure, (f64::NAN, joint.range_of_interval[at]), ["-", "-"].map(str::to_owned)));
+    let mut rows = Vec::new();
+    for of in &bands.measures {
+        for ([site, poe], _) in of.plain.error_of_median.blocks::<2>() {
+            let at = [site, poe, size];
+            let mut add = |measure: String, own: &StoredSpectraBands, another: Option<String>| {
+                let mut row = |measure: String, error: f64, range: f64, another: String| {
+                    let risk = risk_name(stored.poes[poe], stored.years);
+                    rows.push(vec![
+                        stored.sites[site].clone(),
+                        measure,
+                        risk,
+                        number(error, 1),
+                        number(range, 0),
+                        another,
+                    ]);
+                };
+                let none = || "–".to_owned();
+                let joint = own.joint.as_ref().filter(|joint| !joint.limits_m[1].block(at)[0].is_nan());
+                let with_curves = format!("{measure}, {WITH_CURVES}");
+                row(measure, own.error_of_median[at], own.range_of_interval[at], another.unwrap_or_else(none));
+                if let Some(joint) = joint {
+                    row(with_curves, f64::NAN, joint.range_of_interval[at], none());
                 }
             };
-            add(label.to_owned(), &of_measure.plain, beyond(of_measure, at));
-            if let Some(own) = of_measure.repaired.as_ref().filter(|own| !own.failed[[site, size]].is_nan()) {
-                add(spectrum_words(label, true), &own.bands, ["-", "-"].map(str::to_owned));
+            add(of.measure.label().to_owned(), &of.plain, another(of, at));
+            if let Some(own) = of.repaired.as_ref().filter(|own| !own.failed[[site, size]].is_nan()) {
+                add(spectrum_words(of.measure.label(), true), &own.bands, None);
             }
         }
-        rows
-    };
+    }
     let note = format!(
-        "Error of the median and width of the {0} interval over {1} (Eq. 4.9, 4.10), and {0} bands of all records and \
-         of another set, over the ordinate, each where it is largest.",
+        "Error of the median and width of the {0} interval over {1} (Eq. 4.9, 4.10), each where it is largest; {0} \
+         band of another set of {2} records, over the ordinate.",
         per_cent(bands.confidence),
-        bands.drawn_words()
+        bands.drawn_words(),
+        bands.sizes[size]
     );
-    let header = ["site", "measure", "probability", "records", "e_{median}, %", "r, %", "all, %", "another set, %"];
-    let table = Table::new(header, bands.measures.iter().flat_map(rows)).with_left(3);
+    let header = ["site", "measure", "probability", "e_{median}, %", "r, %", "another set, %"];
+    let table = Table::new(header, rows).with_left(3);
     Some(TitledTable::new("table-4-1", "Bootstrap (Table 4.1)", note, table))
 }
