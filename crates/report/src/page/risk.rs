@@ -89,13 +89,16 @@ fn first(source: &FigureSource, rows: &[Row]) -> Option<TitledTable> {
     let risk = |poe: usize| risk_in_words(spectra.poes[poe], spectra.years);
     let of_risk = if is_one { String::new() } else { format!(" of {}", risk(poe)) };
     let title = format!("Displacement, m,{of_risk} by {} (90 % confidence band)", measure.label());
-    let note = if rows.iter().any(|row| row.repaired) { REPAIRED } else { "" };
+    let is_repaired = rows.iter().any(|row| row.repaired);
+    let is_cut = spectra.sites.len() > FIRST_SITES;
+    let cut = if is_cut { "The first sites; all are in the table of all displacements. " } else { "" };
+    let note = format!("{cut}{}", if is_repaired { REPAIRED } else { "" });
     let name = |row: &Row| {
         let name = if is_one { risk(row.poe) } else { spectra.sites[row.site].clone() };
         spectrum_words(&name, row.repaired)
     };
     let table = Table::of(rows.iter().copied()).left(if is_one { "probability" } else { "site" }, name);
-    Some(of_strengths(source, ("summary", title, note), table))
+    Some(of_strengths(source, ("summary", title, &note), table))
 }
 
 /// The displacements by every measure and probability.
