@@ -274,7 +274,7 @@ fn curves_and_levels_in_other_units_are_named() {
     }
     study.uplift(&["report", "r.h5", "-q"]).ok();
     let page = std::fs::read_to_string(study.path().join("r.html")).unwrap();
-    assert!(page.contains("<li class=\"mistake\">mistake?: <strong>Here:</strong> for its curve of PGV"));
+    assert!(page.contains("<summary>mistake?: <strong>Here:</strong> for its curve of PGV"));
     assert!(page.contains("<p class=\"doubt\">"), "the answer is not given without a word of it");
     let said = study.uplift(&["check", "study.toml", "-q", "--set", "sites.Here.pga.unit=m/s2"]).ok().stdout;
     assert!(!said.contains("mistake?"), "{said}");

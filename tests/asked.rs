@@ -120,7 +120,7 @@ fn designs_tables_and_pages_take_it() {
     study.uplift(&["report", "r.h5", "-o", "page.html", "--poe", "0.05", "-q"]).ok();
     let page = std::fs::read_to_string(study.path().join("page.html")).unwrap();
     assert!(page.contains("5 % in 50 years") && page.contains("asked for after the run"));
-    assert!(page.contains("id=\"r1-bands-pgv\"") && !page.contains("2 % in 50 years"));
+    assert!(page.contains("id=\"r1-bands-together\"") && !page.contains("2 % in 50 years"));
 }
 
 #[test]
@@ -132,7 +132,7 @@ fn a_return_period_is_called_by_its_name_everywhere() {
     let asked = ["--return-period", "475"];
     study.uplift(&[&["report", "r.h5", "-o", "page.html", "-q"], &asked[..]].concat()).ok();
     let page = std::fs::read_to_string(study.path().join("page.html")).unwrap();
-    assert!(page.contains(", for 475 years (9.991 % in 50 years), a structure"), "{page:.9000}");
+    assert!(page.contains("Displacement, m, of 475 years (9.991 % in 50 years) by PGV"), "{page:.9000}");
     assert!(!page.contains("9.9912"));
     // what was found for other probabilities is left out, and that is said
     assert!(page.contains("uplift influence found it for the probabilities of the study"));

@@ -16,30 +16,36 @@ fn study() -> SmallStudy {
     study
 }
 
-/// The figures in the order of the page: the answer, how sure it is, where it comes from, what to compute with.
-const FIGURES: [&str; 22] = [
+const BLOCK: &str = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 1000\n";
+
+/// The figures of the page, in its order: the answer, how sure it is, where it comes from, what to compute with.
+const ON_PAGE: [&str; 10] = [
+    "urs-sites",
     "urs-pgv",
     "urs-pga",
+    "bands-together",
+    "consistency",
+    "hazard",
+    "disaggregation-pgv",
+    "influence-pgv",
+    "risk-pgv",
+    "fits",
+];
+/// Those that are drawn by `uplift plot` alone.
+const OTHERS: [&str; 13] = [
     "bands-pgv",
     "bands-pga",
-    "bands-together",
     "initiation",
     "fragility",
     "tails-pgv",
     "tails-pga",
-    "consistency",
-    "hazard",
-    "disaggregation-pgv",
     "disaggregation-pga",
-    "influence-pgv",
     "influence-pga",
-    "risk-pgv",
     "risk-pga",
     "surface-pgv",
     "surface-pga",
     "ida",
     "measures",
-    "fits",
 ];
 
 #[test]
@@ -47,7 +53,7 @@ fn every_figure_is_drawn() {
     let study = study();
     study.uplift(&["plot", "r.h5", "-q"]).ok();
     let mut powers_of_ten = 0;
-    for name in FIGURES {
+    for name in ON_PAGE.into_iter().chain(OTHERS) {
         let svg = std::fs::read_to_string(study.path().join(format!("r.figures/{name}.svg"))).unwrap();
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"), "{name}");
         assert!(svg.contains("synthetic records"), "{name}: synthetic records are named");
@@ -78,11 +84,11 @@ fn a_report_is_one_file_without_a_network() {
     study.uplift(&["run", "study.toml", "-o", "other.h5", "-q", "--set", "title=\"<b>second</b>\""]).ok();
     study.uplift(&["report", "r.h5", "other.h5", "-o", "both.html", "-q"]).ok();
     let page = std::fs::read_to_string(study.path().join("both.html")).unwrap();
-    for name in FIGURES {
-        assert!(page.contains(&format!("id=\"r1-{name}\"")), "{name}");
-    }
-    // no bootstrap, no bands
-    assert!(page.contains("id=\"r2-urs-pgv\"") && !page.contains("id=\"r2-bands-pgv\""));
+    let places = ON_PAGE.map(|name| page.find(&format!("id=\"r1-{name}\"")).unwrap_or_else(|| panic!("{name}")));
+    assert!(places.is_sorted(), "{places:?}");
+    assert!(OTHERS.iter().all(|name| !page.contains(&format!("id=\"r1-{name}\""))));
+    // no bootstrap, no figure of its bands
+    assert!(page.contains("id=\"r2-urs-pgv\"") && !page.contains("id=\"r2-bands-together\""));
     for word in ["r1-table-4-1", "r1-table-4-2", "r1-records", "study.toml", "SHA-256", "Before you use"] {
         assert!(page.contains(word), "{word}");
     }
@@ -115,24 +121,66 @@ fn a_report_leads_with_the_answer() {
     study.uplift(&["report", "r.h5", "-q"]).ok();
     let page = std::fs::read_to_string(study.path().join("r.html")).unwrap();
     let order =
-        ["class=\"answer\"", "class=\"alarms\"", "id=\"r1-urs-pgv\"", "id=\"r1-summary\"", "id=\"r1-bands-pgv\""];
+        ["id=\"r1-urs-sites\"", "id=\"r1-summary\"", "class=\"alarms\"", "id=\"r1-urs-pgv\"", "id=\"r1-table-4-1\""];
     let places: Vec<usize> = order.iter().map(|mark| page.find(mark).unwrap_or_else(|| panic!("{mark}"))).collect();
     assert!(places.is_sorted(), "{places:?}");
-    // the sentence says what the file has: the ordinate and its band at the strength next to 0.1
+    assert!(page.contains("<title>small – Here, There</title>"), "{page:.900}");
+    let warnings = text_between(&page, "class=\"alarms\"", "class=\"more\"");
+    assert_eq!(["mistake?:", "caution:", "note:"].map(|word| warnings.matches(word).count()).iter().sum::<usize>(), 3);
+    // the first row says what the file has: the ordinates of the rarest probability and their bands of the truth
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
     let strengths = reader.axis_f64("strength").unwrap();
     let poes = reader.axis_f64("poe").unwrap();
+    let sizes = reader.array_f64("/bootstrap/pgv/truth_lower_m").unwrap().shape[2];
     let rarest = (0..poes.len()).min_by(|&a, &b| poes[a].total_cmp(&poes[b])).unwrap();
     let next = (0..strengths.len())
         .min_by(|&a, &b| (strengths[a] - 0.1).abs().total_cmp(&(strengths[b] - 0.1).abs()))
         .unwrap();
-    let u_m = reader.array_f64("/urs/pgv/u_m").unwrap().values[rarest * strengths.len() + next];
-    let sentence = text_between(&page, "<div class=\"answer\">", "</p>");
-    assert!(sentence.starts_with("At Here, for 2 % in 50 years, a structure that uplifts at "), "{sentence}");
-    let said = sentence.split_once("must survive ").unwrap().1;
-    let value: f64 = said.split_once(" m").unwrap().0.parse().unwrap();
-    assert!((value / u_m - 1.0).abs() < 0.06, "{sentence}: {u_m}");
-    assert!(said.contains("(90 % band "), "{sentence}");
+    let value = |array: &str, row: usize| reader.array_f64(array).unwrap().values[row * strengths.len() + next];
+    let table = page.split_once("id=\"r1-summary\">").unwrap().1.split_once("</tbody>").unwrap().0;
+    let row: Vec<&str> = table.split_once("<tr><td>Here</td>").unwrap().1.split("</td>").collect();
+    let shown = row[0].split_once('>').unwrap().1;
+    let (u_m, band) = shown.strip_suffix(')').unwrap().split_once(" (").unwrap();
+    let (lower, upper) = band.split_once(" to ").unwrap();
+    let of_set = (rarest + 1) * sizes - 1;
+    let expected = [
+        (u_m, value("/urs/pgv/u_m", rarest)),
+        (lower, value("/bootstrap/pgv/truth_lower_m", of_set)),
+        (upper, value("/bootstrap/pgv/truth_upper_m", of_set)),
+    ];
+    for (shown, expected) in expected {
+        assert!((shown.parse::<f64>().unwrap() / expected - 1.0).abs() < 0.06, "{row:?}: {expected}");
+    }
+}
+
+/// The words of `page` that its reader sees before anything is unfolded, without those in figures.
+fn words_shown(page: &str) -> usize {
+    let (mut hidden, mut words) = (0, 0);
+    for piece in page.split_once("<body>").unwrap().1.split('<') {
+        let (tag, text) = piece.split_once('>').unwrap_or((piece, ""));
+        match tag.split_whitespace().next().unwrap_or_default() {
+            "details" | "svg" | "script" | "/summary" => hidden += 1,
+            "/details" | "/svg" | "/script" | "summary" => hidden -= 1,
+            _ => {}
+        }
+        words += if hidden == 0 { text.split_whitespace().count() } else { 0 };
+    }
+    words
+}
+
+#[test]
+fn a_report_of_six_sites_is_brief() {
+    let more = |name: &str| format!("[[sites]]\nname = \"{name}\"\npgv = \"here-pgv.csv\"\npga = \"pga.csv\"\n");
+    let sites = ["Aachen", "Baden", "Montreux", "Perugia"].map(more).concat();
+    let study = SmallStudy::with(&format!("{}{sites}", common::SMALL_STUDY));
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&["bootstrap", "r.h5", "--replicates", "30", "--sizes", "2,4", "-q"]).ok();
+    study.uplift(&["influence", "r.h5", "-q"]).ok();
+    study.write("block.toml", BLOCK);
+    study.uplift(&["design", "block.toml", "--urs", "r.h5", "--site", "Baden", "-q"]).ok();
+    study.uplift(&["report", "r.h5", "-q"]).ok();
+    let words = words_shown(&std::fs::read_to_string(study.path().join("r.html")).unwrap());
+    assert!((300..=1500).contains(&words), "{words} words");
 }
 
 #[test]
@@ -147,7 +195,7 @@ fn a_report_says_whether_the_records_bring_the_hazard() {
     // a line each measure and site, its numbers those of the file
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
     let bias = reader.array_f64("/consistency/pgv/pga_bias").unwrap().values;
-    let table = page.split_once("id=\"r1-what-is-brought\"").unwrap().1.split_once("</tbody>").unwrap().0;
+    let table = page.split_once("id=\"r1-consistency-table\"").unwrap().1.split_once("</tbody>").unwrap().0;
     let rows: Vec<Vec<&str>> = table.split("<tr><td>").skip(1).map(|row| row.split("</td>").collect()).collect();
     let cell = |row: usize, column: usize| rows[row][column].rsplit('>').next().unwrap();
     assert_eq!(rows.len(), 4);
@@ -155,25 +203,23 @@ fn a_report_says_whether_the_records_bring_the_hazard() {
     assert_eq!(cell(1, 7), format!("{:.2}", bias[1]), "{table}");
     assert_eq!(cell(0, 9), "–", "it could not be repaired");
     assert_eq!(cell(1, 9), "23", "as uplift consistency says");
-    // the sentence of the site that was repaired says both, the other one
-    let answer = page.split_once("<div class=\"answer\">").unwrap().1.split_once("</div>").unwrap().0;
-    let [plain, repaired] = [1, 2].map(|site| answer.split("<p>").nth(site).unwrap());
-    assert!(!plain.contains("weighted") && repaired.contains("weighted so that they do, <strong>"), "{answer}");
+    // below the row of the site that was repaired stands that of the weighted records, of either measure
+    let all = text_between(&page, "id=\"r1-displacements\">", "</tbody>");
+    assert_eq!(all.matches(", repaired").count(), 6, "{all}");
+    let summary = page.split_once("id=\"r1-summary\">").unwrap().1.split_once("</tbody>").unwrap().0;
+    let repaired = summary.split("<tr><td>").find(|row| row.contains(", repaired")).unwrap();
     let u_m = reader.array_f64("/consistency/pgv/u_m").unwrap();
     assert_eq!(u_m.dims, ["site", "poe", "strength"]);
-    let said = repaired.split_once("weighted so that they do, <strong>").unwrap().1.split_once(" m").unwrap().0;
+    let said = repaired.split("</td>").nth(1).unwrap().rsplit('>').next().unwrap();
     // the second site, 2 %, the second strength
     let expected = u_m.values[3 * 4 + 1];
     assert!((said.parse::<f64>().unwrap() / expected - 1.0).abs() < 0.06, "{said}: {expected}");
-    let summary = text_between(&page, "id=\"r1-summary\">", "</tbody>");
-    // a row each probability by either measure
-    assert_eq!(summary.matches(", repaired").count(), 6, "{summary}");
 
     // so does a page of other probabilities
     study.uplift(&["report", "r.h5", "-o", "asked.html", "--poe", "0.02,0.05,0.3", "-q"]).ok();
     let asked = std::fs::read_to_string(study.path().join("asked.html")).unwrap();
-    assert!(asked.contains("id=\"r1-consistency\"") && asked.contains("weighted so that they do"));
-    assert_eq!(text_between(&asked, "id=\"r1-summary\">", "</tbody>").matches(", repaired").count(), 6);
+    assert!(asked.contains("id=\"r1-consistency\""));
+    assert_eq!(text_between(&asked, "id=\"r1-displacements\">", "</tbody>").matches(", repaired").count(), 6);
 }
 
 #[test]
@@ -181,7 +227,7 @@ fn the_figure_of_consistency_has_what_there_is() {
     let study = SmallStudy::repaired();
     study.uplift(&["plot", "r.h5", "--only", "consistency", "-q"]).ok();
     let svg = std::fs::read_to_string(study.path().join("r.figures/consistency.svg")).unwrap();
-    for words in ["hazard of the site", "brought by the records", "brought by weighted records", "rates compared"] {
+    for words in ["hazard curve of the site", "scaled records", "weighted records", "rates compared"] {
         assert!(svg.contains(words), "{words}");
     }
     assert_eq!(svg.matches("scaled to PG").count(), 4, "a panel each site and measure");
@@ -190,7 +236,7 @@ fn the_figure_of_consistency_has_what_there_is() {
     study.uplift(&["run", "study.toml", "-o", "plain.h5", "-q", "--set", "consistency.repair=\"none\""]).ok();
     study.uplift(&["plot", "plain.h5", "--only", "consistency", "-q"]).ok();
     let plain = std::fs::read_to_string(study.path().join("plain.figures/consistency.svg")).unwrap();
-    assert!(plain.contains("brought by the records") && !plain.contains("weighted"));
+    assert!(plain.contains("scaled records") && !plain.contains("weighted"));
     // and no figure shows repaired spectra
     study.uplift(&["plot", "r.h5", "--only", "urs-pgv", "-q"]).ok();
     study.uplift(&["plot", "plain.h5", "--only", "urs-pgv", "-q"]).ok();
@@ -296,10 +342,11 @@ const column = [...table.querySelectorAll('th')].findIndex(head => head.textCont
 table.querySelectorAll('th')[column].querySelector('button').click();
 document.body.dataset.sorted = [...table.tBodies[0].rows].map(row => row.cells[column].textContent).join(' ');
 document.body.dataset.wide = document.documentElement.scrollWidth > innerWidth;
-document.body.dataset.figures = document.querySelectorAll('figure').length;
+document.body.dataset.figures = document.querySelectorAll('figure .plot').length;
+document.querySelectorAll('details').forEach(details => { details.open = true; });
 const panels = [...document.querySelectorAll('#r1-urs-pgv .panel')].map(panel => panel.getBoundingClientRect());
 document.body.dataset.stacked = panels.length > 1 && panels.every((box, at) => !at || box.top >= panels[at - 1].bottom);
-const scrolled = document.querySelector('#r1-summary .scroll');
+const scrolled = document.querySelector('#r1-displacements .scroll');
 document.body.dataset.scrolled = scrolled.scrollWidth > scrolled.clientWidth;
 document.body.dataset.tables = document.querySelectorAll('.block > .scroll table').length;
 </script>";
@@ -309,6 +356,9 @@ document.body.dataset.tables = document.querySelectorAll('.block > .scroll table
 fn a_browser_reads_the_report() {
     let Some(browser) = browser() else { return };
     let study = study();
+    // a structure's bands are a figure without values to read off
+    study.write("block.toml", BLOCK);
+    study.uplift(&["design", "block.toml", "--urs", "r.h5", "--site", "Here", "-q"]).ok();
     study.uplift(&["report", "r.h5", "-q"]).ok();
     let page = study.path().join("r.html");
     let shots = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report");
@@ -344,7 +394,7 @@ fn a_browser_reads_the_report() {
     let sorted: Vec<f64> = said("sorted").split_whitespace().filter_map(|cell| cell.parse().ok()).collect();
     assert!(sorted.len() > 3 && sorted.is_sorted(), "{sorted:?}");
     assert_eq!(said("wide"), "false", "a phone scrolls up and down only");
-    assert_eq!(said("figures"), FIGURES.len().to_string());
+    assert_eq!(said("figures"), ON_PAGE.len().to_string());
     assert_eq!((said("stacked"), said("scrolled")), ("true".to_owned(), "true".to_owned()), "on a phone");
-    assert_eq!(said("tables"), "6");
+    assert_eq!(said("tables"), "8");
 }

@@ -39,7 +39,7 @@ fn figures_and_report_show_the_ordinates_of_the_file() {
     let mut differing = 0;
     for (of_measure, measure) in spectra.measures.iter().zip(&stripes.measures) {
         let key = of_measure.measure.key();
-        let (urs, surface) = (lines(&page, &format!("urs-{key}")), lines(&page, &format!("surface-{key}")));
+        let urs = lines(&page, &format!("urs-{key}"));
         for ([site, poe], u_m) in of_measure.u_m.blocks() {
             let drawn = |u_m: &[f64]| -> Vec<(f64, f64)> {
                 let points = spectra.strengths.iter().zip(u_m).filter(|(_, u_m)| u_m.is_finite());
@@ -47,9 +47,6 @@ fn figures_and_report_show_the_ordinates_of_the_file() {
             };
             let name = format!("{} % in 50 years", 100.0 * spectra.poes[poe]);
             assert_eq!(urs[site][&name], drawn(u_m), "{key} {site} {name}");
-            if let Some(contour) = surface[site].get(&name) {
-                assert_eq!(contour, &drawn(u_m), "{key} {site} {name}");
-            }
             differing += usize::from(drawn(u_m) != drawn(measure.exact_m.block([site, poe])));
         }
     }
@@ -58,7 +55,8 @@ fn figures_and_report_show_the_ordinates_of_the_file() {
     let csv = std::fs::read_to_string(study.path().join("r.urs.csv")).unwrap();
     let row = csv.lines().find(|line| line.starts_with("Here,PGV,0.02,50.0,0.1,")).unwrap();
     let u_m: f64 = row.split(',').nth(5).unwrap().parse().unwrap();
-    assert!(page.contains(&uplift::text::metres(u_m)), "{u_m}");
+    let shown = page.split_once("<tr><td>Here</td><td class=\"number\">").unwrap().1.split_once(' ').unwrap().0;
+    assert!((shown.parse::<f64>().unwrap() / u_m - 1.0).abs() < 0.06, "{shown}: {u_m}");
 }
 
 /// A result that version 0.1.0 wrote, with bands and influence, of a study with a hazard curve that is gone.

@@ -161,7 +161,7 @@ fn legend_layout(entries: &[Entry], wide: u32) -> Vec<(i32, i32)> {
     entries
         .iter()
         .map(|entry| {
-            let length = (42 + 6 * plain(&entry.name).chars().count() as i32) * UNITS;
+            let length = (42 + text_width(&plain(&entry.name))) * UNITS;
             if x > 10 * UNITS && x + length > wide as i32 {
                 (x, y) = (10 * UNITS, y + ROW as i32 * UNITS);
             }
@@ -170,6 +170,17 @@ fn legend_layout(entries: &[Entry], wide: u32) -> Vec<(i32, i32)> {
             place
         })
         .collect()
+}
+
+/// About how wide a text of the legend is, pixels: that of the widest usual font without serifs.
+fn text_width(text: &str) -> i32 {
+    let width = |letter: char| match letter {
+        'i' | 'j' | 'l' | 't' | 'f' | 'r' | 'I' | ' ' | '.' | ',' | ':' | '(' | ')' | '/' => 4,
+        'm' | 'w' | 'M' | 'W' | '%' | '=' => 10,
+        letter if letter.is_uppercase() || letter == 'Γ' => 8,
+        _ => 7,
+    };
+    text.chars().map(width).sum()
 }
 
 fn draw_head(root: &Area<'_>, figure: &Figure, title: u32, entries: &[Entry]) -> Result<(), Failure> {

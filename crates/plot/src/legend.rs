@@ -5,7 +5,7 @@ use plotters::prelude::*;
 
 use super::figure::{Figure, Hatch, Marks, Tone};
 use super::map::{draw_hatch, hatching};
-use super::stroke::{Area, FAINT_LINE, Failure, UNITS, colour, draw_line, width};
+use super::stroke::{Area, FAINT_LINE, Failure, UNITS, colour, draw_line, draw_mark, width};
 
 /// A name in the legend and what stands before it.
 pub(super) struct Entry {
@@ -17,7 +17,9 @@ pub(super) struct Entry {
 #[derive(Clone, Copy)]
 enum Kind {
     Line,
-    Dots,
+    /// A line in the middle of a band.
+    LineInBand,
+    Dots(Marks),
     Area,
     Level,
     Region(Hatch),
@@ -28,7 +30,12 @@ pub(super) fn legend(figure: &Figure) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     for panel in &figure.panels {
         let lines = panel.series.iter().map(|series| {
-            let kind = if series.marks == Marks::Only { Kind::Dots } else { Kind::Line };
+            let has_band = panel.bands.iter().any(|band| band.name.is_empty() && band.tone == series.tone);
+            let kind = match series.marks {
+                marks @ (Marks::Only | Marks::Rings) => Kind::Dots(marks),
+                _ if has_band => Kind::LineInBand,
+                _ => Kind::Line,
+            };
             (&series.name, series.tone, kind)
         });
         let bands = panel.bands.iter().map(|band| (&band.name, band.tone, Kind::Area));
@@ -64,7 +71,11 @@ pub(super) fn draw_swatch(root: &Area<'_>, entry: &Entry, (x, top): (i32, i32)) 
             }
             root.draw(&Rectangle::new(corners, colour(tone).stroke_width(FAINT_LINE)))?;
         }
-        Kind::Dots => root.draw(&Circle::new((x + 11 * UNITS, middle), 2 * UNITS, colour(tone).filled()))?,
+        Kind::Dots(marks) => draw_mark(root, (x + 11 * UNITS, middle), tone, marks)?,
+        Kind::LineInBand => {
+            root.draw(&Rectangle::new(corners, colour(tone).mix(0.22).filled()))?;
+            draw_line(root, &[(x, middle), (right, middle)], tone, width(tone))?;
+        }
         Kind::Line => draw_line(root, &[(x, middle), (right, middle)], tone, width(tone))?,
     }
     Ok(())

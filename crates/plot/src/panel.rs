@@ -35,6 +35,9 @@ pub struct PanelPlace {
     pub y_scale: Scale,
 }
 
+/// So many letters of a tick have room beside the name of their axis.
+const LETTERS_OF_A_TICK: usize = 7;
+
 /// An axis with its own ticks, in positions.
 struct Ticked {
     ends: (f64, f64),
@@ -130,16 +133,20 @@ pub(super) fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<PanelPlace, F
     let x_ticks = ticks(x_scale, x0, x1, ((wide / ZOOM) as usize / 48).clamp(3, 8));
     let y_ticks = ticks(y_scale, y0, y1, ((high / ZOOM) as usize / 45).clamp(3, 8));
 
+    let (x_labels, y_labels) = (Labels::of(x_scale, &x_ticks), Labels::of(y_scale, &y_ticks));
+    // the name of an axis lies beside its numbers, not over them
+    let beside = 46 + 5 * y_labels.longest(&y_ticks).saturating_sub(LETTERS_OF_A_TICK) as u32;
+
     let mut chart = ChartBuilder::on(area)
         .margin(6 * ZOOM)
         .margin_left(16 * ZOOM)
         .margin_right(12 * ZOOM)
         .caption(&panel.title, font(8.0).style(FontStyle::Bold))
         .x_label_area_size(34 * ZOOM)
-        .y_label_area_size(46 * ZOOM)
+        .y_label_area_size(beside * ZOOM)
         .build_cartesian_2d(
-            Ticked { ends: (x0, x1), labels: Labels::of(x_scale, &x_ticks), ticks: x_ticks },
-            Ticked { ends: (y0, y1), labels: Labels::of(y_scale, &y_ticks), ticks: y_ticks },
+            Ticked { ends: (x0, x1), labels: x_labels, ticks: x_ticks },
+            Ticked { ends: (y0, y1), labels: y_labels, ticks: y_ticks },
         )?;
     chart
         .configure_mesh()

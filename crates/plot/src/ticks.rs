@@ -1,6 +1,7 @@
 //! Round numbers along an axis.
 
 use super::figure::Scale;
+use super::typeset::plain;
 
 /// Positions (logarithms on a logarithmic axis) of the labelled ticks between two positions, about `wanted` of them.
 pub fn ticks(scale: Scale, from: f64, to: f64, wanted: usize) -> Vec<f64> {
@@ -13,6 +14,11 @@ pub fn ticks(scale: Scale, from: f64, to: f64, wanted: usize) -> Vec<f64> {
                 .flat_map(|decade| mantissas.map(|mantissa| decade + mantissa))
                 .filter(within)
                 .collect();
+            if fine.len() < 2 {
+                // less than a decade, with no round number in it
+                let [from, to] = [from, to].map(|position| 10.0_f64.powf(position));
+                return linear(from, to, wanted).into_iter().map(f64::log10).collect();
+            }
             if fine.len() <= wanted.max(5) {
                 return fine;
             }
@@ -64,6 +70,11 @@ impl Labels {
         Self { scale, powers: positions.iter().any(|&position| long(scale.value(position))) }
     }
 
+    /// How many letters the longest of the ticks has, about.
+    pub(super) fn longest(self, positions: &[f64]) -> usize {
+        positions.iter().map(|&position| plain(&self.text(position)).chars().count()).max().unwrap_or(0)
+    }
+
     /// A tick as text, its exponent marked (`10^{−5}`).
     pub(super) fn text(self, position: f64) -> String {
         let value = self.scale.value(position);
@@ -105,6 +116,8 @@ mod tests {
         close(ticks(Scale::Log, -8.0, 0.0, 4), &[-8.0, -6.0, -4.0, -2.0, 0.0]);
         assert_eq!(ticks(Scale::Linear, 1.0, 1.0, 5), [1.0]);
         assert_eq!(ticks(Scale::Log, 0.0, 1.0, 5).len(), 4);
+        let between = |from: f64, to: f64| ticks(Scale::Log, from.log10(), to.log10(), 4);
+        close(between(1.2e-4, 1.9e-4), &[1.2e-4_f64, 1.4e-4, 1.6e-4, 1.8e-4].map(f64::log10));
         assert_eq!((ticks(Scale::Log, 0.0, 2.0, 7).len(), ticks(Scale::Log, 0.0, 2.0, 6).len()), (7, 3));
     }
 

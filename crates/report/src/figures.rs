@@ -54,7 +54,7 @@ use uplift_plot::{Axis, Figure, Panel, Series, Tone, share_y};
 pub fn result_figures(path: &Path) -> Result<Vec<Figure>, UpliftError> {
     let file = ResultFile::open(path)?;
     match file.kind() {
-        Kind::UniformRisk => Ok(FigureSource::read(&file)?.figures()?.into_all()),
+        Kind::UniformRisk => Ok(FigureSource::read(&file)?.figures(Extent::All)?.into_all()),
         Kind::Displacement => displacement_figures(&file, &file.displacements()?, Extent::All),
         Kind::ShakeTable => Ok(shake_table_figures(&file.shake_table()?)),
     }
@@ -75,12 +75,10 @@ pub struct FigureSource {
 
 /// The figures of a result of uniform risk spectra, by what they answer.
 pub struct RiskFigures {
-    /// How far must a structure be able to go?
+    /// How far do structures move?
     pub answer: Vec<Figure>,
     /// How sure is that?
     pub confidence: Vec<Figure>,
-    /// Does the record set bring the site's hazard?
-    pub consistency: Vec<Figure>,
     /// Where does it come from?
     pub causes: Vec<Figure>,
     /// Curves fitted to it, to compute with.
@@ -90,7 +88,7 @@ pub struct RiskFigures {
 impl RiskFigures {
     /// All of them, in their order.
     pub fn into_all(self) -> Vec<Figure> {
-        [self.answer, self.confidence, self.consistency, self.causes, self.fits].concat()
+        [self.answer, self.confidence, self.causes, self.fits].concat()
     }
 }
 
@@ -119,41 +117,42 @@ impl FigureSource {
         self.spectra.measures.iter().find(|spectra| spectra.measure == measure).map(|spectra| &spectra.u_m)
     }
 
-    /// The spectra `[site, poe, strength]` of weighted records, m, where they stand beside the plain ones of a site:
-    /// the records as they are do not bring its hazard.
+    /// The spectra `[site, poe, strength]` of weighted records, m, of a site whose hazard the records do not have
+    /// without weights.
     pub(crate) fn repaired(&self, measure: IntensityMeasure, site: usize) -> Option<&Array<3>> {
         let stands = |of: &&StoredConsistency| of.scaled_to == measure && of.stands_beside(site);
         self.consistency.iter().find(stands)?.u_m.as_ref()
     }
 
-    /// Every figure that the result has the numbers for.
+    /// The figures that the result has the numbers for: all, or about ten for the page.
     ///
     /// # Errors
     /// A file that is damaged.
-    pub fn figures(&self) -> Result<RiskFigures, UpliftError> {
-        let mut confidence = confidence::bands(self);
-        confidence.extend(confidence::measures_together(self));
-        confidence.extend(confidence::initiation(self));
+    pub fn figures(&self, extent: Extent) -> Result<RiskFigures, UpliftError> {
+        let mut answer: Vec<Figure> = spectra::sites(self).into_iter().collect();
+        answer.extend(spectra::spectra(self));
+        let mut confidence = confidence::measures_together(self);
         confidence.extend(spread::spreads(self));
-        confidence.extend(demand::fragilities(self)?);
-        confidence.extend(tails::tail_shares(self));
+        confidence.extend(consistency::consistency(self));
         let mut causes = vec![spectra::hazard(self)];
-        causes.extend(influence::disaggregation(self));
-        causes.extend(influence::influence(self));
-        causes.extend(demand::risk_curves(self)?);
-        causes.extend(demand::risk_surfaces(self)?);
-        causes.extend(demand::ida_curves(self)?);
-        // structures of a motion are no more observations than the motion is: as `uplift measures` has it
-        if self.stored.units.structures_of_a_motion == 1 {
-            causes.push(efficiency::efficiency(self)?);
+        // the page has what is of one measure of the first
+        let shown = if extent == Extent::All { usize::MAX } else { 1 };
+        causes.extend(influence::disaggregation(self).into_iter().take(shown));
+        causes.extend(influence::influence(self).into_iter().take(shown));
+        causes.extend(demand::risk_curves(self)?.into_iter().take(shown));
+        if extent == Extent::All {
+            confidence.extend(confidence::bands(self));
+            confidence.extend(confidence::initiation(self));
+            confidence.extend(demand::fragilities(self)?);
+            confidence.extend(tails::tail_shares(self));
+            causes.extend(demand::risk_surfaces(self)?);
+            causes.extend(demand::ida_curves(self)?);
+            // structures of a motion are no more observations than the motion is: as `uplift measures` has it
+            if self.stored.units.structures_of_a_motion == 1 {
+                causes.push(efficiency::efficiency(self)?);
+            }
         }
-        Ok(RiskFigures {
-            answer: spectra::spectra(self),
-            confidence,
-            consistency: consistency::consistency(self).into_iter().collect(),
-            causes,
-            fits: spectra::fits(self).into_iter().collect(),
-        })
+        Ok(RiskFigures { answer, confidence, causes, fits: spectra::fits(self).into_iter().collect() })
     }
 
     fn figure(

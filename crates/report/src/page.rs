@@ -1,25 +1,23 @@
-//! The report: one HTML file that opens anywhere. It leads with the answer; then how sure it is, where it comes from,
-//! and what is needed to compute with it and to make it again.
+//! The report: one HTML file that opens anywhere. It leads with the spectrum, its numbers and at most three warnings;
+//! then confidence, sources of the risk, fitted curves, structures, and what reproduces it.
 //!
 //! Styles and scripts are inside the file and nothing is fetched; its own policy forbids it. The figures are those of
 //! [`figures`](crate::figures), as SVG, with their values beside them for the script that reads them off.
 
-pub(crate) mod answer;
 mod consistency;
 mod differences;
 mod displacement;
+pub(crate) mod displacements;
 mod drawn;
 mod risk;
 mod shake_table;
 mod structures;
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use minijinja::{Environment, Value, context};
 use serde::Serialize;
 
-use answer::Answer;
 use differences::{differences, names};
 use drawn::DrawnFigure;
 use structures::AskedStructure;
@@ -38,38 +36,6 @@ use crate::figures::{FigureSource, together};
 pub(crate) const STYLE: &str = include_str!("page/report.css");
 const REPORT: &str = concat!(include_str!("page/table.html"), include_str!("page/report.html"));
 
-/// What the page shows of one result.
-#[derive(Debug, Serialize)]
-struct Section {
-    key: String,
-    title: String,
-    file: String,
-    extent: String,
-    record_set: String,
-    alarms: Vec<Alarm>,
-    answer: Option<Answer>,
-    parts: Vec<ShownPart>,
-    /// What was asked under it.
-    structures: Vec<AskedStructure>,
-    facts: Vec<(&'static str, String)>,
-    study_toml: String,
-    checksums: BTreeMap<String, String>,
-}
-
-/// Tables and figures that answer one question, ready to be shown.
-#[derive(Debug, Serialize)]
-struct ShownPart {
-    key: String,
-    title: &'static str,
-    /// A sentence below the title; empty for none.
-    note: String,
-    /// Shown before the figures.
-    tables: Vec<TitledTable>,
-    figures: Vec<DrawnFigure>,
-    /// Shown after them.
-    details: Vec<TitledTable>,
-}
-
 /// A table and what is said of it; its headings have raised and lowered parts.
 #[derive(Debug, Serialize)]
 pub(crate) struct TitledTable {
@@ -82,29 +48,35 @@ pub(crate) struct TitledTable {
     table: Table,
 }
 
-/// What is said of one result.
+/// What the page shows of one result.
+#[derive(Serialize)]
 struct Content {
     /// What the result is of, e.g. `Uniform risk spectra`.
     subject: &'static str,
-    /// How much it is of, a sentence.
-    extent: String,
-    answer: Option<Answer>,
+    /// The sites or record sets that it is of, in a few words.
+    place: String,
+    /// The figure before all others.
+    lead: Option<DrawnFigure>,
+    /// The table beside it.
+    summary: Option<TitledTable>,
     facts: Vec<(&'static str, String)>,
     parts: Vec<Part>,
     /// Its spectra, to be laid over those of others.
+    #[serde(skip)]
     source: Option<FigureSource>,
 }
 
-/// Tables and figures that answer one question.
+/// Figures and tables that answer one question.
+#[derive(Debug, Serialize)]
 struct Part {
     /// Its name in links.
     key: &'static str,
     title: &'static str,
     /// A sentence below the title; empty for none.
-    note: String,
+    note: &'static str,
+    figures: Vec<DrawnFigure>,
+    /// Folded below them.
     tables: Vec<TitledTable>,
-    figures: Vec<Figure>,
-    details: Vec<TitledTable>,
 }
 
 /// A result that was read.
@@ -141,24 +113,41 @@ pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result
         .filter_map(|(name, of)| Some((name.as_str(), of.content.source.as_ref()?)))
         .collect();
     let common = if sources.len() > 1 { together(&sources) } else { None };
-    let common = common.map(|figure| DrawnFigure::new("all", &figure)).transpose()?;
+    let common = common.map(|figure| DrawnFigure::new(&figure)).transpose()?;
     let mut heading = titles.iter().map(|&title| title.to_owned()).collect::<Vec<_>>();
     heading.dedup();
     let mut subjects: Vec<&str> = results.iter().map(|of| of.content.subject).collect();
     subjects.dedup();
     let subjects = subjects.join(", ");
     let several = results.len() > 1;
+    let mut places: Vec<String> = results.iter().map(|of| of.content.place.clone()).collect();
+    places.dedup();
+    let place = Some(places.join("; ")).filter(|place| !heading.iter().any(|title| title.contains(place)));
     let marks: Vec<&str> = results.iter().map(|of| of.mark.as_str()).collect();
     let mark = format!("{}; {}", outputs::mark(), marks.join("; "));
     let sections = results.into_iter().zip(&names).enumerate().map(|(index, (result, name))| {
-        let title = if several { name.clone() } else { result.title().to_owned() };
-        section(&format!("r{}", index + 1), title, result)
+        let title = if several { name } else { result.title() };
+        let Read { head, content, .. } = &result;
+        context! {
+            key => format!("r{}", index + 1),
+            title,
+            file => result.file,
+            record_set => head.record_set,
+            alarms => result.alarms,
+            structures => result.structures,
+            program => format!("uplift {} ({})", head.version, head.commit),
+            created => head.created,
+            command => head.command,
+            study_toml => head.study_toml,
+            checksums => head.input_checksums,
+            ..Value::from_serialize(content)
+        }
     });
-    let sections = sections.collect::<Result<Vec<Section>, UpliftError>>()?;
+    let sections: Vec<Value> = sections.collect();
     render(
         REPORT,
         context! {
-            sections, subjects, heading, several, names, differences, common,
+            sections, subjects, heading, place, several, names, differences, common,
             style => STYLE,
             script => include_str!("page/report.js"),
             mark,
@@ -195,8 +184,13 @@ impl TitledTable {
     }
 }
 
+/// Every one of `figures`, drawn.
+fn drawn(figures: impl IntoIterator<Item = Figure>) -> Result<Vec<DrawnFigure>, UpliftError> {
+    figures.into_iter().map(|figure| DrawnFigure::new(&figure)).collect()
+}
+
 impl Read {
-    /// The title    /// The title of the study, or the name of the file where it has none.
+    /// The title of the study, or the name of the file where it has none.
     fn title(&self) -> &str {
         if self.head.title.is_empty() { &self.file } else { &self.head.title }
     }
@@ -212,50 +206,4 @@ fn read(path: &Path, result: &ResultFile) -> Result<Read, UpliftError> {
     let alarms = alarms(result)?;
     let structures = structures::structures(result, &alarms)?;
     Ok(Read { head: result.head()?, alarms, mark: result.name_and_digest()?, file, content, structures })
-}
-
-fn section(key: &str, title: String, result: Read) -> Result<Section, UpliftError> {
-    let Read { head, alarms, file, content, mut structures, .. } = result;
-    let mut facts = vec![
-        ("Result", file.clone()),
-        ("Records", head.record_set.clone()),
-        ("Program", format!("uplift {} ({})", head.version, head.commit)),
-        ("Made", head.created),
-        ("Command", head.command),
-    ];
-    facts.extend(content.facts);
-    let keyed = |mut tables: Vec<TitledTable>| {
-        for table in &mut tables {
-            table.id = format!("{key}-{}", table.id);
-        }
-        tables
-    };
-    let shown = |part: Part| {
-        let figures = part.figures.iter().map(|figure| DrawnFigure::new(key, figure)).collect::<Result<Vec<_>, _>>()?;
-        Ok(ShownPart {
-            key: format!("{key}-{}", part.key),
-            title: part.title,
-            note: part.note,
-            tables: keyed(part.tables),
-            figures,
-            details: keyed(part.details),
-        })
-    };
-    for answer in structures.iter_mut().flat_map(|structure| &mut structure.answers) {
-        answer.table.id = format!("{key}-{}", answer.table.id);
-    }
-    Ok(Section {
-        structures,
-        key: key.to_owned(),
-        title,
-        file,
-        extent: content.extent,
-        record_set: head.record_set,
-        alarms,
-        answer: content.answer,
-        parts: content.parts.into_iter().map(shown).collect::<Result<_, UpliftError>>()?,
-        facts,
-        study_toml: head.study_toml,
-        checksums: head.input_checksums,
-    })
 }

@@ -79,7 +79,7 @@ pub fn pushover_figure(report: &PushoverReport) -> Figure {
     series.push(Series { name: "events".to_owned(), points: events, tone: Tone::Distinct(0), marks: Marks::Only });
     let mut panels = vec![Panel::lines("", Axis::linear(DISPLACEMENT), Axis::linear(FORCE), series)];
     let mut caption =
-        "Force over displacement of the deck: the exact law with its events (dots), and what is laid over it."
+        "Force over displacement of the deck: the exact law with its events (dots), and the curves compared with it."
             .to_owned();
     if !report.linear.is_empty() {
         panels.push(over_weight(report, to_m));

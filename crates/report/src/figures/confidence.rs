@@ -91,17 +91,17 @@ pub(super) fn bands(source: &FigureSource) -> Vec<Figure> {
             }
             panel
         };
-        let anew = if of == Of::Repaired { "; every sample has weights of its own" } else { "" };
+        let anew = if of == Of::Repaired { " Every resample has its own weights." } else { "" };
         let caption = format!(
-            "Median (lines) and {lower} to {upper} interval (areas) of the {} of {} over {}, for each size of \
-             the sample (Fig. 4.8){anew}.",
+            "Median (lines) and {lower} to {upper} interval (areas) of the {} of {} over {}, by the size of the \
+             resample (Fig. 4.8).{anew}",
             of.spectra(),
             risk_in_words(source.stored.poes[poe], source.stored.years),
             stored.drawn_words()
         );
         Some(source.figure(
             format!("bands-{}{}", bands.measure.key(), of.ending()),
-            format!("How sure the {} are, by {}", of.spectra(), bands.measure.label()),
+            format!("Confidence bands of the {} by {}, by number of records", of.spectra(), bands.measure.label()),
             caption,
             source.sites().map(panel).collect(),
         ))
@@ -111,6 +111,8 @@ pub(super) fn bands(source: &FigureSource) -> Vec<Figure> {
 }
 
 /// Bands of the largest sample by all measures, for one probability.
+///
+/// - `up_to`: the largest displacement, m, of an axis in millimetres; none for one in metres.
 fn together(source: &FigureSource, of: Of, poe: usize, y: &Axis, up_to: Option<f64>) -> Option<Vec<Panel>> {
     let stored = source.bands.as_ref()?;
     if !stored.measures.iter().any(|bands| of.limits(bands).is_some()) {
@@ -128,6 +130,8 @@ fn together(source: &FigureSource, of: Of, poe: usize, y: &Axis, up_to: Option<f
                 let from = line.points.iter().position(|point| point.1 < up_to).unwrap_or(line.points.len());
                 line.points.drain(..from);
                 band.points.drain(..from);
+                line.points.iter_mut().for_each(|point| point.1 *= 1e3);
+                band.points.iter_mut().for_each(|point| (point.1, point.2) = (1e3 * point.1, 1e3 * point.2));
             }
             panel.bands.push(band);
             panel.series.push(line);
@@ -143,12 +147,12 @@ pub(super) fn measures_together(source: &FigureSource) -> Vec<Figure> {
     let figure = |of: Of| {
         let panels = together(source, of, poe, &Axis::log(DISPLACEMENT), None)?;
         let title = match of {
-            Of::Plain => "The measures side by side",
-            Of::Repaired => "The measures side by side, repaired",
+            Of::Plain => "Spectra by each intensity measure",
+            Of::Repaired => "Repaired spectra by each intensity measure",
         };
         let caption = format!(
-            "Median and interval of the {} of {} for the largest sample, by each intensity measure (Fig. 4.9): where \
-             the areas part, the measures contradict each other.",
+            "Median and interval of the {} of {} over resamples (Fig. 4.9). Where the areas do not overlap, the \
+             intensity measures disagree.",
             of.spectra(),
             risk_in_words(source.stored.poes[poe], source.stored.years)
         );
@@ -161,15 +165,16 @@ pub(super) fn initiation(source: &FigureSource) -> Option<Figure> {
     let stored = &source.stored;
     let poe = (0..stored.poes.len()).max_by(|&a, &b| stored.poes[a].total_cmp(&stored.poes[b]))?;
     let top = 4.0 * stored.uplift_displacement_m;
-    let panels = together(source, Of::Plain, poe, &Axis::linear(DISPLACEMENT).between(0.0, top), Some(top))?;
+    let y = Axis::linear("displacement u_{max}, mm").between(0.0, 1e3 * top);
+    let panels = together(source, Of::Plain, poe, &y, Some(top))?;
     // where the medians stay above, there is nothing to see
     if panels.iter().flat_map(|panel| &panel.series).all(|line| line.points.is_empty()) {
         return None;
     }
     let caption = format!(
-        "Spectra of {} near the uplift displacement of {} m, for the largest sample (Fig. 4.10).",
+        "Spectra of {} near the uplift displacement of {} mm (Fig. 4.10).",
         risk_in_words(stored.poes[poe], stored.years),
-        stored.uplift_displacement_m
+        1e3 * stored.uplift_displacement_m
     );
     Some(source.figure("initiation", "Where rocking begins", caption, panels))
 }

@@ -15,20 +15,19 @@ const MARGIN: f64 = 1.6;
 pub(super) fn consistency(source: &FigureSource) -> Option<Figure> {
     let by_measure = source.consistency.iter().map(|of| source.sites().filter_map(|site| panel(source, of, site)));
     let panels: Vec<Panel> = by_measure.flatten().collect();
-    let caption = "Annual rate at which a level of the other measure is exceeded: by the hazard curve of the site \
-                   (full), by the records as they are scaled (dashed) and, after a repair, by the weighted records \
-                   (thin). Shaded: the rates compared; grey lines: the rates of the spectra. Where the dashed line \
-                   lies right of the full one, the records bring too much.";
-    (!panels.is_empty()).then(|| source.figure("consistency", "What the record set brings", caption, panels))
+    let caption = "Annual rate at which a level of the other intensity measure is exceeded. Where the records lie \
+                   right of the hazard curve, their other measure is too strong for the site. Grey lines: rates of \
+                   the spectra.";
+    (!panels.is_empty()).then(|| source.figure("consistency", "Hazard consistency of the record set", caption, panels))
 }
 
 /// What the records scaled to one measure bring at a site; none where nothing was compared.
 fn panel(source: &FigureSource, of: &StoredConsistency, site: usize) -> Option<Panel> {
     let rates = of.rate_per_year.block([site]);
     let lines = [
-        ("hazard of the site", Some(&of.site_level), Tone::Distinct(4)),
-        ("brought by the records", Some(&of.implied_level), Tone::Distinct(1)),
-        ("brought by weighted records", of.repaired_level.as_ref(), Tone::Thin(5)),
+        ("hazard curve of the site", Some(&of.site_level), Tone::Distinct(4)),
+        ("scaled records", Some(&of.implied_level), Tone::Distinct(1)),
+        ("weighted records", of.repaired_level.as_ref(), Tone::Thin(5)),
     ];
     let line = |(name, levels, tone): (&str, Option<&uplift::Array<2>>, Tone)| {
         let points = levels?.block([site]).iter().copied().zip(rates.iter().copied());

@@ -3,6 +3,7 @@
 use uplift_fragility::{exceedance_probabilities, quantile, weighted_quantile};
 use uplift_risk::{RiskCurve, ThresholdGrid};
 
+use super::spectra::RATE;
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
 use uplift::text::{nearest, risk_in_words, risks_in_words};
 use uplift::{JobError, UpliftError};
@@ -24,7 +25,12 @@ impl FigureSource {
         nearest(&self.stored.strengths, &[SHOWN_STRENGTH]).first().copied().unwrap_or_default()
     }
 
-    fn fail(&self, error: &dyn std::fmt::Display) -> UpliftError {
+    /// The strength at an index, for the title of a panel.
+    fn strength_words(&self, index: usize) -> String {
+        format!("strength η = {:.3}", self.stored.strengths[index])
+    }
+
+    pub(crate) fn fail(&self, error: &dyn std::fmt::Display) -> UpliftError {
         JobError::input(format!("{}: {error}", self.stored.path.display())).into()
     }
 }
@@ -57,7 +63,7 @@ pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, Uplift
             series.push(Series::line(name, points, Tone::Distinct([5, 4, 0][index])));
         }
         panels.push(Panel::lines(
-            "",
+            source.strength_words(strength),
             Axis::log(DISPLACEMENT),
             Axis::linear(format!("{}, {}", measure.measure.label(), measure.measure.unit())),
             series,
@@ -66,7 +72,7 @@ pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, Uplift
     let title = format!("Incremental dynamic analysis at η = {:.3}", stored.strengths[strength]);
     let caption = if stored.measures.iter().any(|measure| measure.shares.is_some()) {
         "Peak displacement of every record at the levels that it was selected for (grey), of the first record, and \
-         percentiles over the records of each level as they count there: each level has records of its own."
+         weighted percentiles over the records of each level."
     } else {
         "Peak displacement of every record scaled to every level (grey), of the first record, and percentiles over the \
          records at each level (Fig. A2.13, A2.14)."
@@ -96,7 +102,7 @@ pub(super) fn fragilities(source: &FigureSource) -> Result<Option<Figure>, Uplif
             series.push(Series::line(format!("u_{{max}} > {threshold_m} m"), points, Tone::Distinct(index)));
         }
         panels.push(Panel::lines(
-            "",
+            source.strength_words(strength),
             Axis::log(format!("{}, {}", measure.measure.label(), measure.measure.unit())),
             Axis::linear("probability of exceedance").between(0.0, 1.0),
             series,
@@ -104,8 +110,7 @@ pub(super) fn fragilities(source: &FigureSource) -> Result<Option<Figure>, Uplif
     }
     let title = format!("Fragility at η = {:.3}", stored.strengths[strength]);
     let caption = if stored.measures.iter().any(|measure| measure.shares.is_some()) {
-        "Share of each level's own records, as they count there, that exceed a displacement (Eq. 4.7): counted, not \
-         fitted."
+        "Weighted share of the records of each level that exceed a displacement (Eq. 4.7): counted, not fitted."
     } else {
         "Share of the records that exceed a displacement at each level (Eq. 4.7): counted, not fitted."
     };
@@ -122,14 +127,7 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
     for measure in &stored.measures {
         let mut panels: Vec<Panel> = source
             .sites()
-            .map(|site| {
-                Panel::lines(
-                    stored.sites[site].clone(),
-                    Axis::log(DISPLACEMENT),
-                    Axis::log("mean annual frequency, 1/yr"),
-                    Vec::new(),
-                )
-            })
+            .map(|site| Panel::lines(stored.sites[site].clone(), Axis::log(DISPLACEMENT), Axis::log(RATE), Vec::new()))
             .collect();
         for (index, &strength) in shown.iter().enumerate() {
             let demand = measure.demand(strength).map_err(|error| source.fail(&error))?;
@@ -152,8 +150,8 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
             }
         }
         let label = measure.measure.label();
-        let caption = "Mean annual frequency of exceeding a displacement: rows of the risk surface (Fig. 4.4a). Where \
-                       a curve meets a target rate lies the ordinate of the uniform risk spectrum.";
+        let caption = "Annual rate at which a displacement is exceeded (Fig. 4.4a). The spectrum is where a curve \
+                       meets a target.";
         figures.push(source.figure(
             format!("risk-{}", measure.measure.key()),
             format!("Risk of exceeding a displacement, by {label}"),
@@ -200,7 +198,7 @@ pub(super) fn risk_surfaces(source: &FigureSource) -> Result<Vec<Figure>, Uplift
             })
             .collect();
         let label = measure.measure.label();
-        let caption = "The risk surface seen from above: lines of equal mean annual frequency of exceedance. The \
+        let caption = "Contours of the risk surface, seen from above: lines of equal annual rate of exceedance. The \
                        contour of a target rate is the uniform risk spectrum (Fig. 4.4).";
         let id = format!("surface-{}", measure.measure.key());
         figures.push(source.figure(id, format!("Risk surface by {label}"), caption, panels));

@@ -206,11 +206,7 @@ impl DisplacementSource<'_> {
             more => format!("; {more} more in the result file"),
         };
         moved.truncate(RANGES_TOLD);
-        format!(
-            " Rings: rounding decides the ordinate, and with scale factors some 1e-15 smaller and larger it is, lowest \
-             to highest: {}{more}.",
-            moved.join("; ")
-        )
+        format!(" Rings: rounding decides these ordinates; lowest to highest: {}{more}.", moved.join("; "))
     }
 
     /// Every set and way of scaling that is shown, of the first scaling.

@@ -11,10 +11,15 @@ pub(super) fn efficiency(source: &FigureSource) -> Result<Figure, UpliftError> {
     let panel = |title: &str, y: Axis| Panel::lines(title, Axis::linear(STRENGTH), y, Vec::new());
     let mut panels = vec![
         panel("rocking structures", Axis::linear("dispersion of ln u")),
-        panel("onset of rocking", Axis::linear("deviation of ln level")),
+        panel("onset of rocking", Axis::linear("dispersion of ln level")),
     ];
     for covariate in &covariates {
-        panels.push(panel(&format!("trend with {}", covariate.key), Axis::log("p-value").between(1e-6, 1.0)));
+        let name = match covariate.key {
+            "ln_rrup" => "distance",
+            "ln_duration" => "duration",
+            key => key,
+        };
+        panels.push(panel(&format!("trend with {name}"), Axis::log("p-value")));
     }
     for (index, measure) in stored.measures.iter().enumerate() {
         let found = efficiency_by(stored, measure, &covariates)?;
@@ -28,11 +33,13 @@ pub(super) fn efficiency(source: &FigureSource) -> Result<Figure, UpliftError> {
             panel.series.push(source.over_strengths(label, &values, tone));
         }
     }
+    let ends = [stored.strengths.first(), stored.strengths.last()].into_iter().flatten();
+    let limit: Vec<(f64, f64)> = ends.map(|&strength| (strength, 0.05)).collect();
     for panel in &mut panels[2..] {
-        panel.series.push(Series::line("p = 0.05", vec![(0.0, 0.05), (1.0, 0.05)], Tone::Distinct(2)));
+        panel.series.push(Series::line("p = 0.05", limit.clone(), Tone::Distinct(2)));
     }
-    let caption = "Efficiency: scatter of the displacement of rocking structures at a given level, and of the level at \
-                   which rocking begins: less is better. Sufficiency: p-values of the trend of a record's mean \
-                   residual with what the record is; below 0.05 the measure leaves something out.";
-    Ok(source.figure("measures", "Which measure to trust", caption, panels))
+    let caption = "Efficiency: dispersion of the displacement of rocking structures at an intensity level, and of the \
+                   level at which rocking begins; less is better. Sufficiency: p-values of the trend of the residuals \
+                   with magnitude, distance and duration; below 0.05 the intensity measure is not sufficient.";
+    Ok(source.figure("measures", "Efficiency and sufficiency of the intensity measures", caption, panels))
 }

@@ -22,18 +22,13 @@ pub fn frame_risk_figure(report: &FrameRiskReport) -> Figure {
         let target = vec![(first, report.target_per_year), (last, report.target_per_year)];
         series.push(Series::line("target", target, Tone::Faint));
     }
-    let curves = Panel::lines(
-        "",
-        Axis::log("displacement of the deck, m"),
-        Axis::log("annual frequency of exceeding it"),
-        series,
-    );
+    let curves = Panel::lines("", Axis::log("displacement of the deck, m"), Axis::log("annual rate, 1/yr"), series);
     Figure {
         id: "frame-risk".to_owned(),
         title: format!("Risk of {} at {}", report.structure.name, report.site),
         caption:
-            "Annual frequency of exceeding a displacement of the deck, by the frame itself and by its proxies, and \
-                  the share of the records that overturn the frame at each level: counted (dots) and lognormal (line)."
+            "Annual rate at which a displacement of the deck is exceeded, by the frame and by its proxies; share of \
+                  the records that overturn the frame at each level: counted (dots) and lognormal (line)."
                 .to_owned(),
         remark: if report.source.synthetic { "synthetic records: not for design" } else { "" }.to_owned(),
         panels: vec![curves, fragility(report)],

@@ -18,8 +18,7 @@ pub fn history_figure(title: &str, history: &ResponseHistory, uplift_displacemen
     };
     figure(
         title,
-        "Ground acceleration and the displacement it causes; dots are impacts, dashed lines the displacement at \
-         uplift.",
+        "Ground acceleration and displacement. Dots: impacts; dashed: displacement at uplift.",
         ground(&history.ground_acceleration_m_s2, history.dt_s),
         ("displacement", "displacement, m", of(None)),
         of(Some(HistoryRow::AFTER_IMPACT)),
@@ -35,8 +34,8 @@ pub fn block_history_figure(title: &str, history: &BlockHistory, slenderness_rad
     };
     figure(
         title,
-        "Ground acceleration and the rotation it causes; dots are impacts, dashed lines the slenderness, beyond which \
-         the block falls if nothing brings it back.",
+        "Ground acceleration and rotation. Dots: impacts; dashed: slenderness, above which a block overturns without \
+         ground motion.",
         ground(&history.ground_acceleration_m_s2, history.dt_s),
         ("rotation", "rotation, rad", of(|moment| !matches!(moment, Moment::BeforeImpact | Moment::AfterImpact))),
         of(|moment| moment == Moment::AfterImpact),

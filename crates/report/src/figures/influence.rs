@@ -46,13 +46,12 @@ pub(super) fn disaggregation(source: &FigureSource) -> Vec<Figure> {
         };
         let label = influence.measure.label();
         let caption = format!(
-            "Share of the risk at the ordinate of {} that comes from below a level of {label}: half of it \
-             lies below the level where a line crosses 50 %. What a line misses of 100 % at its end comes from above \
-             the last level.",
+            "Share of the risk at {} that comes from below a level of {label}. The share missing to 100 % comes from \
+             above the last level.",
             risk_in_words(stored.poes[poe], stored.years)
         );
         let id = format!("disaggregation-{}", influence.measure.key());
-        let title = format!("Intensities that make the risk, by {label}");
+        let title = format!("Intensity levels that make up the risk, by {label}");
         source.figure(id, title, caption, source.sites().map(panel).collect())
     };
     source.influences().map(figure).collect()
@@ -84,13 +83,12 @@ pub(super) fn influence(source: &FigureSource) -> Vec<Figure> {
         };
         let label = influence.measure.label();
         let caption = format!(
-            "Change of the spectrum of {risk} by {label} if one {one} is left out, a line for each {one}; \
-             those that change it most, at any site, are named.",
+            "Change of the spectrum of {risk} if one {one} is left out. The {one}s with the largest change are named.",
             one = if stored.units.are_records() { "record" } else { "pair" },
             risk = risk_in_words(stored.poes[poe], stored.years)
         );
         let id = format!("influence-{}", influence.measure.key());
-        let title = format!("Records that carry the spectra, by {label}");
+        let title = format!("Influence of single records, by {label}");
         Some(source.figure(id, title, caption, source.sites().map(panel).collect()))
     };
     source.influences().filter_map(figure).collect()

@@ -25,8 +25,8 @@ pub fn overturning_figure(report: &OverturningReport) -> Figure {
         id: "overturning".to_owned(),
         title: format!("Overturning of {}", report.structure.name),
         caption:
-            "Collapse fragility: the share of the records that overturn the structure at each level (dots) and the \
-                  lognormal curve of maximum likelihood (lines)."
+            "Collapse fragility: share of the records that overturn the structure at each intensity level (dots), and \
+                  the lognormal curve of maximum likelihood (lines)."
                 .to_owned(),
         remark: if report.source.synthetic { "synthetic records: not for design" } else { "" }.to_owned(),
         columns: panels.len().min(2),

@@ -35,7 +35,7 @@ fn distributions(table: &ShakeTable) -> Figure {
         table,
         "shake-table-cdf",
         "Distributions of the displacement",
-        "Share of the tests up to a displacement of the deck, by class (Fig. 6.18). What does not reach 1 overturns.",
+        "Share of the tests up to a displacement of the deck, by class (Fig. 6.18). The share missing to 1 overturns.",
         table.levels.iter().enumerate().map(|(index, level)| panel(index, &level.name)).collect(),
     )
 }

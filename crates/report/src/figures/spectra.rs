@@ -7,13 +7,13 @@ use uplift::text::{per_cent, risk_in_words};
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
-pub(super) const RATE: &str = "mean annual frequency, 1/yr";
+pub(super) const RATE: &str = "annual rate, 1/yr";
 /// Weighted curves of a site that are drawn.
 const MOST_BRANCHES: usize = 32;
 /// What the caption says of them.
-const BRANCHES: &str = " Thin: weighted curves of the site, of which the thick one is the mean.";
+const BRANCHES: &str = " Thin: weighted curves of the site; thick: their mean.";
 /// What the caption says of repaired spectra.
-const THIN: &str = " Thin: of records weighted so that they bring the site's hazard of both measures.";
+const THIN: &str = " Thin: repaired, from records weighted to match the site's hazard.";
 
 pub(super) fn hazard(source: &FigureSource) -> Figure {
     let panel = |hazard: &StoredHazard| {
@@ -33,7 +33,7 @@ pub(super) fn hazard(source: &FigureSource) -> Figure {
     };
     let is_one_of_many = |hazard: &StoredHazard| hazard.sites.iter().any(|site| !site.branches.is_empty());
     let caption = format!(
-        "Mean annual frequency of exceeding a level of the intensity measure, as used (Fig. 4.5b, c).{}",
+        "Annual rate at which an intensity level is exceeded (Fig. 4.5b, c).{}",
         if source.hazard.iter().any(is_one_of_many) { BRANCHES } else { "" }
     );
     source.figure("hazard", "Hazard curves", caption, source.hazard.iter().map(panel).collect())
@@ -54,11 +54,27 @@ pub fn hazard_figure(curves: &[NamedCurve]) -> Figure {
     Figure {
         id: "hazard".to_owned(),
         title: "Hazard curves".to_owned(),
-        caption: "Mean annual frequency of exceeding a level of the intensity measure.".to_owned(),
+        caption: "Annual rate at which an intensity level is exceeded.".to_owned(),
         remark: String::new(),
         columns: panels.len().min(2),
         panels,
     }
+}
+
+/// The rarest spectra of all sites by the first measure in one panel; none of a single site.
+pub(super) fn sites(source: &FigureSource) -> Option<Figure> {
+    let spectra = &source.spectra;
+    let of_measure = spectra.measures.first().filter(|_| spectra.sites.len() > 1)?;
+    let poe = source.rarest();
+    let line = |site: usize| {
+        source.over_strengths(&spectra.sites[site], of_measure.u_m.block([site, poe]), Tone::Distinct(site))
+    };
+    let series = source.sites().map(line).collect();
+    let panel = Panel::lines("", Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series);
+    let [risk, label] = [risk_in_words(spectra.poes[poe], spectra.years), of_measure.measure.label().to_owned()];
+    let title = format!("Uniform risk spectra of {risk}, by {label}");
+    let caption = "Displacement of a rocking structure, by its uplift strength.";
+    Some(source.figure("urs-sites", title, caption, vec![panel]))
 }
 
 pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
@@ -87,23 +103,16 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
                 let confidence = per_cent(bands.confidence);
                 let size = bands.sizes[bands.of_set(source.stored.records.len())];
                 if own.inferred.is_some() {
-                    format!(
-                        " Areas: where the spectrum of all records like these lies, as {size} of them tell it with \
-                         {confidence} confidence."
-                    )
+                    format!(" Areas: {confidence} confidence bands, from {size} records.")
                 } else {
-                    let drawn = bands.drawn_words();
-                    format!(" Areas: {confidence} of the spectra of {drawn}, {size} records in a sample.")
+                    format!(" Areas: {confidence} of the spectra of {}, {size} records in each.", bands.drawn_words())
                 }
             });
             let is_thin = |panel: &Panel| panel.series.iter().any(|line| matches!(line.tone, Tone::Thin(_)));
             let panels: Vec<Panel> = source.sites().map(panel).collect();
             let thin = if panels.iter().any(is_thin) { THIN } else { "" };
-            let caption = format!(
-                "Displacement that a rocking structure of a given uplift strength exceeds with the stated probability, \
-                 from stripes by {label} (Fig. 4.6, 4.7).{banded}{thin} Ordinates that are zero or censored are left \
-                 out."
-            );
+            let caption =
+                format!("Displacement exceeded with the stated probability, by {label} (Fig. 4.6, 4.7).{banded}{thin}");
             let id = format!("urs-{}", of_measure.measure.key());
             let title = format!("Uniform risk spectra by {label}");
             source.figure(id, title, caption, panels)
@@ -111,7 +120,7 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
         .collect()
 }
 
-/// Spectra of weighted records at a site whose hazard the records as they are do not bring.
+/// Spectra of weighted records at a site whose hazard the records do not have without weights.
 fn repaired(source: &FigureSource, measure: IntensityMeasure, site: usize) -> Vec<Series> {
     let Some(u_m) = source.repaired(measure, site) else { return Vec::new() };
     let spectra = &source.spectra;
@@ -130,7 +139,7 @@ pub(super) fn fits(source: &FigureSource) -> Option<Figure> {
         let mut series = Vec::new();
         for (poe, &probability) in spectra.poes.iter().enumerate() {
             let tone = Tone::Distinct(poe);
-            let mut points = source.over_strengths("", by_first.u_m.block([site, poe]), tone);
+            let mut points = source.over_strengths("spectrum", by_first.u_m.block([site, poe]), tone);
             points.marks = Marks::Only;
             // some seventy at most: the curve must be seen between them
             let step = points.points.len().div_ceil(76).max(1);
@@ -138,7 +147,7 @@ pub(super) fn fits(source: &FigureSource) -> Option<Figure> {
             series.push(points);
             if let Some(curve) = by_first.fits[[site, poe]].curve() {
                 let fitted = spectra.strengths.iter().filter(|&&strength| strength > 0.05);
-                let name = format!("fit, {}", risk_in_words(probability, spectra.years));
+                let name = format!("fit of {}", risk_in_words(probability, spectra.years));
                 let points = fitted.map(|&strength| (strength, curve.at(strength))).collect();
                 series.push(Series::line(name, points, tone));
             }
@@ -146,7 +155,10 @@ pub(super) fn fits(source: &FigureSource) -> Option<Figure> {
         let title = spectra.sites[site].clone();
         Panel::lines(title, Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series)
     };
-    let caption = "Spectra (dots) and the exponential c_{0} exp(c_{1} η) + c_{2} fitted to them (lines; \
-                   Eq. 4.11, Fig. 4.11, Table 4.2).";
+    let caption = format!(
+        "Spectra by {} (dots) and the curves u = c_{{0}} exp(c_{{1}} η) + c_{{2}} fitted to them (lines; Eq. 4.11, \
+         Fig. 4.11).",
+        by_first.measure.label()
+    );
     Some(source.figure("fits", "Fitted spectra", caption, source.sites().map(panel).collect()))
 }

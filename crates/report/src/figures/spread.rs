@@ -27,8 +27,8 @@ pub(super) fn spreads(source: &FigureSource) -> Vec<Figure> {
         let is_of = |of: &&StoredSpread| of.measure == measure && of.over == over && sites.contains(&of.site);
         let panels: Vec<Panel> = source.spreads.iter().filter(is_of).map(panel).collect();
         let caption = format!(
-            "Mean (lines) and 5 to 95 % fractiles (areas) of the spectra over the {}, one of which holds and nobody \
-             knows which: what the records leave open is not in it.",
+            "Mean (lines) and 5 to 95 % fractiles (areas) of the spectra over the {}. The uncertainty of the records \
+             is not included.",
             over.words()
         );
         let title = format!("Spectra over the {}, by {}", over.words(), measure.label());

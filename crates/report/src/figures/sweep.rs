@@ -43,7 +43,7 @@ pub fn sweep_figure(report: &SweepReport) -> Figure {
         id: "comparison".to_owned(),
         title: format!("Variants of {}", report.title),
         caption: format!(
-            "Uniform risk spectra of every variant of the study, for the rarest risk of each ({} in the first).",
+            "Uniform risk spectra of every variant, at its rarest risk ({} in the first).",
             risk.unwrap_or_default()
         ),
         remark: if synthetic { "synthetic records: not for design" } else { "" }.to_owned(),

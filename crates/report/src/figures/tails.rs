@@ -21,7 +21,7 @@ pub(super) fn tail_shares(source: &FigureSource) -> Vec<Figure> {
                 let outside: Vec<f64> = lower.iter().zip(upper).map(|(lower, upper)| 100.0 * (lower + upper)).collect();
                 series.push(source.over_strengths(name, &outside, Tone::Distinct(poe)));
             }
-            let y = Axis::linear("share of the risk, %").between(0.0, 100.0);
+            let y = Axis::linear("share of the risk, %");
             Panel::lines(stored.sites[site].clone(), Axis::linear(STRENGTH), y, series)
         };
         let label = tails.measure.label();

@@ -40,7 +40,7 @@ pub(crate) fn together(results: &[(&str, &FigureSource)]) -> Option<Figure> {
     Some(Figure {
         id: "together".to_owned(),
         title: format!("Spectra of {} by {}", risk_in_words(poe, years), measure.label()),
-        caption: "The same spectrum of every result: what the settings that differ do to it.".to_owned(),
+        caption: "The same spectrum of every result.".to_owned(),
         remark: results
             .iter()
             .map(|(_, of)| of.remark)

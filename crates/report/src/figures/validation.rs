@@ -21,8 +21,8 @@ pub fn distributions_figure(report: &ValidateReport) -> Figure {
         "validation",
         "Distributions of computed and measured peaks",
         format!(
-            "Share of the peaks up to a value, measured with a 95 % band ({rule}) and computed. What does not reach 1 \
-             collapsed, or lies above the limit of its reading."
+            "Share of the peaks up to a value, measured with a 95 % band ({rule}) and computed. The share missing \
+             to 1 collapsed, or exceeds the measuring range."
         ),
         |group| distributions(report, group),
     )
@@ -34,8 +34,8 @@ pub fn pairs_figure(report: &ValidateReport) -> Figure {
         report,
         "validation-pairs",
         "Computed over measured peaks",
-        "Computed over measured peak of each motion; equality, and a factor of two either way. Collapses stand in no \
-         such figure: they are counted in the table."
+        "Computed over measured peak of each motion; lines: equality, and a factor of two either way. \
+         Collapses are counted in the table alone."
             .to_owned(),
         |group| pairs(report, group),
     )

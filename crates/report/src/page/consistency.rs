@@ -1,25 +1,13 @@
-//! Whether the record set brings the site's hazard, and what to do where it does not.
+//! Whether the record set has the site's hazard.
 
 use uplift::result::StoredConsistency;
 use uplift::text::{Table, risk_name};
 
-use super::{Part, TitledTable};
+use super::TitledTable;
 use crate::figures::FigureSource;
-use uplift_plot::Figure;
 
-/// The part of the page with its `figures`; none where no site has hazard curves of two measures.
-pub(super) fn part(source: &FigureSource, figures: Vec<Figure>) -> Option<Part> {
-    (!source.consistency.is_empty()).then(|| Part {
-        key: "record-set",
-        title: "Does the record set bring the site's hazard",
-        note: String::new(),
-        tables: vec![table(source)],
-        figures,
-        details: Vec::new(),
-    })
-}
-
-fn table(source: &FigureSource) -> TitledTable {
+/// The levels of the measure that records are not scaled to; none where no site has hazard curves of two measures.
+pub(super) fn consistency(source: &FigureSource) -> Option<TitledTable> {
     let all = &source.consistency;
     let is_repaired = all.iter().any(|of| of.u_m.is_some());
     let sites = 0..source.stored.sites.len();
@@ -33,28 +21,25 @@ fn table(source: &FigureSource) -> TitledTable {
     let table = Table::of(places.filter(|&(of, site)| looked_at(of, site)))
         .left("site", |(_, site)| &source.stored.sites[site])
         .left("scaled to", |(of, _)| of.scaled_to.label())
-        .left("shows", |(of, _)| of.other.label())
+        .left("compared", |(of, _)| of.other.label())
         .left("verdict", verdict)
         .each(poes.iter().enumerate(), |table, (at, &poe)| {
-            let heading = format!("over the site's, {}", risk_name(poe, all[0].years));
+            let heading = format!("ratio, {}", risk_name(poe, all[0].years));
             table.right(heading, |(of, site)| two_decimals(of.ratio.block([site])[at]))
         })
         .right("bias", |(of, site)| two_decimals(of.bias[site]))
         .right("largest |ln|", |(of, site)| two_decimals(of.max[site]))
         .when(is_repaired, |table| table.right("effective records, least", |(of, site)| effective(of, site)));
     let repair = if is_repaired {
-        "There, use the spectra of weighted records that stand beside them, where the set could be weighted; few \
-         effective records make them less sure, and records on the side that the set lacks are the better cure."
+        "Where the verdict is inconsistent, use the repaired spectra or other records."
     } else {
-        "There, ask for weighted records by uplift consistency --repair, or choose records that bring it."
+        "Where the verdict is inconsistent, use other records, or weight these: uplift consistency --repair."
     };
     let note = format!(
-        "Level of the measure that records are not scaled to: what they bring over what the hazard curve of the site \
-         says, at each risk and on average over the rates compared (bias), and the largest deviation of its \
-         logarithm. Where the verdict is inconsistent the spectra are true of the records, and not of the site. \
+        "Level of the compared measure in the scaled records over that of the site's hazard curve; bias: mean ratio. \
          {repair}"
     );
-    TitledTable::new("what-is-brought", "What the record set brings of the other measure", note, table)
+    TitledTable::new("consistency-table", "Hazard consistency", note, table).unless_empty()
 }
 
 /// A ratio or a logarithm; a dash where there is none.

@@ -1,6 +1,6 @@
 //! What the report shows of displacement spectra.
 
-use super::{Content, Part, TitledTable};
+use super::{Content, Part, TitledTable, drawn};
 use crate::figures::{Extent, displacement_figures};
 use uplift::UpliftError;
 use uplift::result::{DesignRow, ResultFile, StoredDesign, StoredDisplacements, StoredStructures};
@@ -9,30 +9,26 @@ use uplift::text::{Table, thousands};
 pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let stored = file.displacements()?;
     let designs = file.design()?.map(|design| designs(&stored, &design)).unwrap_or_default();
-    let parts = vec![Part {
-        key: "spectra",
-        title: "Spectra and designs",
-        note: String::new(),
-        tables: vec![sets(&stored)],
-        figures: displacement_figures(file, &stored, Extent::Main)?,
-        details: designs,
-    }];
+    let mut figures = drawn(displacement_figures(file, &stored, Extent::Main)?)?;
+    let lead = (!figures.is_empty()).then(|| figures.remove(0));
+    let parts = vec![Part { key: "spectra", title: "Spectra and designs", note: "", figures, tables: designs }];
     let (structures, abscissas) = match stored.structures {
         StoredStructures::Oscillators { .. } => ("oscillators", "uplift strengths"),
         StoredStructures::Blocks { .. } => ("rocking blocks", "slendernesses"),
     };
     Ok(Content {
         subject: "Displacement spectra",
-        extent: format!(
-            "{} motions in {} sets, {} scalings, {} {structures} of {} {abscissas}.",
-            2 * stored.sets.iter().map(|set| set.records).sum::<u64>(),
-            stored.sets.len(),
-            stored.scalings.len(),
-            stored.structures.lines(),
-            stored.abscissas.len()
-        ),
-        facts: vec![("Analyses", thousands(stored.analyses))],
-        answer: None,
+        place: stored.sets.iter().map(|set| set.name.as_str()).collect::<Vec<_>>().join(", "),
+        lead,
+        summary: Some(sets(&stored)),
+        facts: vec![
+            (
+                "Structures",
+                format!("{} {structures} of {} {abscissas}", stored.structures.lines(), stored.abscissas.len()),
+            ),
+            ("Scalings", stored.scalings.join(", ")),
+            ("Analyses", thousands(stored.analyses)),
+        ],
         parts,
         source: None,
     })
@@ -46,14 +42,12 @@ fn sets(stored: &StoredDisplacements) -> TitledTable {
         .right("median PGA, g", |set| format!("{:.3}", set.median_pga_g))
         .right("median PGV, cm/s", |set| format!("{:.1}", set.median_pgv_cm_s));
     let note = format!(
-        "Both horizontal components of a record are motions of their own. The medians of the geometric means \
-             (Eq. 2.16, 2.17) are what multiples refer to. Scalings: {}. The figures here are of motions scaled by {} \
-             and of the smallest uplift displacement; uplift plot draws all.{}",
-        stored.scalings.join(", "),
+        "Multiples refer to the medians of the geometric means (Eq. 2.16, 2.17). Figures: motions scaled by {}, \
+         smallest uplift displacement.{}",
         stored.scaled_by.first().map_or("", String::as_str),
         stored.rounding.as_ref().map_or_else(String::new, |rounding| {
             let abscissas: Vec<String> = rounding.abscissas.iter().map(|at| format!("{at:.3}")).collect();
-            format!(" Whether rounding decides their ordinates was looked at where they are {}.", abscissas.join(", "))
+            format!(" The effect of rounding was examined at {}.", abscissas.join(", "))
         })
     );
     TitledTable::new("sets", "Record sets", note, table)
@@ -63,8 +57,8 @@ fn sets(stored: &StoredDisplacements) -> TitledTable {
 fn designs(stored: &StoredDisplacements, design: &StoredDesign) -> Vec<TitledTable> {
     let StoredDesign { safety_factor, percentile, noise_points, noise_relative, .. } = design;
     let note = format!(
-        "FS = {safety_factor}; percentile {percentile}. In brackets: lowest and highest over {noise_points} points \
-         around the abscissa, from {} to {} times it, which says how far a value can be trusted.",
+        "FS = {safety_factor}; percentile {percentile}. In brackets: lowest and highest over {noise_points} points, \
+         from {} to {} times the abscissa.",
         1.0 - noise_relative,
         1.0 + noise_relative
     );

@@ -47,11 +47,11 @@ struct ReadableLine {
 }
 
 impl DrawnFigure {
-    /// `figure`, called by `key` and its name.
+    /// `figure`, drawn.
     ///
     /// # Errors
     /// A figure that the drawing library does not draw.
-    pub(super) fn new(key: &str, figure: &Figure) -> Result<Self, UpliftError> {
+    pub(super) fn new(figure: &Figure) -> Result<Self, UpliftError> {
         let (mut drawings, mut panels) = (Vec::new(), Vec::new());
         for panel in &figure.panels {
             let drawing = panel_svg(panel).map_err(|reason| refused(figure, reason))?;
@@ -60,7 +60,7 @@ impl DrawnFigure {
         }
         let entry = |Swatch { name, svg }| LegendEntry { name, svg };
         Ok(Self {
-            id: format!("{key}-{}", figure.id),
+            id: figure.id.clone(),
             title: figure.title.clone(),
             caption: figure.caption.clone(),
             remark: figure.remark.clone(),

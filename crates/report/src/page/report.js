@@ -2,7 +2,7 @@
 // Reading values off the curves: by mouse, finger or arrow keys.
 const tip = document.getElementById('tip');
 const digits = value => Number(value.toPrecision(4)).toString();
-for (const figure of document.querySelectorAll('figure')) {
+for (const figure of document.querySelectorAll('figure:has(.plot)')) {
   const panels = JSON.parse(figure.querySelector('script').textContent);
   const plot = figure.querySelector('.plot');
   const drawings = [...plot.querySelectorAll('svg')];

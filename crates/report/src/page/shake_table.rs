@@ -1,6 +1,6 @@
 //! What the report shows of a shaking table.
 
-use super::{Content, Part, TitledTable};
+use super::{Content, Part, TitledTable, drawn};
 use crate::figures::shake_table_figures;
 use uplift::UpliftError;
 use uplift::result::{ResultFile, ShakeTable};
@@ -8,27 +8,23 @@ use uplift::text::{Table, thousands};
 
 pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     let table = file.shake_table()?;
-    let parts = vec![Part {
-        key: "tests",
-        title: "Tests",
-        note: String::new(),
-        tables: Vec::new(),
-        figures: shake_table_figures(&table),
-        details: vec![tests(&table)],
-    }];
+    let mut figures = drawn(shake_table_figures(&table))?;
+    let lead = (!figures.is_empty()).then(|| figures.remove(0));
+    let parts = vec![Part { key: "tests", title: "Tests", note: "", figures, tables: vec![tests(&table)] }];
     let levels: Vec<String> =
         table.levels.iter().map(|level| format!("{} ({} m/s)", level.name, level.pgv_srss_m_s)).collect();
     Ok(Content {
         subject: "Shaking table",
-        extent: format!(
-            "{} excitations at the levels {}, of {} at a length scale of {}.",
-            table.excitations.len(),
-            levels.join(", "),
-            table.structure,
-            table.length_scale
-        ),
-        facts: vec![("Analyses", thousands(table.tests.len() as u64))],
-        answer: None,
+        place: String::new(),
+        lead,
+        summary: None,
+        facts: vec![
+            ("Structure", table.structure.clone()),
+            ("Excitations", table.excitations.len().to_string()),
+            ("Levels", levels.join(", ")),
+            ("Length scale", table.length_scale.to_string()),
+            ("Analyses", thousands(table.tests.len() as u64)),
+        ],
         parts,
         source: None,
     })
@@ -55,6 +51,6 @@ fn tests(table: &ShakeTable) -> TitledTable {
         .right("drift, %", |(_, (_, test), _)| number(test.drift, 100.0, 2))
         .right("T, kN", |(_, (_, test), _)| number(test.tendon_n, 1e-3, 2))
         .right("base shear, kN", |(_, (_, test), _)| number(test.base_shear_n, 1e-3, 2));
-    let note = "The deck does not turn about the vertical in the model.";
+    let note = "The modelled deck does not rotate about the vertical.";
     TitledTable::new("tests", "Tests in the order of rising response", note, rows)
 }

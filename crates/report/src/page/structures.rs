@@ -1,4 +1,4 @@
-//! What structures were asked under a result, a block each: the structure to scale, and every answer that is kept.
+//! The structures that were analysed under a result, a block each: the structure to scale, and every stored answer.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -26,13 +26,13 @@ pub(super) struct AskedStructure {
     facts: Vec<(&'static str, String)>,
     /// What to know before the answers are used, but for what the page says of the result.
     alarms: Vec<Value>,
-    pub(super) answers: Vec<Answer>,
+    answers: Vec<Answer>,
 }
 
 /// What one question was answered.
 #[derive(Debug, Serialize)]
 pub(super) struct Answer {
-    pub(super) table: TitledTable,
+    table: TitledTable,
     /// Drawings of the numbers with bands.
     bands: Vec<String>,
 }
@@ -59,7 +59,7 @@ fn asked(number: usize, answers: &[StoredFinding], known: &[Alarm]) -> AskedStru
     let structure = Structure::parse(Path::new(&first.structure_file), first.structure_toml.clone()).ok();
     let facts =
         structure.as_ref().map(|own| facts(own, &StructureReport::from_structure(own, own.description.restitution)));
-    let before = "; these answers are for what it was before it changed: ask again";
+    let before = ", since changed: these are answers for the earlier file";
     let mut said: BTreeSet<String> = known.iter().map(|alarm| alarm.what.clone()).collect();
     let alarms = answers.iter().flat_map(|of| of.finding.alarms());
     let alarms = alarms.filter(|alarm| alarm["what"].as_str().is_some_and(|what| said.insert(what.to_owned())));
@@ -78,14 +78,23 @@ fn asked(number: usize, answers: &[StoredFinding], known: &[Alarm]) -> AskedStru
 }
 
 fn table([structure, answer]: [usize; 2], of: &StoredFinding) -> TitledTable {
-    let rows = Table::of(&of.finding.rows)
-        .left("what", |row| &row.quantity)
-        .left("site", |row| &row.site)
-        .left("measure", |row| &row.im)
+    let all = &of.finding.rows;
+    let differ = |part: fn(&FindingRow) -> &String| {
+        let mut found = all.iter().map(part).filter(|text| !text.is_empty());
+        let first = found.next();
+        found.any(|text| Some(text) != first)
+    };
+    let bands = all.iter().map(|row| &row.band).find(|band| !band.is_empty());
+    let heading = bands.filter(|_| !differ(|row| &row.band)).map(|band| format!("90 % band of {band}"));
+    let is_one = heading.is_some();
+    let rows = Table::of(all)
+        .left("quantity", |row| &row.quantity)
+        .when(differ(|row| &row.site), |table| table.left("site", |row| &row.site))
+        .when(differ(|row| &row.im), |table| table.left("measure", |row| &row.im))
         .right("value", FindingRow::shown)
-        .right("band", FindingRow::band_shown)
+        .right(heading.unwrap_or_else(|| "90 % band".to_owned()), FindingRow::band_shown)
         .right("unit", |row| if row.unit == "1" { "" } else { &row.unit })
-        .right("band of", |row| &row.band);
-    let note = format!("Found {} by uplift {} ({}).", of.created, of.version, of.commit);
+        .when(!is_one, |table| table.right("band of", |row| &row.band));
+    let note = format!("Computed {} by uplift {} ({}).", of.created, of.version, of.commit);
     TitledTable::new(&format!("structure-{structure}-{answer}"), of.finding.question(), note, rows)
 }

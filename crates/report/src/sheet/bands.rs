@@ -6,18 +6,19 @@ use uplift::result::FindingRow;
 use uplift_plot::{Scale, escaped, ticks};
 
 /// Pixels of the drawing, of the names at its left, and of a line.
-const WIDE: f64 = 640.0;
+const WIDE: f64 = 480.0;
 const LEFT: f64 = 190.0;
 const RIGHT: f64 = 24.0;
 const LINE: f64 = 19.0;
+/// Letters that the space for names has room for.
+const LETTERS: usize = 32;
 /// What an axis has beyond the numbers at either end, as a share of what they take.
 const AROUND: f64 = 0.04;
 /// Labels on an axis, about.
-const TICKS: usize = 6;
+const TICKS: usize = 4;
 
 /// A unit with the axis on which its numbers stand.
-const UNITS: [(&str, Scale, &str); 2] =
-    [("m", Scale::Linear, "m"), ("1/yr", Scale::Log, "mean annual frequency, 1/yr")];
+const UNITS: [(&str, Scale, &str); 2] = [("m", Scale::Linear, "m"), ("1/yr", Scale::Log, "annual rate, 1/yr")];
 
 /// A drawing for each quantity of metres, whose sizes need not be alike, and one for all frequencies, where there are
 /// such with bands.
@@ -33,6 +34,7 @@ pub(crate) fn bands(rows: &[FindingRow]) -> Vec<String> {
 
 fn drawing(rows: &[&FindingRow], (scale, label): (Scale, &str)) -> Option<String> {
     let axis = Axis::of(rows, scale)?;
+    let fits = |label: &String| label.chars().count() <= LETTERS;
     let mut text = String::new();
     let mut line = 0.0;
     let mut before: Option<[&str; 3]> = None;
@@ -40,7 +42,8 @@ fn drawing(rows: &[&FindingRow], (scale, label): (Scale, &str)) -> Option<String
         let names = [row.quantity.as_str(), &row.site, &row.im];
         if before.replace(names) != Some(names) {
             let named: Vec<&str> = names.into_iter().filter(|name| !name.is_empty()).collect();
-            let name = escaped(&named.join(", "));
+            let unit = if row.unit == "1/yr" { "a year" } else { &row.unit };
+            let name = escaped(&format!("{}: {} {unit}", named.join(", "), row.shown()));
             line += 1.0;
             let _ = writeln!(text, "<text x=\"4\" y=\"{:.1}\" font-weight=\"bold\">{name}</text>", line * LINE - 4.0);
         }
@@ -51,7 +54,7 @@ fn drawing(rows: &[&FindingRow], (scale, label): (Scale, &str)) -> Option<String
             "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\" fill=\"#5b6270\">{}</text>",
             LEFT - 10.0,
             y + 4.0,
-            escaped(&row.band)
+            escaped(Some(format!("{} {}", row.band, row.band_shown())).filter(fits).as_ref().unwrap_or(&row.band))
         );
         let ends = row.limits.map(|limit| axis.place(limit));
         let [from, to] = ends.map(|end| axis.pixel(end));
@@ -76,8 +79,8 @@ fn drawing(rows: &[&FindingRow], (scale, label): (Scale, &str)) -> Option<String
     let high = below + 40.0;
     Some(format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDE} {high}\" width=\"{WIDE}\" height=\"{high}\" \
-         role=\"img\" aria-label=\"Numbers (dots) and their bands (bars), {label}\" font-family=\"sans-serif\" \
-         font-size=\"12\" fill=\"#1b1e23\">\n{text}</svg>"
+         role=\"img\" aria-label=\"Values (dots) with their 90 % confidence bands (bars), {label}\" \
+         font-family=\"sans-serif\" font-size=\"12\" fill=\"#1b1e23\">\n{text}</svg>"
     ))
 }
 
@@ -143,7 +146,7 @@ impl Axis {
         for tick in ticks(self.scale, self.ends[0], self.ends[1], TICKS) {
             let shown = match self.scale {
                 Scale::Linear => format!("{}", (tick * 1e6).round() / 1e6),
-                Scale::Log => format!("{:.0e}", 10.0_f64.powf(tick)),
+                Scale::Log => format!("{:.1e}", 10.0_f64.powf(tick)).replace(".0e", "e"),
             };
             let x = self.pixel(Place::At(tick));
             let _ = writeln!(
@@ -180,7 +183,10 @@ mod tests {
         let x = |value: f64| LEFT + (value + 0.02) / 0.54 * (WIDE - RIGHT - LEFT);
         assert!(drawn[0].contains(&format!("M{:.1} 30.0H{:.1}", x(0.1), x(0.4))), "{}", drawn[0]);
         assert!(
-            drawn[0].contains(&format!("cx=\"{:.1}\"", x(0.2))) && drawn[0].contains("demand &lt;1&gt;, Here &amp;")
+            drawn[0].contains(&format!("cx=\"{:.1}\"", x(0.2)))
+                && drawn[0].contains("demand &lt;1&gt;, Here &amp;")
+                && drawn[0].contains("PGV: 0.2000 m")
+                && drawn[0].contains("records 0.1000 to 0.4000")
         );
         assert_eq!(drawn[0].matches("font-weight").count(), 1, "a number with two bands has one heading");
         // numbers of other sizes have an axis of their own

@@ -7,7 +7,7 @@ use uplift::text::{Table, per_cent, risk_in_words, share};
 use uplift_spectra::Noisy;
 
 use crate::page::TitledTable;
-use crate::page::answer::significant;
+use crate::page::displacements::significant;
 
 /// A sentence at the head of the sheet; `yes` or `no` where it is a verdict.
 #[derive(Debug, Serialize)]
@@ -22,11 +22,12 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     let mut say = |text: String, class: Option<&'static str>| sentences.push(Sentence { text, class });
     let (site, years) = (&report.site, report.years);
     let of = format!("At {site}, for {}", risk_in_words(report.poe, years));
-    let capacity = report.structure.capacity_m.map(|capacity_m| format!("; it can go {} m", significant(capacity_m)));
+    let capacity =
+        report.structure.capacity_m.map(|capacity_m| format!("; the capacity is {} m", significant(capacity_m)));
     let capacity = capacity.unwrap_or_default();
     match (&report.exact, &report.spectrum) {
         (Some(exact), _) if exact.overturns => {
-            say(format!("{of}, there is no displacement that meets the target: it overturns more often."), Some("no"));
+            say(format!("{of}, no displacement meets the target: the structure overturns more often."), Some("no"));
         }
         (Some(exact), _) => {
             let demand = exact.rounding.demand_m.marked(significant);
@@ -34,13 +35,13 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
                 let (whose, [lower_m, upper_m]) = bands.demand_m.fullest();
                 format!(" (90 % band of {whose} {} to {} m)", significant(lower_m), significant(upper_m))
             });
-            say(format!("{of}, it must survive {demand} m{band}{capacity}."), None);
+            say(format!("{of}, the demand is {demand} m{band}{capacity}."), None);
         }
         (None, Some(spectrum)) => {
             let demand = significant(spectrum.zero_stiffness_demand_m);
-            say(format!("{of}, the spectrum asks for {demand} m without stiffness after uplift{capacity}."), None);
+            say(format!("{of}, the demand without stiffness after uplift is {demand} m{capacity}."), None);
         }
-        (None, None) => say(format!("{of}, there is no demand to tell."), None),
+        (None, None) => say(format!("{of}, no demand is known."), None),
     }
     // the rule that asks for more is the one that counts
     let asked = report.rules.iter().filter_map(|outcome| Some((outcome.rule, outcome.check()?)));
@@ -53,7 +54,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
                 format!("{}{} m", if check.margin_m < 0.0 { "−" } else { "+" }, significant(check.margin_m.abs()));
             say(
                 format!(
-                    "With a safety factor of {safety} it needs a capacity of {required} m by {}: {verdict}, margin \
+                    "With a safety factor of {safety}, {} requires a capacity of {required} m: {verdict}, margin \
                      {margin}.",
                     rule.words()
                 ),
@@ -73,7 +74,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         say(format!("{overturns}{band}"), None);
     }
     for result in report.uncertainty.iter().flat_map(|uncertainty| &uncertainty.results) {
-        say(format!("What is not known of the structure, {}.", result.in_words()), None);
+        say(format!("Uncertain properties, {}.", result.in_words()), None);
     }
     sentences
 }
@@ -120,8 +121,7 @@ pub(super) fn rounding_words(report: &DesignReport) -> Option<String> {
         tell("beyond its capacity", of, scientific, " a year");
     }
     tell("overturning", &rounding.overturning_per_year, scientific, " a year");
-    let words = "*: rounding decides the last digits, and those of what follows from it; with strengths some 1e-15 \
-                 lower and higher it is, lowest to highest";
+    let words = "*: the last digits are not significant (rounding); lowest to highest";
     (!moved.is_empty()).then(|| format!("{words}: {}", moved.join("; ")))
 }
 
@@ -185,7 +185,7 @@ fn demands(report: &DesignReport) -> Option<TitledTable> {
         row("the structure itself, exact", marked(&rounding.demand_m));
     }
     let note = format!(
-        "{} by {}, {}: {} a year. Exact means of these records and levels.",
+        "{} by {}, {}: {} a year. Exact: from these records and levels.",
         report.site,
         report.spectrum_words(),
         risk_in_words(report.poe, report.years),
@@ -219,10 +219,8 @@ fn rules(report: &DesignReport) -> Option<TitledTable> {
         .right("error of spectrum and rule", error)
         .right("verdict", |(_, check)| if check.satisfied { "satisfied" } else { "NOT satisfied" });
     let note = format!(
-        "Required capacity with a safety factor of {0} (Eq. 3.15). By equal energy the demand grows where the capacity \
-         shrinks: it is {0} times the demand that a structure of just that capacity would have, and not {0} times the \
-         demand of this one. The error is that of the rule's demand, from the spectrum where that can be read, \
-         against the exact one, spectrum and rule together; negative is unsafe.",
+        "Required capacity: {} times the demand of a structure with just that capacity (Eq. 3.15). Error: the rule's \
+         demand against the exact one; negative is unsafe.",
         report.required_safety_factor
     );
     TitledTable::new("rules", "Margin by the design rules", note, table).unless_empty()
@@ -269,11 +267,10 @@ fn noise(report: &DesignReport) -> Option<TitledTable> {
         range("beyond its capacity, per year", [of, rounding], counted);
     }
     range("overturning, per year", [&noise.overturning_per_year, &rounding.overturning_per_year], counted);
-    let note = "The same for ten structures whose strength is up to one percent lower or higher: what lies within the \
-                range is no finding. The own error of a rule starts from the exact demand on zero stiffness, not from \
-                the spectrum.";
+    let note = "Range over ten structures whose strength is up to 1 % lower or higher: smaller differences are not \
+                significant. The own error of a rule starts from the exact demand without stiffness after uplift.";
     let table = Table::new(["within 1 % of the strength", "here", "lowest", "highest"], rows);
-    TitledTable::new("noise", "How sure it is", note, table).unless_empty()
+    TitledTable::new("noise", "Sensitivity to the strength", note, table).unless_empty()
 }
 
 fn if_finite(value: f64, otherwise: &str, shown: fn(f64) -> String) -> String {

@@ -53,9 +53,9 @@ pub(super) fn procedure(source: &DisplacementSource<'_>, design: &StoredDesign) 
             )
         };
         let caption = format!(
-            "Design of a block of 2H = {own_m} m under the set {set} by the spectrum of an endless one (Section 2.4.3, \
-             Fig. 2.13): {} times the slenderness where the capacity line meets it. Dots: what both spectra say there. \
-             {}.{}",
+            "Design of a block of 2H = {own_m} m for the set {set} by the spectrum of an infinitely tall one (Section \
+             2.4.3, Fig. 2.13): {} times the slenderness at which the capacity line meets the spectrum. Dots: both \
+             spectra there. {}.{}",
             design.safety_factor,
             source.scaling_words(place.scaled_by),
             rings_words(rows.iter().filter(|row| row.record_set == *set))
@@ -128,7 +128,7 @@ pub(super) fn comparison(source: &DisplacementSource<'_>, design: &StoredDesign)
                    conservative.";
     let caption = format!("{caption}{}", rings_words(rows.iter()));
     let columns = panels.len();
-    source.figure("design".to_owned(), "How well the design rules predict".to_owned(), caption, columns, panels)
+    source.figure("design".to_owned(), "Predicted and computed displacements".to_owned(), caption, columns, panels)
 }
 
 /// The rules of the rows, each once, in their order.

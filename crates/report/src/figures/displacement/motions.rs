@@ -41,8 +41,8 @@ pub(super) fn motions(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, Up
         };
         let uplift = uplift_m.map_or_else(String::new, |uplift_m| format!(", u_{{up}} = {uplift_m} m"));
         let caption = format!(
-            "Peak displacement under single motions of the set {}, {scaled}{uplift} (Fig. 2.9, 3.13): spread over the \
-             set by their PGV as recorded, from the weakest to the strongest.",
+            "Peak displacement under single motions of the set {}, {scaled}{uplift} (Fig. 2.9, 3.13), evenly spaced \
+             by their recorded PGV, from the weakest to the strongest.",
             of_set.name
         );
         figures.push(source.figure(

@@ -58,7 +58,7 @@ impl DisplacementSource<'_> {
             format!("{id}-{}-{percentile_id}{uplift_id}{}", self.words[place.set], self.suffix(place.scaled_by)),
             format!("{title}, {set}, {percentile}{uplift}, by {}", self.stored.scaled_by[place.scaled_by]),
             format!(
-                "{caption} Set {set}, {percentile}{uplift}. {}. A line begins beyond the last abscissa at which the \
+                "{caption} Set {set}, {percentile}{uplift}. {}. Lines begin above the last abscissa at which the \
                  structure overturns.{rounding}",
                 self.scaling_words(place.scaled_by)
             ),
@@ -102,8 +102,8 @@ pub(super) fn by_equal_energy(source: &DisplacementSource<'_>) -> Result<Vec<Fig
         return Ok(Vec::new());
     }
     let caption = "Displacement spectra divided by γ_{EE} of the equal-energy rule (Eq. 3.11; Fig. 3.14 to 3.16, A2.4 \
-                   to A2.6, A2.10 to A2.12): where the rule holds the lines are one. They have gaps where it says that \
-                   the system overturns (Eq. 3.14).";
+                   to A2.6, A2.10 to A2.12). Where the rule holds, the lines coincide. Gaps: the rule predicts \
+                   overturning (Eq. 3.14).";
     let kind = ["equal-energy", "Displacement spectra over γ_{EE}", "u_{max}/γ_{EE}, m"];
     let figure = |shown: Shown| {
         let capacities = capacity_m
@@ -164,14 +164,14 @@ pub(super) fn uplift_displacements(source: &DisplacementSource<'_>) -> Vec<Figur
         let places = (0..stored.scalings.len())
             .flat_map(|scaling| (0..sets).map(move |set| SpectrumPlace { set, scaling, scaled_by }));
         let caption = format!(
-            "Peak displacement of systems of endless capacity for several uplift displacements: {} (Fig. 3.17). {}.{}",
+            "Peak displacement of systems of infinite capacity for several uplift displacements: {} (Fig. 3.17). {}.{}",
             source.percentile_names(percentile)[1],
             source.scaling_words(scaled_by),
             source.rounding_words(places.clone(), &lines, percentile)
         );
         source.figure(
             format!("uplift-displacement{}", source.suffix(scaled_by)),
-            format!("The influence of the uplift displacement, by {}", stored.scaled_by[scaled_by]),
+            format!("Influence of the uplift displacement, by {}", stored.scaled_by[scaled_by]),
             caption,
             sets.min(3),
             places.map(panel).collect(),
