@@ -43,7 +43,13 @@ const GENERAL: &str = "General options";
     Exit codes: 0 done, 2 usage, 3 study or structure file, 4 input data or disk, 5 interrupted, 1 a bug")]
 pub(crate) struct Arguments {
     /// Number of threads; results do not depend on it [default: all cores]
-    #[arg(long, global = true, help_heading = GENERAL, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    #[arg(
+        long,
+        global = true,
+        help_heading = GENERAL,
+        value_name = "N",
+        value_parser = clap::value_parser!(u16).range(1..=4096)
+    )]
     threads: Option<u16>,
     /// Print only results and errors
     #[arg(long, short, global = true, help_heading = GENERAL)]

@@ -43,7 +43,7 @@ pub fn two_digits(value: f64) -> String {
         return "∞".to_owned();
     }
     let value = rounded(value, 2);
-    let decimals = if value == 0.0 { 0.0 } else { (1.0 - value.abs().log10().floor()).clamp(0.0, 5.0) };
+    let decimals = if value == 0.0 { 0.0 } else { (1.0 - value.abs().log10().floor()).clamp(0.0, 15.0) };
     format!("{value:.*}", decimals as usize)
 }
 

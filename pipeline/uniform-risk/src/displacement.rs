@@ -31,6 +31,8 @@ pub struct DisplacementOptions {
     pub strengths: Vec<f64>,
     /// Risks; the smallest probability of the study where none are given.
     pub risk: AskedRisk,
+    /// Whether all probabilities of the study are read where no risks are given.
+    pub every_probability: bool,
     /// Sites; all where none are given.
     pub sites: Vec<String>,
     /// Intensity measure of the stripes; the first of the result where none is given.
@@ -93,9 +95,9 @@ pub struct DisplacementReport {
 /// A file that is damaged, of another kind, or without sites; strengths, risks, sites or a measure that it does not
 /// have.
 pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<DisplacementReport, UniformRiskError> {
-    let is_of_study = asked.risk.targets == RiskTargets::OfStudy;
+    let is_rarest_alone = asked.risk.targets == RiskTargets::OfStudy && !asked.every_probability;
     let (stored, spectra, head) = (StoredStripes::read(file)?, file.spectra()?, file.head()?);
-    let poes = if is_of_study { vec![poe_index(&spectra.poes, None)?] } else { (0..spectra.poes.len()).collect() };
+    let poes = if is_rarest_alone { vec![poe_index(&spectra.poes, None)?] } else { (0..spectra.poes.len()).collect() };
     let places = strengths(&asked.strengths, &spectra.strengths)?;
     let sites = sites(&asked.sites, &spectra.sites)?;
     let measure = stored_measure(&stored.measures, asked.measure)?;

@@ -1,14 +1,14 @@
 //! What the report shows of uniform risk spectra.
 
 use super::consistency::consistency;
-use super::displacements::{Row, rows, significant};
+use super::displacements::{Row, rows};
 use super::{Content, Part, TitledTable, drawn};
 use crate::figures::{Extent, FigureSource};
 use uplift::UpliftError;
 use uplift::influence::{level_of_share, rank_records};
 use uplift::result::{MeasureBands, ResultFile, StoredSpectra, StoredSpectraBands};
 use uplift::text::{
-    Table, TableOf, kind_of_risks, metres, nearest, per_cent, risk_in_words, risk_name, spectrum_words,
+    Table, TableOf, kind_of_risks, metres, nearest, per_cent, risk_in_words, risk_name, spectrum_words, two_digits,
 };
 
 /// Strengths in the tables of displacements.
@@ -163,7 +163,7 @@ fn intensities(source: &FigureSource) -> Option<TitledTable> {
     for (influence, measure) in source.influences() {
         for (site, name) in stored.sites.iter().enumerate() {
             let shares = influence.shares.block([site, poe, strength]);
-            let levels = [0.05, 0.5, 0.95].map(|share| significant(level_of_share(&measure.levels, shares, share)));
+            let levels = [0.05, 0.5, 0.95].map(|share| two_digits(level_of_share(&measure.levels, shares, share)));
             let outside = [shares.first(), shares.last()].map(|share| number(per_cent(share)));
             let measure = format!("{}, {}", influence.measure.label(), influence.measure.unit());
             rows.push([name.clone(), measure].into_iter().chain(levels).chain(outside).collect());

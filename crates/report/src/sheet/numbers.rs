@@ -3,11 +3,10 @@
 use serde::Serialize;
 use uplift::structure::{DesignReport, EventRisk, ExactDemand, RuleCheck, RuleOutcome, StructureReport};
 use uplift::study::Structure;
-use uplift::text::{Table, per_cent, risk_in_words, share};
+use uplift::text::{Table, per_cent, risk_in_words, share, two_digits};
 use uplift_spectra::Noisy;
 
 use crate::page::TitledTable;
-use crate::page::displacements::significant;
 
 /// A sentence at the head of the sheet; `yes` or `no` where it is a verdict.
 #[derive(Debug, Serialize)]
@@ -23,22 +22,22 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     let (site, years) = (&report.site, report.years);
     let of = format!("At {site}, for {}", risk_in_words(report.poe, years));
     let capacity =
-        report.structure.capacity_m.map(|capacity_m| format!("; the capacity is {} m", significant(capacity_m)));
+        report.structure.capacity_m.map(|capacity_m| format!("; the capacity is {} m", two_digits(capacity_m)));
     let capacity = capacity.unwrap_or_default();
     match (&report.exact, &report.spectrum) {
         (Some(exact), _) if exact.overturns => {
             say(format!("{of}, no displacement meets the target: the structure overturns more often."), Some("no"));
         }
         (Some(exact), _) => {
-            let demand = exact.rounding.demand_m.marked(significant);
+            let demand = exact.rounding.demand_m.marked(two_digits);
             let band = exact.bands.as_ref().map_or_else(String::new, |bands| {
                 let (whose, [lower_m, upper_m]) = bands.demand_m.fullest();
-                format!(" (90 % band of {whose} {} to {} m)", significant(lower_m), significant(upper_m))
+                format!(" (90 % band of {whose} {} to {} m)", two_digits(lower_m), two_digits(upper_m))
             });
             say(format!("{of}, the demand is {demand} m{band}{capacity}."), None);
         }
         (None, Some(spectrum)) => {
-            let demand = significant(spectrum.zero_stiffness_demand_m);
+            let demand = two_digits(spectrum.zero_stiffness_demand_m);
             say(format!("{of}, the demand without stiffness after uplift is {demand} m{capacity}."), None);
         }
         (None, None) => say(format!("{of}, no demand is known."), None),
@@ -48,10 +47,10 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     if let Some((rule, check)) = asked.max_by(|a, b| a.1.required_capacity_m.total_cmp(&b.1.required_capacity_m)) {
         let safety = report.required_safety_factor;
         if check.required_capacity_m.is_finite() && check.capacity_m.is_finite() {
-            let required = significant(check.required_capacity_m);
+            let required = two_digits(check.required_capacity_m);
             let verdict = if check.satisfied { "satisfied" } else { "NOT satisfied" };
             let margin =
-                format!("{}{} m", if check.margin_m < 0.0 { "−" } else { "+" }, significant(check.margin_m.abs()));
+                format!("{}{} m", if check.margin_m < 0.0 { "−" } else { "+" }, two_digits(check.margin_m.abs()));
             say(
                 format!(
                     "With a safety factor of {safety}, {} requires a capacity of {required} m: {verdict}, margin \
@@ -90,7 +89,7 @@ fn in_words(what: &str, risk: &EventRisk, rounding: &Noisy, years: f64) -> Strin
     let between = 1.0 / risk.per_year;
     format!(
         "{what} once in {} years on average ({} a year): {} in {years} years.",
-        if between < 1e7 { significant(between) } else { power(between, 1) },
+        if between < 1e7 { two_digits(between) } else { power(between, 1) },
         rounding.marked(|per_year| power(per_year, 1)),
         chance(risk.probability)
     )
@@ -292,14 +291,14 @@ fn relative(error: f64) -> String {
 
 /// A probability in per cent, two digits of it unless they say that it is certain.
 fn chance(probability: f64) -> String {
-    let short = significant(100.0 * probability);
+    let short = two_digits(100.0 * probability);
     if short == "100" { per_cent(probability) } else { format!("{short} %") }
 }
 
 /// Years between two events on average, two digits of them.
 fn return_period(risk: &EventRisk) -> String {
     let years = 1.0 / risk.per_year;
-    if years < 1e7 { significant(years) } else { format!("{years:.1e}") }
+    if years < 1e7 { two_digits(years) } else { format!("{years:.1e}") }
 }
 
 /// A rate as programs and spreadsheets read it.

@@ -14,9 +14,8 @@ use crate::show::{print_bootstrap, print_json};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "Examples:\n  uplift bootstrap results/study.h5\n  uplift bootstrap results/study.h5 --sizes 20,40 --details"
-)]
+#[command(after_help = "Examples:\n  uplift bootstrap results/study.h5\n  \
+                  uplift bootstrap results/study.h5 --sizes 20,40 --details")]
 pub(crate) struct BootstrapArguments {
     #[command(flatten)]
     result: ResultArguments,

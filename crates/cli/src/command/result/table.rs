@@ -12,9 +12,8 @@ use crate::show::{print_json, print_table};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "Examples:\n  uplift table results/study.h5\n  uplift table results/study.h5 --im pga --return-period 475"
-)]
+#[command(after_help = "Examples:\n  uplift table results/study.h5\n  \
+                  uplift table results/study.h5 --im pga --return-period 475")]
 pub(crate) struct TableArguments {
     /// Result file, or a structure file with columns
     result: PathBuf,

@@ -16,7 +16,8 @@ use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  uplift target configs/structures/pier.toml --urs results/study.h5 --vary width --overturning 2e-4",
+    after_help = "Example:\n  uplift target configs/structures/pier.toml --urs results/study.h5 \
+                  --vary width --overturning 2e-4",
     group = ArgGroup::new("frequency").required(true).args(["overturning", "per_year", "poe", "return_period"])
 )]
 pub(crate) struct TargetArguments {

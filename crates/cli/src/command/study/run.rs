@@ -16,9 +16,8 @@ use crate::show::{print_json, print_run, print_shard};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "Examples:\n  uplift run study.toml\n  uplift run study.toml --set records.first=20 -o results/twenty.h5"
-)]
+#[command(after_help = "Examples:\n  uplift run study.toml\n  \
+                  uplift run study.toml --set records.first=20 -o results/twenty.h5")]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     study: StudyArguments,
