@@ -354,8 +354,12 @@ fn measures_are_compared() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let text = study.uplift(&["measures", "r.h5"]).ok().stdout;
-    for word in ["Efficiency", "Sufficiency", "SA(1.0) +", "magnitude\n", "ln_duration\n", "most efficient"] {
-        assert!(text.contains(word), "{word}:\n{text}");
+    assert!(text.starts_with("Most efficient for the displacement of a rocking structure: "), "{text}");
+    assert!(text.contains("\nMost efficient for the onset of rocking: ") && text.contains("\nSA(1.0) +"), "{text}");
+    assert!(!text.contains("Efficiency:"), "{text}");
+    let details = study.uplift(&["measures", "r.h5", "--details"]).ok().stdout;
+    for word in ["Efficiency: ", "Sufficiency: ", "SA(1.0) +", "magnitude\n", "ln_duration\n"] {
+        assert!(details.contains(word), "{word}:\n{details}");
     }
     let rows = rows(&study.uplift(&["measures", "r.h5", "--json"]).ok().stdout);
     // ten measures, ten strengths

@@ -300,7 +300,7 @@ fn mistakes_are_told_at_once() {
     // what cannot be is cut off, and said
     let cut = "[uncertainty]\nsamples = 8\n[uncertainty.restitution]\ndistribution = \"normal\"\n\
         coefficient_of_variation = 0.05\n";
-    let check = study(cut).uplift(&["check", "study.toml"]).ok();
+    let check = study(cut).uplift(&["check", "study.toml", "--details"]).ok();
     assert!(check.stdout.contains("14.6 % of the restitution are cut off"), "{}", check.stdout);
     let many = study(&scattering("epistemic", "samples = 4096"));
     many.uplift(&["check", "study.toml", "--set", "records.synthetic.pairs=20", "--set", "records.first=20"])

@@ -106,7 +106,7 @@ fn pairs_by_key() {
     assert!(p.iter().zip(&holm).all(|(p, holm)| holm >= p));
     // the same bits on any number of threads
     assert_eq!(found, json(&study, &[&arguments[..], &["--threads", "1"]].concat()));
-    let told = study.uplift(&[&["validate"], &arguments[..], &["--permutation"]].concat()).ok().stdout;
+    let told = study.uplift(&[&["validate"], &arguments[..], &["--permutation", "--details"]].concat()).ok().stdout;
     for words in [
         "1 measured rows have no computed one",
         "9, high",
