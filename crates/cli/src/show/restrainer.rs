@@ -76,7 +76,7 @@ fn print_best(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), Com
     writeln!(out, "Target    {}", report.target.words)?;
     writeln!(
         out,
-        "Found     {} of {} discs in {}",
+        "Found     {} stacks of {} discs in {}",
         report.found,
         report.discs,
         shown_path(&report.catalogue).display()
