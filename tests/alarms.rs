@@ -80,7 +80,7 @@ fn every_face_says_the_same() {
     let again = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok().stdout;
     let shown = study.uplift(&["table", "r.h5"]).ok().stdout;
     // a summary has the worst, three at most and a line each, and says what lists the others
-    for (face, found, others) in [(again, &run, "uplift warnings r.h5"), (shown, &table, "--json")] {
+    for (face, found, others) in [(again, &run, "uplift warnings r.h5"), (shown, &table, "--details")] {
         let found = found["alarms"].as_array().unwrap();
         let (_, lines) = face.split_once("\nWarnings\n").unwrap_or_else(|| panic!("{face}"));
         let shown: Vec<&str> = lines.lines().take_while(|line| !line.ends_with(&format!(" more: {others}"))).collect();

@@ -370,7 +370,10 @@ fn records_that_are_gone_leave_the_spectrum() {
     for name in ["downloads", "manifest.csv", "here-pgv.csv"] {
         std::fs::rename(study.path().join(name), study.path().join("elsewhere").join(name)).unwrap();
     }
-    let gone = study.uplift(&["design", "block.toml", "--urs", "r.h5"]).ok().stdout;
+    let gone = ["design", "block.toml", "--urs", "r.h5"];
+    let answer = study.uplift(&gone).ok().stdout;
+    assert!(answer.contains("by the spectrum at strength ") && !answer.contains("structure itself"), "{answer}");
+    let gone = study.uplift(&[&gone[..], &["--details"]].concat()).ok().stdout;
     assert!(gone.contains("not analysed") && gone.contains("manifest.csv") && gone.contains("equal energy"), "{gone}");
     assert_eq!(design(&study, "block.toml", &["--manifest", "elsewhere/manifest.csv"])["exact"], full["exact"]);
     study.uplift(&["design", "block.toml", "--urs", "r.h5", "--manifest", "no.csv"]).fails(4, &["no.csv"]);

@@ -257,6 +257,16 @@ fn it_is_told_in_sentences_and_refused_in_words() {
     let study = study();
     study.write("block.toml", &format!("{BLOCK}{}", scattering("epistemic", "samples = 16\n", 0.05)));
     let run = study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "-q", "--details"]).ok();
+    let answer = study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "-q"]).ok().stdout;
+    let found = study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "-q", "--json"]).ok().stdout;
+    let found: Value = serde_json::from_str(&found).unwrap();
+    let of = &found["uncertainty"]["results"][0]["epistemic"];
+    let [mean, lower, upper] =
+        [&of["by_structure"]["mean"], &of["by_all"]["percentiles"][0], &of["by_all"]["percentiles"][4]]
+            .map(|value| value.as_f64().unwrap());
+    let short =
+        format!("Uncertain overturning, Here, PGA: {mean:.1e} per year (90 % band {lower:.1e} to {upper:.1e})\n");
+    assert!(answer.contains(&short), "{short}{answer}");
     for words in [
         "What is not known of the structure (epistemic, every structure a branch): 64 structures, sobol, seed 1, 2,304 \
          analyses",
@@ -286,7 +296,8 @@ fn what_no_run_shows_is_told_by_its_bound() {
         study.write("large.toml", &format!("{large}{}", scattering(kind, few(kind), 0.01)));
         for (job, questions) in [("overturning", 1), ("design", 2)] {
             let ask = [job, "large.toml", "--urs", "r.h5", "-q"];
-            let told = study.uplift(&ask).ok().stdout;
+            let answer = study.uplift(&ask).ok().stdout;
+            let told = study.uplift(&[&ask[..], &["--details"]].concat()).ok().stdout;
             let found: Value =
                 serde_json::from_str(&study.uplift(&[&ask[..], &["--json"]].concat()).ok().stdout).unwrap();
             let plain = match job {
@@ -304,6 +315,8 @@ fn what_no_run_shows_is_told_by_its_bound() {
             let line = told.lines().find(|line| line.starts_with("overturning, Here, PGA: ")).unwrap();
             let bound = format!("at most {:.1e} per year, for no run shows it", plain.as_f64().unwrap());
             assert_eq!(line.matches(&bound).count(), 2, "{line}");
+            let short = format!("Uncertain overturning, Here, PGA: < {:.1e} per year\n", plain.as_f64().unwrap());
+            assert!(answer.contains(&short), "{short}{answer}");
             assert!(!told.contains("0.000e0"), "{told}");
         }
     }

@@ -7,22 +7,24 @@ use uplift::alarms::{Alarm, Severity};
 
 use super::shown_path;
 use crate::error::CommandError;
-use crate::terminal::output;
+use crate::terminal::{Terminal, output};
 
 /// Warnings shown at most; `uplift warnings` prints them all.
 pub(super) const SHOWN: usize = 3;
 /// Words that those shown have at most, but for the first and for probable mistakes.
 const WORDS: usize = 33;
 
-/// The worst warnings, a line each, and how to see the others of the `result`; nothing where there are none.
+/// The worst warnings, a line each, and how to see the others, of a `result` by its path; in detail all of them, and
+/// nothing where there are none.
 pub(super) fn print_warnings(
     out: &mut impl Write,
     alarms: &[Alarm],
     result: Option<&Path>,
+    terminal: &Terminal,
 ) -> Result<(), CommandError> {
     let all =
-        result.map_or_else(|| "--json".to_owned(), |path| format!("uplift warnings {}", shown_path(path).display()));
-    print_warnings_up_to(out, alarms, &all, SHOWN)
+        result.map_or_else(|| "--details".to_owned(), |path| format!("uplift warnings {}", shown_path(path).display()));
+    print_warnings_up_to(out, alarms, &all, if terminal.shows_details() { usize::MAX } else { SHOWN })
 }
 
 /// So many of the worst warnings, and what shows `all` of them.

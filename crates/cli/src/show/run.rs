@@ -31,7 +31,7 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
         RunReport::Displacement(report) => displacement::print_spectra(&mut out, report)?,
         RunReport::ShakeTable(report) => shake_table::print_tests(&mut out, &report.table)?,
     }
-    if terminal.is_quiet() { Ok(()) } else { print_end(&mut out, report.head()) }
+    if terminal.is_quiet() { Ok(()) } else { print_end(&mut out, report.head(), terminal) }
 }
 
 /// The spectra by every measure and for every risk, and their spread over hazard curves and structures.
@@ -81,9 +81,9 @@ fn print_spread(
 }
 
 /// What every run ends with: warnings, files, and what to look at next.
-fn print_end(out: &mut impl Write, head: &RunHead) -> Result<(), CommandError> {
+fn print_end(out: &mut impl Write, head: &RunHead, terminal: &Terminal) -> Result<(), CommandError> {
     let Some((result, tables)) = head.files.split_first() else { return Ok(()) };
-    print_warnings(out, &head.alarms, Some(result))?;
+    print_warnings(out, &head.alarms, Some(result), terminal)?;
     let result = shown_path(result).display();
     writeln!(out, "\nResult   {result} ({:.1} s)", head.seconds)?;
     for table in tables {

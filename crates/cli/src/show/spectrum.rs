@@ -22,7 +22,7 @@ pub(crate) fn print_spectrum(report: &SpectrumReport, terminal: &Terminal) -> Re
         }
         _ => print_displacements(out, &report.found, terminal)?,
     }
-    if terminal.is_quiet() { Ok(()) } else { print_warnings(out, &report.alarms, None) }
+    if terminal.is_quiet() { Ok(()) } else { print_warnings(out, &report.alarms, None, terminal) }
 }
 
 /// The number first, then what it is of.

@@ -38,6 +38,9 @@ fn print_answer(out: &mut impl Write, report: &ValidateReport) -> Result<(), Com
         .right("computed", |group| median(group.median_computed, group.median_computed_above))
         .right("error", |group| group.median_error.map_or_else(dash, signed));
     writeln!(out, "{table}")?;
+    if report.key.is_empty() {
+        writeln!(out, "Two samples, not joined: --key COLUMN joins rows of the same motion")?;
+    }
     let of = &report.unmatched;
     let left_out = |only: &[String], blank: &[String]| only.len() + blank.len();
     let measured = left_out(&of.measured_only, &of.measured_blank);
