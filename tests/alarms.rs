@@ -33,6 +33,9 @@ fn alarm<'a>(found: &'a Value, kind: &str) -> &'a Value {
     alarms.iter().find(|alarm| alarm["kind"] == kind).unwrap_or_else(|| panic!("no {kind}: {alarms:#?}"))
 }
 
+/// What is raised about the fitted curves.
+const FIT: [&str; 3] = ["fit-leaves-spectrum", "no-fit", "no-exponential"];
+
 fn text<'a>(alarm: &'a Value, key: &str) -> &'a str {
     alarm[key].as_str().unwrap()
 }
@@ -43,8 +46,11 @@ fn every_face_says_the_same() {
     let run = json(&study, &["run", "study.toml", "-o", "r.h5", "--json"]);
     let apart = alarm(&run, "measures-disagree");
     assert!(text(apart, "subject").starts_with("Here"), "{apart}");
-    assert!(text(apart, "what").contains("more than 2 times apart") && text(apart, "what").contains("at strength"));
-    assert!(text(apart, "what_to_do").contains("uplift measures"), "{apart}");
+    assert!(
+        text(apart, "what").starts_with("spectra by PGV and by PGA differ ") && text(apart, "what").contains("times: ")
+    );
+    assert!(text(apart, "what").contains("at strength"), "{apart}");
+    assert_eq!(text(apart, "what_to_do"), "Rank the measures: uplift measures");
     // PGA ends at 1 g, which is exceeded a quarter as often as the target of 2 %
     let beyond = alarm(&run, "beyond-last-level");
     let words = "the last level, 1 g, is exceeded 1.0e-4 times a year, 24.7 % of the target rate";
@@ -60,8 +66,12 @@ fn every_face_says_the_same() {
     let ranks: Vec<usize> = run["alarms"].as_array().unwrap().iter().map(rank).collect();
     assert!(ranks.is_sorted(), "{ranks:?}");
 
+    // what a fit does wrong stands with its coefficients, and nowhere else
     let table = json(&study, &["table", "r.h5", "--json"]);
-    assert_eq!(table["alarms"], run["alarms"]);
+    let (of_fit, others): (Vec<&Value>, Vec<&Value>) =
+        table["alarms"].as_array().unwrap().iter().partition(|alarm| FIT.contains(&text(alarm, "kind")));
+    assert_eq!(others, run["alarms"].as_array().unwrap().iter().collect::<Vec<_>>());
+    assert!(of_fit.iter().any(|alarm| alarm["kind"] == "fit-leaves-spectrum"), "{of_fit:?}");
     // how far a curve goes with its spectrum stands with its coefficients
     assert!(table["rows"][0]["reach"]["worst_ratio"].is_f64(), "{}", table["rows"][0]);
     study.uplift(&["export", "r.h5", "--json", "--csv", "-q"]).ok();
@@ -69,13 +79,29 @@ fn every_face_says_the_same() {
     assert_eq!(export["alarms"], run["alarms"]);
     let again = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok().stdout;
     let shown = study.uplift(&["table", "r.h5"]).ok().stdout;
+    // a summary has the worst, three at most and a line each, and says what lists the others
+    for (face, found, others) in [(again, &run, "uplift warnings r.h5"), (shown, &table, "--details")] {
+        let found = found["alarms"].as_array().unwrap();
+        let (_, lines) = face.split_once("\nWarnings\n").unwrap_or_else(|| panic!("{face}"));
+        let shown: Vec<&str> = lines.lines().take_while(|line| !line.ends_with(&format!(" more: {others}"))).collect();
+        assert!((1..=3).contains(&shown.len()), "{face}");
+        for (alarm, line) in found.iter().zip(&shown) {
+            assert!(line.contains(text(alarm, "what")) && line.ends_with(text(alarm, "what_to_do")), "{line}\n{alarm}");
+        }
+        let rest = format!("  {} more: {others}", found.len() - shown.len());
+        assert_eq!(lines.lines().nth(shown.len()), Some(&*rest), "{face}");
+    }
+    let listed = study.uplift(&["warnings", "r.h5"]).ok().stdout;
     study.uplift(&["report", "r.h5", "-q"]).ok();
     // as HTML a slash is spelt out
-    let page = std::fs::read_to_string(study.path().join("r.html")).unwrap().replace("&#x2f;", "/");
-    for face in [again, shown, page] {
-        assert!(face.contains("Before you use these numbers"), "{face:.300}");
-        for words in [text(apart, "what"), text(beyond, "what"), text(beyond, "what_to_do"), text(zero, "what")] {
-            assert_eq!(face.matches(words).count(), 1, "{words}\n{face:.2000}");
+    let page =
+        std::fs::read_to_string(study.path().join("r.html")).unwrap().replace("&#x2f;", "/").replace("&#x27;", "'");
+    assert!(page.contains("Before you use these numbers"), "{page:.300}");
+    for (face, mark) in [(listed, "\n          "), (page, ":</strong> ")] {
+        for alarm in run["alarms"].as_array().unwrap() {
+            let told = format!("{}{mark}{}", text(alarm, "subject"), text(alarm, "what"));
+            assert_eq!(face.matches(&told).count(), 1, "{told}\n{face:.2000}");
+            assert!(face.contains(text(alarm, "what_to_do")), "{alarm}\n{face:.2000}");
         }
     }
     // with the ordinates stands what they rest on
@@ -100,7 +126,7 @@ fn bands_decide_where_there_are_some() {
     study.uplift(&["bootstrap", "r.h5", "--replicates", "30", "--sizes", "2,4", "-q"]).ok();
     let table = json(&study, &["table", "r.h5", "--json"]);
     assert!(
-        text(alarm(&table, "measures-disagree"), "what").contains("further apart than their 90 % bands"),
+        text(alarm(&table, "measures-disagree"), "what").contains("times, outside each other's 90 % bands: "),
         "{table}"
     );
 }
@@ -151,8 +177,14 @@ fn a_table_of_one_measure_says_what_concerns_it() {
         let alarms = table["alarms"].as_array().unwrap().iter();
         alarms.map(|alarm| format!("{} {}", text(alarm, "kind"), text(alarm, "subject"))).collect()
     };
-    let (all, pgv) = (kinds(&[]), kinds(&["--im", "pgv"]));
-    assert_eq!(all, kinds(&["--im", "all"]));
+    let (plain, all, pgv) = (kinds(&[]), kinds(&["--im", "all"]), kinds(&["--im", "pgv"]));
+    // what is said of fits is said of those that are shown, and without a word those are by PGV
+    let parted = |said: &[String]| -> (Vec<String>, Vec<String>) {
+        said.iter().cloned().partition(|said| FIT.iter().any(|kind| said.starts_with(kind)))
+    };
+    assert_eq!(parted(&plain).1, parted(&all).1);
+    assert_eq!(parted(&plain).0, parted(&pgv).0);
+    assert!(parted(&all).0.iter().any(|said| said.contains(", PGA")), "{all:?}");
     assert!(all.iter().any(|said| said.contains(", PGA")) && !pgv.iter().any(|said| said.contains(", PGA")), "{pgv:?}");
     // what is of both, and of the records, is said of each
     for kind in ["measures-disagree", "synthetic-records"] {
@@ -173,7 +205,7 @@ fn a_response_asks_about_unlikely_numbers() {
         (&["--strength", "0.2", "--gravity-m-s2", "981"], "--gravity-m-s2 is 981 m/s2; usual is"),
     ] {
         let said = study.uplift(&[&record[..], asked].concat()).ok().stdout;
-        assert!(said.contains("Before you use these numbers") && said.contains(words), "{words}:\n{said}");
+        assert!(said.contains(&format!("\nWarnings\n  mistake? response: {words}")), "{words}:\n{said}");
         let found = json(&study, &[&record[..], asked, &["--json"]].concat());
         assert_eq!(alarm(&found, "unlikely-number")["severity"], "mistake");
     }
@@ -184,11 +216,10 @@ fn a_response_asks_about_unlikely_numbers() {
 #[test]
 fn a_check_tells_of_the_last_level_what_a_run_would() {
     let study = study();
-    let said = study.uplift(&["check", "study.toml"]).ok().stdout;
-    let note =
-        said.lines().find(|line| line.starts_with("caution   Here, PGA, 2 %")).unwrap_or_else(|| panic!("{said}"));
+    let said = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
+    let note = said.lines().find(|line| line.starts_with("  Here, PGA, 2 %")).unwrap_or_else(|| panic!("{said}"));
     assert!(note.contains("the last level, 1 g, is exceeded 1.0e-4 times a year, 24.7 % of the target rate"), "{note}");
-    assert!(said.contains("\n          let pga.levels_g reach further up, the hazard curve goes to 3 g\n"), "{said}");
+    assert!(note.ends_with(". Raise the last of pga.levels_g, up to 3 g"), "{note}");
     let check = json(&study, &["check", "study.toml", "--json"]);
     let pga = check["levels"].as_array().unwrap().iter().find(|level| level["im"] == "PGA").unwrap();
     assert_eq!(pga["last_level"], 1.0);
@@ -256,7 +287,7 @@ fn curves_and_levels_in_other_units_are_named() {
     study.write("pga.csv", &curve_times("athens/pga.csv", 9.81));
     let checked = json(&study, &["check", "study.toml", "--json"]);
     let run = study.uplift(&["run", "study.toml", "-o", "r.h5", "--json"]).ok();
-    let told = run.stderr.find("note: mistake? Here: for its curve of PGV");
+    let told = run.stderr.find("note: mistake? Here: its curve of PGA is ");
     assert!(told.is_some_and(|at| run.stderr[at..].contains("analyses")), "{}", run.stderr);
     let run: Value = serde_json::from_str(&run.stdout).unwrap();
     for found in [&checked, &run] {
@@ -270,11 +301,11 @@ fn curves_and_levels_in_other_units_are_named() {
     // whichever spectra are asked for, and on the page by its word
     for measure in ["PGV", "PGA"] {
         let said = study.uplift(&["table", "r.h5", "--im", measure]).ok().stdout;
-        assert!(said.contains("mistake?  Here: for its curve of PGV"), "{measure}: {said}");
+        assert!(said.contains("  mistake? Here: its curve of PGA is "), "{measure}: {said}");
     }
     study.uplift(&["report", "r.h5", "-q"]).ok();
     let page = std::fs::read_to_string(study.path().join("r.html")).unwrap();
-    assert!(page.contains("<summary>mistake?: <strong>Here:</strong> for its curve of PGV"));
+    assert!(page.contains("<summary>mistake?: <strong>Here:</strong> its curve of PGA is "));
     assert!(page.contains("<p class=\"doubt\">"), "the answer is not given without a word of it");
     let said = study.uplift(&["check", "study.toml", "-q", "--set", "sites.Here.pga.unit=m/s2"]).ok().stdout;
     assert!(!said.contains("mistake?"), "{said}");
@@ -420,9 +451,8 @@ fn numbers_in_other_units_are_taken_and_told() {
         ("pgv.levels_cm_s=[0.6, 1, 2]", "the highest of pgv.levels_cm_s is 2 cm/s; usual is"),
     ] {
         let said = study.uplift(&["check", "study.toml", "-q", "--set", setting]).ok().stdout;
-        assert!(said.contains(&format!("mistake?  study: {words}")), "{words}:\n{said}");
-        let end = said.lines().last().unwrap_or_default();
-        assert!(end.starts_with("The study can be run. See first what is marked mistake?, caution"), "{said}");
+        assert!(said.contains(&format!("  mistake? study: {words}")), "{words}:\n{said}");
+        assert_eq!(said.lines().last(), Some("The study can be run. See the warnings first."), "{said}");
     }
     let run =
         json(&study, &["run", "study.toml", "-o", "r.h5", "--json", "--set", "strengths.values=[0.2, 5, 10, 40]"]);
@@ -445,7 +475,7 @@ fn numbers_in_other_units_are_taken_and_told() {
         .collect();
     // the first is the site's: its curve of PGV is of a hundredth of the shaking
     let starts = [
-        "for its curve of PGV and these records its curve of PGA is",
+        "its curve of PGA is 22.2 times too high for its curve of PGV and these records",
         "height_m is 220 m",
         "mass_kg over the square of the width and the height is",
         "--safety-factor is 40",
@@ -454,7 +484,7 @@ fn numbers_in_other_units_are_taken_and_told() {
     for (mistake, start) in mistakes.iter().zip(starts) {
         assert!(mistake.starts_with(start), "{mistake}");
     }
-    let shown = study.uplift(&pier).ok().stdout;
+    let shown = study.uplift(&[&pier[..], &["--details"]].concat()).ok().stdout;
     assert!(
         shown.contains("\nThese verdicts stand only if what is marked mistake? below is as it was meant.\n"),
         "{shown}"
@@ -471,12 +501,14 @@ fn none_overturned_is_not_never() {
         let arguments = [command, "large.toml", "--urs", "r.h5", "--site", "There"];
         let found = json(&study, &[&arguments[..], &["--json"]].concat());
         let none = alarm(&found, "none-overturned");
-        for words in ["0 of 4 records at any level up to", "that is not never, but at most", "52.7 %"] {
+        for words in ["0 of 4 records up to", "so at most ", "a year: 0 of 4 leave up to 52.7 %"] {
             assert!(text(none, "what").contains(words), "{words}: {none}");
         }
-        let shown = study.uplift(&arguments).ok().stdout;
+        let answer = study.uplift(&arguments).ok().stdout;
+        assert!(answer.contains(if command == "design" { "overturning < " } else { "  < " }), "{answer}");
+        let shown = study.uplift(&[&arguments[..], &["--details"]].concat()).ok().stdout;
         assert!(shown.contains("  < ") && shown.contains("  > "), "{shown}");
-        assert!(!shown.contains("  never"), "{shown}");
+        assert!(!shown.contains(" never"), "{shown}");
     }
     // in the table of risks beside it, and on the sheet
     study.uplift(&["overturning", "large.toml", "--urs", "r.h5", "--site", "There", "-o", "o.csv", "-q"]).ok();

@@ -267,8 +267,14 @@ fn limits_of_size() {
     assert_eq!((&tiny["exact"]["overturns"], &tiny["exact"]["demand_m"]), (&Value::Bool(true), &Value::Null));
     assert!(tiny["exact"]["overturning"]["probability"].as_f64().unwrap() > 0.02);
     assert_eq!(tiny["rules"][0]["from_spectrum"]["satisfied"], false);
-    let shown = study.uplift(&["design", "tiny.toml", "--urs", "r.h5"]).ok().stdout;
-    for words in ["NOT satisfied", "overturns more often than the target", "(Eq. 3.14)", "synthetic"] {
+    let tiny = ["design", "tiny.toml", "--urs", "r.h5"];
+    let shown = study.uplift(&tiny).ok().stdout;
+    for words in ["Verdict   tiny, capacity 0.01 m: NOT satisfied", "Demand    overturns on the structure", "synthetic"]
+    {
+        assert!(shown.contains(words), "{words}: {shown}");
+    }
+    let shown = study.uplift(&[&tiny[..], &["--details"]].concat()).ok().stdout;
+    for words in ["overturns more often than the target", "(Eq. 3.14)"] {
         assert!(shown.contains(words), "{words}: {shown}");
     }
 }
@@ -291,7 +297,10 @@ fn structures_without_a_capacity() {
     // stiffer than ZSBE, it moves less
     let exact = &stiff["exact"];
     assert!(exact["demand_m"].as_f64() < exact["zero_stiffness_demand_m"].as_f64());
-    let shown = study.uplift(&["design", "stiff.toml", "--urs", "r.h5"]).ok().stdout;
+    let stiff = ["design", "stiff.toml", "--urs", "r.h5"];
+    let shown = study.uplift(&stiff).ok().stdout;
+    assert!(shown.contains("no capacity: the force does not fall: no rule applies"), "{shown}");
+    let shown = study.uplift(&[&stiff[..], &["--details"]].concat()).ok().stdout;
     assert!(shown.contains("do not apply") && shown.contains("warning    post-uplift stiffness"), "{shown}");
 }
 
@@ -361,7 +370,10 @@ fn records_that_are_gone_leave_the_spectrum() {
     for name in ["downloads", "manifest.csv", "here-pgv.csv"] {
         std::fs::rename(study.path().join(name), study.path().join("elsewhere").join(name)).unwrap();
     }
-    let gone = study.uplift(&["design", "block.toml", "--urs", "r.h5"]).ok().stdout;
+    let gone = ["design", "block.toml", "--urs", "r.h5"];
+    let answer = study.uplift(&gone).ok().stdout;
+    assert!(answer.contains("by the spectrum at strength ") && !answer.contains("structure itself"), "{answer}");
+    let gone = study.uplift(&[&gone[..], &["--details"]].concat()).ok().stdout;
     assert!(gone.contains("not analysed") && gone.contains("manifest.csv") && gone.contains("equal energy"), "{gone}");
     assert_eq!(design(&study, "block.toml", &["--manifest", "elsewhere/manifest.csv"])["exact"], full["exact"]);
     study.uplift(&["design", "block.toml", "--urs", "r.h5", "--manifest", "no.csv"]).fails(4, &["no.csv"]);
@@ -445,8 +457,10 @@ fn shipped_structures_are_what_they_say() {
     let study = study();
     for name in ["pier", "single-pier", "block", "frame"] {
         let file = repository().join(format!("configs/structures/{name}.toml"));
-        let shown = uplift(study.path(), &["design", file.to_str().unwrap(), "--urs", "r.h5", "--spectrum-only"]).ok();
-        assert!(shown.stdout.starts_with(&format!("structure  {name}: ")), "{}", shown.stdout);
+        let asked = ["design", file.to_str().unwrap(), "--urs", "r.h5", "--spectrum-only", "--details"];
+        let shown = uplift(study.path(), &asked).ok();
+        assert!(shown.stdout.starts_with(&format!("Verdict   {name}, capacity ")), "{}", shown.stdout);
+        assert!(shown.stdout.contains(&format!("\nstructure  {name}: ")), "{}", shown.stdout);
         assert!(!shown.stdout.contains("warning "), "{}", shown.stdout);
     }
 }
@@ -518,7 +532,7 @@ fn a_design_sheet_says_what_the_design_says() {
     // the block to scale, with its dimensions
     let drawing = rest.split_once("<svg").unwrap().1.split_once("</svg>").unwrap().0;
     assert!(drawing.contains(">0.8 m</text>") && drawing.contains(">4 m</text>"), "{drawing}");
-    assert_eq!(page.matches("they are synthetic").count(), usize::from(found["synthetic"] == true));
+    assert_eq!(page.matches("not for design").count(), usize::from(found["synthetic"] == true));
     assert!(
         page.split("http").skip(1).all(|rest| rest.starts_with("://www.w3.org/2000/svg") || rest.starts_with("-equiv"))
     );

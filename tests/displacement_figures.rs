@@ -146,7 +146,7 @@ fn spectra_of_oscillators() {
     let motions = panels(&page, "motions-synthetic");
     assert_eq!(motions.len(), 6);
     assert!(motions.iter().all(|(title, _)| title.contains(" h") && title.contains("PGV")));
-    for word in ["id=\"r1-sets\"", "id=\"r1-design-2\"", "equal energy", "u_dem_TH_m", "they are synthetic"] {
+    for word in ["id=\"r1-sets\"", "id=\"r1-design-2\"", "equal energy", "u_dem_TH_m", "not for design"] {
         assert!(page.contains(word), "{word}");
     }
 }

@@ -73,7 +73,7 @@ fn branches_are_the_studies_of_their_curves() {
         }
     }
     assert!(between > 0, "the branches are mixed");
-    let text = study.uplift(&["bootstrap", "study.h5", "--replicates", "20"]).ok().stdout;
+    let text = study.uplift(&["bootstrap", "study.h5", "--replicates", "20", "--details"]).ok().stdout;
     assert!(text.contains("Records and hazard together"), "{text}");
     // the study in the file gives the same study again
     let toml = LabelledReader::open(&study.path().join("study.h5")).unwrap().attribute_text("/", "study_toml").unwrap();

@@ -120,9 +120,9 @@ fn a_quiet_table_is_the_table_and_says_what_its_risks_are() {
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let (told, quiet) = (["table", "r.h5"], ["table", "r.h5", "-q", "--return-period", "475"]);
     let told = study.uplift(&told).ok().stdout;
-    assert!(told.contains("Before you use these numbers") && told.contains("probabilities in 50 years"), "{told}");
+    assert!(told.contains("\nWarnings\n  ") && told.contains("probabilities in 50 years"), "{told}");
     let quiet = study.uplift(&quiet).ok().stdout;
-    assert!(quiet.contains("475 years") && !quiet.contains("Before you use"), "{quiet}");
+    assert!(quiet.contains("475 years") && !quiet.contains("Warnings"), "{quiet}");
     assert!(!quiet.contains("probabilities"), "{quiet}");
     // zero has no sign in a table
     let csv = std::fs::read_to_string(study.path().join("r.urs.csv")).unwrap();

@@ -52,7 +52,13 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
     // and so is what is raised of the last level, but for the strengths that it counts
     let alarms = plan["alarms"].as_array().unwrap();
     let alarm = alarms.iter().find(|alarm| alarm["kind"] == "beyond-last-level").unwrap();
-    assert!(alarm["what"].as_str().unwrap().contains("of 4 ordinates tried take more than 1 %"), "{plan:#}");
+    assert!(
+        alarm["what"]
+            .as_str()
+            .unwrap()
+            .contains("4 of 4 ordinates tried may be too small, up to 4.6 % of their risk lies above the last level"),
+        "{plan:#}"
+    );
     let proposal = &check["proposal"];
     let line = proposal["line"].as_str().unwrap();
     let (key, levels) = line.split_once(" = ").unwrap();
@@ -62,14 +68,16 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
     assert!(lowered <= 0.01, "{proposal}");
     assert_eq!(of_a_run(&study, &["--set", line], &strengths)[0], lowered);
 
-    let said = study.uplift(&["check", "study.toml"]).ok().stdout;
-    let pasted = line.replace("pgv.levels", "in [pgv] levels");
-    for words in ["levels    PGV: at the strengths tried, ", "too high for", "worst of", &pasted] {
+    let said = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
+    let pasted = line.replace("pgv.levels", "Proposed: [pgv] levels");
+    let high = "There, PGV, 10 % (and 3 more): 4 of 4 ordinates tried too large: up to 96.2 % of their risk lies below";
+    for words in ["Levels    PGV, at the strengths tried (0.2", "up to 96.2 % of the risk lies below", high, &pasted] {
         assert!(said.contains(words), "{words}: {said}");
     }
     // levels that reach far enough are left alone
-    let content = study.uplift(&["check", "study.toml", "--set", line]).ok().stdout;
-    assert!(content.contains("levels    PGV: at the strengths") && !content.contains("too high"), "{content}");
+    let content = study.uplift(&["check", "study.toml", "--details", "--set", line]).ok().stdout;
+    assert!(content.contains("Levels    PGV, at the strengths"), "{content}");
+    assert!(!content.contains("too large") && !content.contains("Proposed"), "{content}");
 }
 
 #[test]

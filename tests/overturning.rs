@@ -73,7 +73,7 @@ fn a_case_known_by_hand() {
         assert_eq!(site["lower_tail_share"], 0.0);
         assert_eq!(site["site"], "Here");
     }
-    assert!(found["alarms"].to_string().contains("outside the analysed levels"), "{found}");
+    assert!(found["alarms"].to_string().contains("of the risk lies above the last level, 0.8 g"), "{found}");
 }
 
 const WITH_PGA: &str = "title = \"small\"\n[records.synthetic]\npairs = 20\n[strengths]\nvalues = [0.05, 0.1]\n\
@@ -208,11 +208,14 @@ fn tables_and_figures_hold_what_is_printed() {
     assert!((risk[2][3].parse::<f64>().unwrap() / per_year - 1.0).abs() < 1e-12);
     let svg = read("b.svg");
     assert!(!svg.contains("Overturning of block") && svg.contains("synthetic records") && !svg.contains("NaN"));
-    let shown = study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "--threads", "1"]).ok().stdout;
+    let on = |threads: &str| {
+        study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "--details", "--threads", threads]).ok().stdout
+    };
+    let shown = on("1");
     for words in ["rotates as a block of R = 2.0100 m", "angular momentum", "Here", "There", "synthetic", "theta"] {
         assert!(shown.contains(words), "{words}: {shown}");
     }
-    assert_eq!(shown, study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "--threads", "5"]).ok().stdout);
+    assert_eq!(shown, on("5"));
 }
 
 /// Motions on the edge of overturning at many levels: one of them rounding pushes over it.
@@ -232,7 +235,11 @@ fn what_rounding_decides_is_marked() {
     assert!(lowest <= value && value <= highest && lowest < highest, "{range}");
     assert_eq!(of_model["sites"][0]["per_year"], range["value"]);
     let arguments = ["overturning", "block.toml", "--urs", "r.h5", "--site", "Here", "--restitution", "0.98"];
-    let shown = study.uplift(&arguments).ok().stdout;
+    let answer = study.uplift(&arguments).ok().stdout;
+    assert!(answer.contains(&format!("  {value:.1e}")), "{value:.1e}\n{answer}");
+    let is_moved = [lowest, highest].iter().any(|end| format!("{end:.1e}") != format!("{value:.1e}"));
+    assert!(!is_moved || answer.contains("\n* rounding decides it: --details\n"), "{answer}");
+    let shown = study.uplift(&[&arguments[..], &["--details"]].concat()).ok().stdout;
     let mark = if [lowest, highest].map(|end| format!("{end:.3e}")) == [value; 2].map(|own| format!("{own:.3e}")) {
         ""
     } else {

@@ -4,7 +4,11 @@ use crate::common::{Finished, SmallStudy, repository};
 use crate::hazard::{SITES, openquake};
 
 /// Commands whose answer is printed, and those that are told to write files; by their first words.
-const ANSWER: [&str; 27] = [
+const ANSWER: [&str; 31] = [
+    "run",
+    "merge",
+    "spectrum",
+    "warnings",
     "status",
     "verify",
     "check",
@@ -33,8 +37,7 @@ const ANSWER: [&str; 27] = [
     "hazard show",
     "validate",
 ];
-const FILES: [&str; 8] =
-    ["run", "merge", "plot", "report", "export", "records import", "records synthesize", "hazard plot"];
+const FILES: [&str; 7] = ["init", "plot", "report", "export", "records import", "records synthesize", "hazard plot"];
 
 /// Files that are written beside an answer.
 const WRITTEN: [&str; 13] = [
@@ -53,9 +56,9 @@ const WRITTEN: [&str; 13] = [
     "s.bootstrap",
 ];
 
-/// The subcommands that a `--help` lists.
+/// The subcommands that a `--help` lists, in groups or in one.
 fn listed(help: &str) -> Vec<String> {
-    let commands = help.split("Commands:").nth(1).unwrap_or_default().split("Options:").next().unwrap();
+    let commands = help.split("Options:").next().unwrap();
     let names = commands.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
     names.map(|line| line.split_whitespace().next().unwrap().to_owned()).filter(|name| name != "help").collect()
 }
@@ -76,12 +79,19 @@ fn nothing_but_what_was_asked_for() {
         study.uplift(&words)
     };
     let structure = "block.toml --urs s.h5 --site Here";
+    // a shard is no answer yet
+    for shard in ["1", "2"] {
+        let done = quiet(&format!("run study.toml --shard {shard}/2 -o {shard}.part")).ok();
+        assert_eq!((done.stdout, done.stderr), (String::new(), String::new()));
+    }
     let mut seen = Vec::new();
     for arguments in [
         "run study.toml -o s.h5",
-        "run study.toml --shard 1/2 -o 1.part",
-        "run study.toml --shard 2/2 -o 2.part",
         "merge study.toml 1.part 2.part -o m.h5",
+        "spectrum s.h5",
+        "spectrum s.h5 --strength 0.13 --return-period 475 --site Here",
+        "warnings s.h5",
+        "init first",
         "status s.h5",
         "verify s.h5",
         "check study.toml",
@@ -135,6 +145,10 @@ fn nothing_but_what_was_asked_for() {
     }
     // errors are told
     quiet("run absent.toml").fails(3, &["absent.toml"]);
+    // a run and a merge print their table alone, which is that of the result
+    let [run, merged] = ["run study.toml -o again.h5", "merge study.toml 1.part 2.part -o merged.h5"];
+    let table = quiet("spectrum s.h5").ok().stdout;
+    assert_eq!([quiet(run).ok().stdout, quiet(merged).ok().stdout], [table.clone(), table]);
     // a command that is new is here too
     for (above, help) in [
         ("", &["--help"][..]),

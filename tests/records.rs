@@ -158,7 +158,8 @@ fn a_study_runs_on_what_was_imported() {
     study.write("study.toml", &text.replace("set.csv", folder.path().join("set.csv").to_str().unwrap()));
     let done = study.uplift(&["run", "study.toml"]).ok();
     assert!(done.stderr.contains("1 recorded pair (set.csv, magnitude 6:7)"), "{}\n{}", done.stdout, done.stderr);
-    assert!(done.stdout.contains("1 of 2 records have no number for magnitude"), "{}", done.stdout);
+    let warnings = study.uplift(&["warnings", "results/study.h5"]).ok().stdout;
+    assert!(warnings.contains("1 of 2 records have no number for magnitude"), "{warnings}");
     // a manifest that was moved does not find its files, and says so
     let moved = study.path().join("moved.csv");
     study
@@ -190,7 +191,7 @@ fn synthetic_records_are_made_listed_shown_and_chosen() {
         let set = format!("records.manifest={}", at.join(manifest).display());
         let done = study.uplift(&["run", "study.toml", "--force", "--set", &set]).ok();
         assert!(
-            done.stderr.contains("synthetic pairs") && done.stdout.contains("they are synthetic"),
+            done.stderr.contains("synthetic pairs") && done.stdout.contains("Synthetic records: not for design"),
             "{}",
             done.stdout
         );

@@ -95,7 +95,7 @@ fn a_report_is_one_file_without_a_network() {
     assert!(page.contains("&lt;b&gt;second") && !page.contains("<b>second"), "text of the study is text");
     // the studies differ by their titles alone, which name them; one figure has both
     assert!(page.contains("<h2 id=\"r2-title\">&lt;b&gt;second") && page.contains("id=\"all-together\""));
-    assert_eq!(page.matches("they are synthetic").count(), 2, "once for each result");
+    assert_eq!(page.matches("Synthetic records:</strong> not for design").count(), 2, "once for each result");
     study.uplift(&["report", "r.h5", "other.h5", "-o", "again.html", "-q"]).ok();
     assert_eq!(std::fs::read(study.path().join("again.html")).unwrap(), page.as_bytes(), "the same bytes again");
     let addresses: Vec<&str> =

@@ -183,5 +183,6 @@ fn a_check_tells_what_the_repetition_costs() {
         serde_json::from_str(&study.uplift(&["check", "study.toml", "--json"]).ok().stdout).unwrap();
     // ten motions; two capacities at four strengths, at three of them again at eight neighbours
     assert_eq!((&plan["analyses"], &plan["rounding_analyses"]), (&80.into(), &480.into()));
-    assert!(study.uplift(&["check", "study.toml"]).ok().stdout.contains("rounding  480 more"));
+    let said = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
+    assert!(said.contains("\nRounding  480 more analyses"), "{said}");
 }

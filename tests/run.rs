@@ -91,7 +91,7 @@ fn probabilities_and_units_of_hazard_are_converted() {
 fn summary_tables_and_provenance() {
     let study = SmallStudy::new();
     let run = study.uplift(&["run", "study.toml", "-o", "out/r.h5"]).ok();
-    for words in ["synthetic", "out/r.h5", "out/r.urs.csv", "2 % in 50 yr", "Here", "few"] {
+    for words in ["synthetic", "out/r.h5", "out/r.urs.csv", "2 % in 50 years, by PGV", "Here", "Few records: 4;"] {
         assert!(run.stdout.contains(words), "{words}:\n{}", run.stdout);
     }
     assert!(run.stderr.contains("200 analyses"), "{}", run.stderr);
@@ -124,7 +124,8 @@ fn summary_tables_and_provenance() {
     assert_eq!(arrays(&elsewhere.path().join("again.h5")), arrays(&study.path().join("out/r.h5")));
 
     let quiet = study.uplift(&["run", "study.toml", "-o", "q.h5", "--quiet"]).ok();
-    assert_eq!((quiet.stdout.as_str(), quiet.stderr.as_str()), ("", ""));
+    let (table, _) = run.stdout.split_once("\nsite ").unwrap().1.split_once("\n\nWarnings").unwrap();
+    assert_eq!((quiet.stdout, quiet.stderr), (format!("site {table}\n"), String::new()));
     let json = study.uplift(&["run", "study.toml", "-o", "j.h5", "--quiet", "--json"]).ok();
     let summary: serde_json::Value = serde_json::from_str(&json.stdout).unwrap();
     assert_eq!(summary["synthetic"], true);
@@ -137,15 +138,18 @@ fn check_says_what_a_run_would_do() {
     let study = SmallStudy::new();
     let check = study.uplift(&["check", "study.toml"]).ok();
     for words in [
-        "[oscillator]",
-        "restitution = 0.95",
-        "360",
-        "they are synthetic",
-        "4 are few",
-        "See first what is marked caution",
+        "Cost      360 analyses",
+        "Synthetic records: not for design",
+        "Few records: 4;",
+        "The study can be run. See the warnings first.",
     ] {
         assert!(check.stdout.contains(words), "{words}:\n{}", check.stdout);
     }
+    let completed = study.uplift(&["check", "study.toml", "--print-study"]).ok().stdout;
+    assert!(completed.contains("[oscillator]") && completed.contains("restitution = 0.95"), "{completed}");
+    // as it is printed it is the same study
+    study.write("completed.toml", &completed);
+    assert_eq!(study.uplift(&["check", "completed.toml", "--print-study"]).ok().stdout, completed);
     let json: serde_json::Value =
         serde_json::from_str(&study.uplift(&["check", "study.toml", "--json"]).ok().stdout).unwrap();
     assert_eq!(json["analyses"], 360);
@@ -156,7 +160,7 @@ fn check_says_what_a_run_would_do() {
 fn negative_stiffness_overturns_and_is_said_so() {
     let study = SmallStudy::new();
     let run = study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "oscillator.capacity_m=0.02"]).ok();
-    assert!(run.stdout.contains("censored"), "{}", run.stdout);
+    assert!(run.stdout.contains("overturns"), "{}", run.stdout);
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
     let edp = reader.array_f64("/ida/pgv/edp_m").unwrap().values;
     assert!(edp.iter().any(|u| u.is_infinite()) && !edp.iter().any(|u| u.is_nan()));

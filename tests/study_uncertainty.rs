@@ -179,7 +179,14 @@ fn structures_are_branches() {
     let numbers: Vec<f64> = first["mean_m"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
     let finite: Vec<f64> = mean[..STRENGTHS].iter().copied().filter(|mean| mean.is_finite()).collect();
     assert!(finite.len() > 5 && same_bits(&numbers, &finite), "{first}");
-    assert!(uncertain.uplift(&["run", "study.toml", "-o", "again.h5"]).ok().stdout.contains("structures that may be"));
+    let details = uncertain.uplift(&["run", "study.toml", "-o", "again.h5", "--details"]).ok().stdout;
+    let (_, spread) =
+        details.split_once("\nSpread over the structures that may be").unwrap_or_else(|| panic!("{details}"));
+    // the first row of strength 0.4 is of the rarest probability
+    let row = spread.lines().find(|line| line.starts_with("Here") && line.contains("  0.400  ")).unwrap();
+    let cells: Vec<&str> = row.split_whitespace().rev().take(3).collect();
+    let shown = |value_m: f64| if value_m.is_finite() { format!("{value_m:.4}") } else { "censored".to_owned() };
+    assert_eq!(cells, [high[5], mean[5], low[5]].map(shown), "{spread}");
     // on the page, with a figure, and in the exports
     uncertain.uplift(&["report", "r.h5", "-q"]).ok();
     uncertain.uplift(&["export", "r.h5", "--json", "--csv", "--mat", "--xlsx", "-q"]).ok();
@@ -301,7 +308,7 @@ fn mistakes_are_told_at_once() {
     // what cannot be is cut off, and said
     let cut = "[uncertainty]\nsamples = 8\n[uncertainty.restitution]\ndistribution = \"normal\"\n\
         coefficient_of_variation = 0.05\n";
-    let check = study(cut).uplift(&["check", "study.toml"]).ok();
+    let check = study(cut).uplift(&["check", "study.toml", "--details"]).ok();
     assert!(check.stdout.contains("14.6 % of the restitution are cut off"), "{}", check.stdout);
     let many = study(&scattering("epistemic", "samples = 4096"));
     many.uplift(&["check", "study.toml", "--set", "records.synthetic.pairs=20", "--set", "records.first=20"])

@@ -256,7 +256,17 @@ fn target_and_risk_are_inverses_of_uncertain_structures() {
 fn it_is_told_in_sentences_and_refused_in_words() {
     let study = study();
     study.write("block.toml", &format!("{BLOCK}{}", scattering("epistemic", "samples = 16\n", 0.05)));
-    let run = study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "-q"]).ok();
+    let run = study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "-q", "--details"]).ok();
+    let answer = study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "-q"]).ok().stdout;
+    let found = study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "-q", "--json"]).ok().stdout;
+    let found: Value = serde_json::from_str(&found).unwrap();
+    let of = &found["uncertainty"]["results"][0]["epistemic"];
+    let [mean, lower, upper] =
+        [&of["by_structure"]["mean"], &of["by_all"]["percentiles"][0], &of["by_all"]["percentiles"][4]]
+            .map(|value| value.as_f64().unwrap());
+    let short =
+        format!("Uncertain overturning, Here, PGA: {mean:.1e} per year (90 % band {lower:.1e} to {upper:.1e})\n");
+    assert!(answer.contains(&short), "{short}{answer}");
     for words in [
         "What is not known of the structure (epistemic, every structure a branch): 64 structures, sobol, seed 1, 2,304 \
          analyses",
@@ -269,7 +279,8 @@ fn it_is_told_in_sentences_and_refused_in_words() {
     }
     let both = ["overturning", "block.toml", "--urs", "r.h5", "--restitution", "0.9"];
     study.uplift(&both).fails(2, &["--restitution", "[uncertainty.restitution]"]);
-    let only = study.uplift(&["design", "block.toml", "--urs", "r.h5", "--spectrum-only", "-q"]).ok();
+    let only = ["design", "block.toml", "--urs", "r.h5", "--spectrum-only", "-q", "--details"];
+    let only = study.uplift(&only).ok();
     assert!(only.stdout.contains("[uncertainty]: all numbers are of the structure as described"), "{}", only.stdout);
     study.write("block.toml", &format!("{BLOCK}{}", scattering("random", "", 0.05)));
     study.uplift(&["overturning", "block.toml", "--urs", "r.h5"]).fails(3, &["uncertainty.kind", "epistemic"]);
@@ -285,7 +296,8 @@ fn what_no_run_shows_is_told_by_its_bound() {
         study.write("large.toml", &format!("{large}{}", scattering(kind, few(kind), 0.01)));
         for (job, questions) in [("overturning", 1), ("design", 2)] {
             let ask = [job, "large.toml", "--urs", "r.h5", "-q"];
-            let told = study.uplift(&ask).ok().stdout;
+            let answer = study.uplift(&ask).ok().stdout;
+            let told = study.uplift(&[&ask[..], &["--details"]].concat()).ok().stdout;
             let found: Value =
                 serde_json::from_str(&study.uplift(&[&ask[..], &["--json"]].concat()).ok().stdout).unwrap();
             let plain = match job {
@@ -303,6 +315,8 @@ fn what_no_run_shows_is_told_by_its_bound() {
             let line = told.lines().find(|line| line.starts_with("overturning, Here, PGA: ")).unwrap();
             let bound = format!("at most {:.1e} per year, for no run shows it", plain.as_f64().unwrap());
             assert_eq!(line.matches(&bound).count(), 2, "{line}");
+            let short = format!("Uncertain overturning, Here, PGA: < {:.1e} per year\n", plain.as_f64().unwrap());
+            assert!(answer.contains(&short), "{short}{answer}");
             assert!(!told.contains("0.000e0"), "{told}");
         }
     }
@@ -326,8 +340,11 @@ fn what_cannot_overturn_has_no_bound() {
     let strength = "[uncertainty]\nsamples = 8\n[uncertainty.strength]\ndistribution = \"lognormal\"\n\
                     coefficient_of_variation = 0.05\n";
     study.write("stiff.toml", &format!("{stiff}{strength}"));
-    let told = study.uplift(&["overturning", "stiff.toml", "--urs", "r.h5", "-q"]).ok().stdout;
+    let asked = ["overturning", "stiff.toml", "--urs", "r.h5", "-q", "--details"];
+    let told = study.uplift(&asked).ok().stdout;
     assert!(told.contains("overturning, Here, PGA: cannot happen"), "{told}");
+    let row = told.lines().nth(3).map(|line| line.split_whitespace().collect::<Vec<_>>());
+    assert_eq!(row.as_deref(), Some(&["Here", "cannot"][..]), "{told}");
 }
 
 /// The rows of the oscillator have the answer, with bands and shares, in columns of their own.
@@ -398,7 +415,7 @@ fn a_target_in_another_unit_is_asked_about() {
     study.uplift(&[&ask[..], &often].concat()).fails(2, &["the allowed frequency is 5 1/yr", "return period"]);
     let far = ["--exceed", "300", "--per-year", "2e-3"];
     let told = study.uplift(&[&ask[..], &far].concat()).ok().stdout;
-    assert!(told.contains("mistake?  target: --exceed is 300 m") && told.contains("in mm or cm?"), "{told}");
+    assert!(told.contains("mistake? target: --exceed is 300 m") && told.contains("in mm or cm?"), "{told}");
 }
 
 /// A structure that cannot be is refused with what is probably in another unit, with its line.

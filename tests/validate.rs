@@ -106,7 +106,10 @@ fn pairs_by_key() {
     assert!(p.iter().zip(&holm).all(|(p, holm)| holm >= p));
     // the same bits on any number of threads
     assert_eq!(found, json(&study, &[&arguments[..], &["--threads", "1"]].concat()));
-    let told = study.uplift(&[&["validate"], &arguments[..], &["--permutation"]].concat()).ok().stdout;
+    let answer = study.uplift(&[&["validate"], &arguments[..]].concat()).ok().stdout;
+    let left_out = "\nLeft out 2 measured and 1 computed rows, without a partner or a value\n";
+    assert!(answer.contains(left_out) && !answer.contains("Two samples"), "{answer}");
+    let told = study.uplift(&[&["validate"], &arguments[..], &["--permutation", "--details"]].concat()).ok().stdout;
     for words in [
         "1 measured rows have no computed one",
         "9, high",
@@ -137,7 +140,10 @@ fn samples_tables_and_figures() {
     study.write("tests.csv", &rows(1.0));
     study.write("model.csv", &rows(1.3));
     let arguments = ["validate", "tests.csv", "model.csv", "--by", "level", "--replicates", "100"];
-    let told = study.uplift(&[&arguments[..], &["-o", "statistics.csv", "--plot", "cdf.svg"]].concat()).ok().stdout;
+    let written = [&arguments[..], &["-o", "statistics.csv", "--plot", "cdf.svg"]].concat();
+    let answer = study.uplift(&written).ok().stdout;
+    assert!(answer.contains("\nTwo samples, not joined: --key COLUMN"), "{answer}");
+    let told = study.uplift(&[&written[..], &["--force", "--details"]].concat()).ok().stdout;
     assert!(told.contains("two samples, not joined") && told.contains("--key"), "{told}");
     let table = std::fs::read_to_string(study.path().join("statistics.csv")).unwrap();
     let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();

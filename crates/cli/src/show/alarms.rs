@@ -7,20 +7,24 @@ use uplift::alarms::{Alarm, Severity};
 
 use super::shown_path;
 use crate::error::CommandError;
-use crate::terminal::output;
+use crate::terminal::{Terminal, output};
 
-/// Warnings shown; `uplift warnings` prints them all.
+/// Warnings shown at most; `uplift warnings` prints them all.
 pub(super) const SHOWN: usize = 3;
+/// Words that those shown have at most, but for the first and for probable mistakes.
+const WORDS: usize = 33;
 
-/// The worst warnings, a line each, and how to see the others of the `result`; nothing where there are none.
+/// The worst warnings, a line each, and how to see the others, of a `result` by its path; in detail all of them, and
+/// nothing where there are none.
 pub(super) fn print_warnings(
     out: &mut impl Write,
     alarms: &[Alarm],
     result: Option<&Path>,
+    terminal: &Terminal,
 ) -> Result<(), CommandError> {
     let all =
-        result.map_or_else(|| "--json".to_owned(), |path| format!("uplift warnings {}", shown_path(path).display()));
-    print_warnings_up_to(out, alarms, &all, SHOWN)
+        result.map_or_else(|| "--details".to_owned(), |path| format!("uplift warnings {}", shown_path(path).display()));
+    print_warnings_up_to(out, alarms, &all, if terminal.shows_details() { usize::MAX } else { SHOWN })
 }
 
 /// So many of the worst warnings, and what shows `all` of them.
@@ -33,11 +37,29 @@ pub(super) fn print_warnings_up_to(
     if alarms.is_empty() {
         return Ok(());
     }
+    let lines = alarms.iter().map(|alarm| (alarm.severity, warning(alarm))).collect();
+    print_lines(out, lines, all, shown)
+}
+
+/// The first of the lines, `shown` at most and no more than are read, and what shows `all`.
+pub(super) fn print_lines(
+    out: &mut impl Write,
+    lines: Vec<(Severity, String)>,
+    all: &str,
+    shown: usize,
+) -> Result<(), CommandError> {
     writeln!(out, "\nWarnings")?;
-    for alarm in alarms.iter().take(shown) {
-        writeln!(out, "  {}", warning(alarm))?;
+    let mut words = 0;
+    let mut is_read = |(severity, line): &&(Severity, String)| {
+        let is_first = words == 0;
+        words += line.split_whitespace().count();
+        is_first || shown == usize::MAX || *severity == Severity::Mistake || words <= WORDS
+    };
+    let shown = lines.iter().take(shown).take_while(&mut is_read).count();
+    for (_, line) in &lines[..shown] {
+        writeln!(out, "  {line}")?;
     }
-    let more = alarms.len().saturating_sub(shown);
+    let more = lines.len() - shown;
     if more > 0 { Ok(writeln!(out, "  {more} more: {all}")?) } else { Ok(()) }
 }
 
@@ -49,9 +71,10 @@ pub(crate) fn print_all_warnings(alarms: &[Alarm]) -> Result<(), CommandError> {
     }
     for alarm in alarms {
         writeln!(out, "{:<8}  {}", alarm.severity.word(), alarm.subject)?;
-        writeln!(out, "          {}.", alarm.what)?;
+        let end = if alarm.what.ends_with(['.', '?', '!']) { "" } else { "." };
+        writeln!(out, "          {}{end}", alarm.what)?;
         if !alarm.what_to_do.is_empty() {
-            writeln!(out, "          {}", alarm.what_to_do)?;
+            writeln!(out, "          {}", sentence(&alarm.what_to_do))?;
         }
         if !alarm.also.is_empty() {
             writeln!(out, "          Also: {}", alarm.also.join("; "))?;
@@ -63,6 +86,18 @@ pub(crate) fn print_all_warnings(alarms: &[Alarm]) -> Result<(), CommandError> {
 /// What is wrong, by how much, and what to type.
 pub(super) fn warning(alarm: &Alarm) -> String {
     let mark = if alarm.severity == Severity::Mistake { "mistake? " } else { "" };
-    let remedy = if alarm.what_to_do.is_empty() { String::new() } else { format!(" {}", alarm.what_to_do) };
-    format!("{mark}{alarm}.{remedy}")
+    let remedy = if alarm.what_to_do.is_empty() { String::new() } else { format!(" {}", sentence(&alarm.what_to_do)) };
+    let end = if alarm.what.ends_with(['.', '?', '!']) { "" } else { "." };
+    format!("{mark}{alarm}{end}{remedy}")
+}
+
+/// Words that begin a sentence; one of the study's keys keeps its letters.
+fn sentence(words: &str) -> String {
+    let (first, rest) = words.split_at(words.find(' ').unwrap_or(words.len()));
+    if first.chars().all(char::is_alphabetic) {
+        let mut letters = first.chars();
+        let begin: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+        return begin + letters.as_str() + rest;
+    }
+    words.to_owned()
 }

@@ -21,8 +21,10 @@ pub(crate) fn print_bootstrap(
 ) -> Result<(), CommandError> {
     let out = &mut output();
     print_displacements(out, shown, terminal)?;
-    if terminal.shows_details() || !report.reference.is_empty() {
+    if terminal.shows_details() {
         print_details(out, report)?;
+    } else if !report.reference.is_empty() {
+        print_figures(out, report, rarest(report), true)?;
     }
     if !terminal.is_quiet() {
         print_sizes(out, report, shown)?;
@@ -36,15 +38,18 @@ pub(crate) fn print_bootstrap(
 
 /// Table 4.1 for each probability, repaired and joint bands, and rocking initiation.
 fn print_details(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
-    for (poe, &probability) in report.poes.iter().enumerate() {
-        // Table 4.1 is about the rarest
-        let rarest = report.poes.iter().all(|&other| other >= probability);
-        print_figures(out, report, poe, rarest)?;
+    for poe in 0..report.poes.len() {
+        print_figures(out, report, poe, poe == rarest(report))?;
     }
     print_repaired(out, report)?;
     print_inferred(out, report)?;
     print_joint(out, report)?;
     print_initiation(out, report)
+}
+
+/// The position of the smallest probability, which Table 4.1 is about.
+fn rarest(report: &BootstrapReport) -> usize {
+    (0..report.poes.len()).min_by(|&a, &b| report.poes[a].total_cmp(&report.poes[b])).unwrap_or(0)
 }
 
 fn print_figures(

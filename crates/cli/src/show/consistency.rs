@@ -63,11 +63,17 @@ fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(),
 /// What to do next, and where everything is.
 fn print_end(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     let Some(result) = report.result.as_ref().map(|result| shown_path(result).display()) else { return Ok(()) };
-    let is_repaired = |row: &ConsistencyRow| row.repair.as_ref().is_some_and(|repair| repair.failed.is_none());
-    if report.rows.iter().any(is_repaired) {
-        writeln!(out, "\nRepaired spectra: uplift spectrum {result} --repaired")?;
+    let is_repaired = |row: &&ConsistencyRow| row.repair.as_ref().is_some_and(|repair| repair.failed.is_none());
+    if let Some(repaired) = report.rows.iter().find(is_repaired) {
+        // without a word spectra are by the first measure
+        let is_first = report.rows.first().is_some_and(|first| first.scaled_to == repaired.scaled_to);
+        let measure = if is_first { String::new() } else { format!(" --measure {}", repaired.scaled_to) };
+        writeln!(out, "\nRepaired spectra: uplift spectrum {result} --repaired{measure}")?;
     } else if report.rows.iter().any(|row| row.verdict == Some("inconsistent") && row.repair.is_none()) {
         writeln!(out, "\nRepair: uplift consistency {result} --repair")?;
+    }
+    if !report.warnings.is_empty() {
+        writeln!(out, "Warnings {}: --details", report.warnings.len())?;
     }
     writeln!(out, "Result   /consistency in {result}")?;
     if let Some(path) = &report.table {

@@ -12,7 +12,7 @@ use uplift_structure::Rule;
 
 use super::alarms::print_warnings;
 use super::structure::{limit, lines, rate, risk_cells};
-use super::uncertainty::print_uncertainty;
+use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -38,7 +38,7 @@ pub(crate) fn print_design(report: &DesignReport, terminal: &Terminal) -> Result
     if terminal.shows_details() {
         print_details(out, report)?;
     }
-    print_warnings(out, &report.alarms, None)?;
+    print_warnings(out, &report.alarms, None, terminal)?;
     print_more(out, terminal)
 }
 
@@ -87,6 +87,9 @@ fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
     } else if let Some(spectrum) = &report.spectrum {
         let demand = metres_with_band(spectrum.zero_stiffness_demand_m, None);
         writeln!(out, "Demand    {demand} by the spectrum at strength {:.4}", spectrum.strength)?;
+    }
+    if let Some(uncertainty) = &report.uncertainty {
+        print_uncertain_answers(out, uncertainty)?;
     }
     let risk = risk_in_words(report.poe, report.years);
     writeln!(out, "At        {} by {}, {risk}; {}", report.site, report.spectrum_words(), report.source.record_set)?;

@@ -31,7 +31,7 @@ pub(crate) fn print_frame_risk(report: &FrameRiskReport, terminal: &Terminal) ->
     if terminal.shows_details() {
         print_details(out, report)?;
     }
-    print_warnings(out, &report.alarms, None)?;
+    print_warnings(out, &report.alarms, None, terminal)?;
     print_more(out, terminal)
 }
 

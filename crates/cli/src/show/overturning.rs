@@ -8,7 +8,7 @@ use uplift_spectra::Noisy;
 
 use super::alarms::print_warnings;
 use super::structure::{limit, lines, rate, risk_cells};
-use super::uncertainty::print_uncertainty;
+use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -20,7 +20,7 @@ pub(crate) fn print_overturning(report: &OverturningReport, terminal: &Terminal)
     if terminal.shows_details() {
         print_details(out, report)?;
     }
-    print_warnings(out, &report.alarms, None)?;
+    print_warnings(out, &report.alarms, None, terminal)?;
     print_more(out, terminal)
 }
 
@@ -34,7 +34,8 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
             let [lower, upper] = bands.by_record.map(|per_year| format!("{per_year:.1e}"));
             format!(" ({lower}–{upper})")
         });
-        let per_year = if of.risk.per_year > 0.0 { format!("{:.1e}", of.risk.per_year) } else { per_year };
+        let short = |per_year: f64| format!("{per_year:.1e}");
+        let per_year = if of.risk.per_year > 0.0 { of.per_year_rounding.marked(short) } else { per_year };
         format!("{per_year}{band}")
     };
     let table = Table::of(sites.iter().enumerate())
@@ -42,8 +43,15 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
         .each(&report.overturning, |table, found| {
             table.right(format!("{}, {}", found.model, found.im), |(site, _)| cell(&found.sites[site]))
         });
-    writeln!(out, "{table}\n{}", report.source.record_set)?;
-    Ok(())
+    let table = table.to_string();
+    writeln!(out, "{table}")?;
+    if table.contains('*') {
+        writeln!(out, "* rounding decides it: --details")?;
+    }
+    if let Some(uncertainty) = &report.uncertainty {
+        print_uncertain_answers(out, uncertainty)?;
+    }
+    Ok(writeln!(out, "{}", report.source.record_set)?)
 }
 
 fn print_details(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {

@@ -3,7 +3,14 @@
 use std::io::Write;
 
 use uplift::analysis::ShardReport;
+use uplift::result::ResultFile;
 use uplift::run::{RunHead, RunReport};
+use uplift::text;
+use uplift::text::{Table, metres, risk_name};
+use uplift::uniform_risk::{
+    AskedRisk, BranchReport, DisplacementOptions, DisplacementReport, RiskTargets, RunReport as UniformRiskReport,
+    displacements,
+};
 
 use super::alarms::print_warnings;
 use super::spectrum::print_displacements;
@@ -15,6 +22,7 @@ use crate::terminal::{Terminal, output};
 pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
     match report {
+        RunReport::UniformRisk(report) if terminal.shows_details() => print_details(&mut out, report, terminal)?,
         RunReport::UniformRisk(report) => {
             for found in report.displacements.iter().chain(&report.repaired) {
                 print_displacements(&mut out, found, terminal)?;
@@ -23,13 +31,59 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
         RunReport::Displacement(report) => displacement::print_spectra(&mut out, report)?,
         RunReport::ShakeTable(report) => shake_table::print_tests(&mut out, &report.table)?,
     }
-    if terminal.is_quiet() { Ok(()) } else { print_end(&mut out, report.head()) }
+    if terminal.is_quiet() { Ok(()) } else { print_end(&mut out, report.head(), terminal) }
+}
+
+/// The spectra by every measure and for every risk, and their spread over hazard curves and structures.
+fn print_details(out: &mut impl Write, report: &UniformRiskReport, terminal: &Terminal) -> Result<(), CommandError> {
+    let (Some(path), Some(shown)) = (report.head.files.first(), &report.displacements) else { return Ok(()) };
+    let file = ResultFile::open(path)?;
+    let axes = file.axes()?;
+    let is_repaired = report.repaired.is_some();
+    for measure in file.measures() {
+        for repaired in [false, true].into_iter().filter(|repaired| is_repaired || !repaired) {
+            let risk = AskedRisk { targets: RiskTargets::Probabilities(axes.poes.clone()), years: None };
+            let asked =
+                DisplacementOptions { risk, measure: Some(measure), repaired, ..DisplacementOptions::default() };
+            print_displacements(out, &displacements(&file, &asked)?, terminal)?;
+        }
+    }
+    for (over, spread) in [("weighted hazard curves", &report.branches), ("structures that may be", &report.structures)]
+    {
+        print_spread(out, over, spread, (shown, &axes.strengths))?;
+    }
+    Ok(())
+}
+
+/// Mean and fractiles of spectra over weighted hazard curves or structures, at the strengths `shown`.
+fn print_spread(
+    out: &mut impl Write,
+    over: &str,
+    spread: &[BranchReport],
+    (shown, strengths): (&DisplacementReport, &[f64]),
+) -> Result<(), CommandError> {
+    let [first, ..] = &shown.displacements[..] else { return Ok(()) };
+    let of_first = shown.displacements.iter().take_while(|own| own.site == first.site);
+    let wanted: Vec<f64> = of_first.map(|own| own.strength).collect();
+    let places = text::nearest(strengths, &wanted);
+    let table = Table::of(spread.iter().flat_map(|of| places.iter().map(move |&strength| (of, strength))))
+        .left("site", |(of, _)| &of.site)
+        .right("im", |(of, _)| of.im)
+        .right("risk", |(of, _)| risk_name(of.probability, first.years))
+        .right("strength", |(_, strength)| format!("{:.3}", strengths[strength]))
+        .right("5 %", |(of, strength)| metres(of.low_m[strength]))
+        .right("mean", |(of, strength)| metres(of.mean_m[strength]))
+        .right("95 %", |(of, strength)| metres(of.high_m[strength]));
+    if !table.is_empty() {
+        writeln!(out, "\nSpread over the {over}: displacement in m, 5 and 95 % fractile and mean\n{table}")?;
+    }
+    Ok(())
 }
 
 /// What every run ends with: warnings, files, and what to look at next.
-fn print_end(out: &mut impl Write, head: &RunHead) -> Result<(), CommandError> {
+fn print_end(out: &mut impl Write, head: &RunHead, terminal: &Terminal) -> Result<(), CommandError> {
     let Some((result, tables)) = head.files.split_first() else { return Ok(()) };
-    print_warnings(out, &head.alarms, Some(result))?;
+    print_warnings(out, &head.alarms, Some(result), terminal)?;
     let result = shown_path(result).display();
     let time = if head.done_already {
         "done already; --again runs the study anew".to_owned()

@@ -4,7 +4,9 @@ use std::io::Write;
 
 use uplift::UpliftError;
 use uplift::spectrum::SpectrumReport;
-use uplift::text::{Table, cell_with_band, metres_with_band, per_cent, risk_in_words, risk_name, rounded};
+use uplift::text::{
+    Table, cell_with_band, kind_of_risks, metres_with_band, per_cent, risk_in_words, risk_name, rounded,
+};
 use uplift::uniform_risk::{CONFIDENCE, Displacement, DisplacementReport};
 
 use super::alarms::print_warnings;
@@ -20,7 +22,7 @@ pub(crate) fn print_spectrum(report: &SpectrumReport, terminal: &Terminal) -> Re
         }
         _ => print_displacements(out, &report.found, terminal)?,
     }
-    if terminal.is_quiet() { Ok(()) } else { print_warnings(out, &report.alarms, None) }
+    if terminal.is_quiet() { Ok(()) } else { print_warnings(out, &report.alarms, None, terminal) }
 }
 
 /// The number first, then what it is of.
@@ -55,10 +57,14 @@ pub(super) fn print_displacements(
         let several = if sites == 1 { "site" } else { "sites" };
         let made = if report.synthetic { " synthetic" } else { "" };
         let kind = if report.repaired { "Repaired uniform risk spectra" } else { "Uniform risk spectra" };
-        let risk = if risks == 1 { format!("{}, ", risk(first)) } else { String::new() };
-        writeln!(out, "\n{kind}, {sites} {several}, {}{made} records, {risk}by {}", report.records, first.im)?;
+        let poes: Vec<f64> = rows.iter().map(|row| row[0].poe).collect();
+        let risk = if risks == 1 { Some(risk(first)) } else { kind_of_risks(&poes, first.years) };
+        let risk = risk.map_or_else(String::new, |risk| format!("{risk}, "));
+        let records = if report.records == 1 { "record" } else { "records" };
+        writeln!(out, "\n{kind}, {sites} {several}, {}{made} {records}, {risk}by {}", report.records, first.im)?;
         let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
-        let band = if report.repaired { String::new() } else { format!(" ({} confidence band)", per_cent(CONFIDENCE)) };
+        let is_banded = report.displacements.iter().any(|own| own.band_m.is_some());
+        let band = if is_banded { format!(" ({} confidence band)", per_cent(CONFIDENCE)) } else { String::new() };
         writeln!(out, "Displacement, m{band}, at strength{capacity}")?;
     }
     let name = |row: &&[Displacement]| risk_name(row[0].poe, row[0].years);

@@ -25,7 +25,7 @@ pub(crate) fn print_table(report: &TableReport, terminal: &Terminal) -> Result<(
         TableRows::Tests(tests) => shake_table::print_order(&mut out, tests),
     }?;
     // a quiet terminal gets what was asked for alone
-    if terminal.is_quiet() { Ok(()) } else { print_warnings(&mut out, &report.alarms, None) }
+    if terminal.is_quiet() { Ok(()) } else { print_warnings(&mut out, &report.alarms, None, terminal) }
 }
 
 fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result<(), CommandError> {

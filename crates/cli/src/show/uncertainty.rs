@@ -3,9 +3,47 @@
 use std::io::Write;
 
 use uplift::structure::{QuantityReport, UncertainFinding, UncertaintyReport};
-use uplift::text::{Table, per_cent, short, thousands};
+use uplift::text::{Table, per_cent, short, thousands, two_digits};
 
 use crate::error::CommandError;
+
+/// Answers in short; `print_uncertainty` has the rest of them.
+const SHOWN: usize = 3;
+
+/// The risks and demands of a structure that is not known exactly, with bands of all that is not known of them.
+pub(super) fn print_uncertain_answers(out: &mut impl Write, report: &UncertaintyReport) -> Result<(), CommandError> {
+    for result in report.results.iter().take(SHOWN) {
+        let is_rate = result.unit == "1/yr";
+        let shown = |value: f64| if is_rate { format!("{value:.1e}") } else { two_digits(value) };
+        let (value, at_most, band) = match &result.found {
+            UncertainFinding::Epistemic(found) => {
+                let [lower, .., upper] = found.by_all.percentiles;
+                (found.by_structure.mean, found.by_structure.at_most_per_year, Some([lower, upper]))
+            }
+            UncertainFinding::Aleatory(found) => (found.value, found.at_most_per_year, found.by_record),
+        };
+        let value = match at_most {
+            Some(bound) => format!("< {bound:.1e}"),
+            None if is_rate && value == 0.0 => "cannot happen".to_owned(),
+            None => shown(value),
+        };
+        let is_banded = at_most.is_none() && value != "cannot happen";
+        let unit = if value == "cannot happen" {
+            ""
+        } else if is_rate {
+            " per year"
+        } else {
+            " m"
+        };
+        let band = band
+            .filter(|_| is_banded)
+            .map_or_else(String::new, |[lower, upper]| format!(" (90 % band {} to {})", shown(lower), shown(upper)));
+        let of = format!("{}, {}, {}", result.of, result.site, result.im);
+        writeln!(out, "Uncertain {of}: {value}{unit}{band}")?;
+    }
+    let more = report.results.len().saturating_sub(SHOWN);
+    if more > 0 { Ok(writeln!(out, "          {more} more: --details")?) } else { Ok(()) }
+}
 
 /// Quantities, answers, and what they owe to what.
 pub(super) fn print_uncertainty(out: &mut impl Write, report: &UncertaintyReport) -> Result<(), CommandError> {

@@ -37,7 +37,18 @@ fn print_answer(out: &mut impl Write, report: &ValidateReport) -> Result<(), Com
         .right(format!("median measured{unit}"), |group| median(group.median_measured, group.median_measured_above))
         .right("computed", |group| median(group.median_computed, group.median_computed_above))
         .right("error", |group| group.median_error.map_or_else(dash, signed));
-    Ok(writeln!(out, "{table}")?)
+    writeln!(out, "{table}")?;
+    if report.key.is_empty() {
+        writeln!(out, "Two samples, not joined: --key COLUMN joins rows of the same motion")?;
+    }
+    let of = &report.unmatched;
+    let left_out = |only: &[String], blank: &[String]| only.len() + blank.len();
+    let measured = left_out(&of.measured_only, &of.measured_blank);
+    let computed = left_out(&of.computed_only, &of.computed_blank);
+    if measured + computed > 0 {
+        writeln!(out, "Left out {measured} measured and {computed} computed rows, without a partner or a value")?;
+    }
+    Ok(())
 }
 
 fn print_details(mut out: &mut impl Write, report: &ValidateReport) -> Result<(), CommandError> {
