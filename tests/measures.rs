@@ -64,7 +64,7 @@ fn a_study_of_spectral_acceleration_alone() {
     let status = study.uplift(&["status", "r.h5"]).ok().stdout;
     assert!(status.contains("SA(0.5)  48 analyses"), "{status}");
     // what was computed is not computed again
-    let again = study.uplift(&["run", "study.toml", "-o", "r.h5", "--force"]).ok().stderr;
+    let again = study.uplift(&["run", "study.toml", "-o", "r.h5", "--again"]).ok().stderr;
     assert!(again.contains("48 of 48 analyses from before"), "{again}");
 }
 

@@ -89,7 +89,7 @@ fn a_report_is_one_file_without_a_network() {
     assert!(OTHERS.iter().all(|name| !page.contains(&format!("id=\"r1-{name}\""))));
     // no bootstrap, no figure of its bands
     assert!(page.contains("id=\"r2-urs-pgv\"") && !page.contains("id=\"r2-bands-together\""));
-    for word in ["r1-table-4-1", "r1-table-4-2", "r1-records", "study.toml", "SHA-256", "Before you use"] {
+    for word in ["r1-table-4-1", "r1-table-4-2", "r1-records", "study.toml", "SHA-256", ">Warnings<"] {
         assert!(page.contains(word), "{word}");
     }
     assert!(page.contains("&lt;b&gt;second") && !page.contains("<b>second"), "text of the study is text");
@@ -141,7 +141,7 @@ fn a_report_leads_with_the_answer() {
     let row: Vec<&str> = table.split_once("<tr><td>Here</td>").unwrap().1.split("</td>").collect();
     let shown = row[0].split_once('>').unwrap().1;
     let (u_m, band) = shown.strip_suffix(')').unwrap().split_once(" (").unwrap();
-    let (lower, upper) = band.split_once(" to ").unwrap();
+    let (lower, upper) = band.split_once('–').unwrap();
     let of_set = (rarest + 1) * sizes - 1;
     let expected = [
         (u_m, value("/urs/pgv/u_m", rarest)),

@@ -120,7 +120,7 @@ fn coefficients_of_repaired_spectra_stand_beside_the_plain_ones() {
     }
     let text = study.uplift(&["table", "r.h5"]).ok().stdout;
     assert_eq!(text.matches("PGV, repaired").count(), 3, "{text}");
-    assert!(text.contains("\nrepaired: of records weighted"), "{text}");
+    assert!(text.contains("\nrepaired: records weighted"), "{text}");
     // read off the same weights at another probability, and at one of the study to the same number
     assert_eq!(rows(&["--poe", "0.05"]).len(), 3);
     let asked = rows(&["--poe", by_pgv[4]["poe"].to_string().as_str()]);
