@@ -32,7 +32,7 @@ fn every_site_is_repaired_as_one_of_the_sites_is() {
     for name in ["alpha", "delta"] {
         study.uplift(&["hazard", "import", "pgv-export.csv", "pga-export.csv", "-o", name, "--name", name]).ok();
     }
-    let told = study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "risk.extrapolate=loglog"]).ok().stdout;
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "risk.extrapolate=loglog"]).ok();
     let file = LabelledReader::open(&study.path().join("r.h5")).unwrap();
     let spectra = rows(&read(study.path(), "r.sites.csv"), &["u_m", "u_consistent_m"]);
     let coefficients = read(study.path(), "r.sites.coefficients.csv");

@@ -44,8 +44,10 @@ pub fn two_digits(value: f64) -> String {
         return "∞".to_owned();
     }
     let value = rounded(value, 2);
-    let decimals = if value == 0.0 { 0.0 } else { (1.0 - value.abs().log10().floor()).clamp(0.0, 5.0) };
-    format!("{value:.*}", decimals as usize)
+    // the least values that are told with 0, 1, 2, … decimals
+    let least = [10.0, 1.0, 0.1, 0.01, 0.001];
+    let decimals = least.iter().position(|&least| value.abs() >= least).unwrap_or(least.len());
+    format!("{value:.*}", if value == 0.0 { 0 } else { decimals })
 }
 
 /// A displacement with its confidence band in a sentence: `0.35 m (0.24 to 0.84)`.
