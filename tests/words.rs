@@ -81,9 +81,11 @@ fn restrainers_and_samples_are_told_briefly() {
     }
     brief(&study, "restrainer design column-j.toml --catalogue disc-springs.csv --capacity-m 0.5", 150);
     let rows = |factor: f64| -> String {
-        let row =
-            |place: i32| format!("{},{}\n", ["low", "high"][place as usize % 2], factor * 0.01 * f64::from(place));
-        format!("level,u_m\n{}", (1..=30).map(row).collect::<String>())
+        let pair = |place: i32| {
+            let [low, high] = [2 * place, 2 * place + 1].map(|place| factor * 0.01 * f64::from(place));
+            format!("low,{low}\nhigh,{high}\n")
+        };
+        format!("level,u_m\n{}", (1..=15).map(pair).collect::<String>())
     };
     study.write("tests.csv", &rows(1.0));
     study.write("model.csv", &rows(1.3));

@@ -37,14 +37,14 @@ pub(super) fn print_warnings_up_to(
     if alarms.is_empty() {
         return Ok(());
     }
-    let lines = alarms.iter().map(|alarm| (alarm.severity, warning(alarm))).collect();
-    print_lines(out, lines, all, shown)
+    let lines: Vec<_> = alarms.iter().map(|alarm| (alarm.severity, warning(alarm))).collect();
+    print_lines(out, &lines, all, shown)
 }
 
 /// The first of the lines, `shown` at most and no more than are read, and what shows `all`.
 pub(super) fn print_lines(
     out: &mut impl Write,
-    lines: Vec<(Severity, String)>,
+    lines: &[(Severity, String)],
     all: &str,
     shown: usize,
 ) -> Result<(), CommandError> {

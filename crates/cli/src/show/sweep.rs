@@ -86,7 +86,7 @@ fn print_cautions(out: &mut impl Write, report: &SweepReport, shown: usize) -> R
         let all = variants.len() == report.variants.len();
         (severity, if all { line } else { format!("{line} ({})", variants.join(", ")) })
     };
-    print_lines(out, said.into_iter().map(line).collect(), "--details", shown.max(SHOWN))
+    print_lines(out, &said.into_iter().map(line).collect::<Vec<_>>(), "--details", shown.max(SHOWN))
 }
 
 /// The rarest spectrum of a variant by a measure, at one site or any.
