@@ -44,7 +44,9 @@ pub fn two_digits(value: f64) -> String {
     }
     let value = rounded(value, 2);
     let decimals = if value == 0.0 { 0.0 } else { (1.0 - value.abs().log10().floor()).clamp(0.0, 5.0) };
-    format!("{value:.*}", decimals as usize)
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 5")]
+    let decimals = decimals as usize;
+    format!("{value:.decimals$}")
 }
 
 /// A displacement with its confidence band in a sentence: `0.35 m (0.24 to 0.84)`.
