@@ -122,7 +122,7 @@ struct SetArguments {
     /// Manifest, from uplift records import
     #[arg(value_name = "SET")]
     set: PathBuf,
-    /// Only records with this word in set_tags
+    /// Only records with this tag
     #[arg(long, value_name = "WORD", help = "Only rows whose set_tags contain this word")]
     tag: Option<String>,
     /// Combination of two components: geometric-mean, rotd50 or rotd100

@@ -137,7 +137,7 @@ struct FrameArguments {
     /// Vertical component, upwards positive
     #[arg(long, value_name = "FILE", requires = "structure")]
     v: Option<PathBuf>,
-    /// Model of the frame: planar or wobbling [default: by its column_shape]
+    /// Model of the frame: planar or wobbling [default: by the shape of its columns]
     #[arg(long, value_name = "MODEL", requires = "structure", value_parser = model)]
     model: Option<Model>,
     /// Rotation below which the frame rests, rad [default: 1e-5 wobbling, 0 planar]

@@ -23,7 +23,7 @@ pub(crate) struct ConsistencyArguments {
     /// Keep every weight in the result; implies --repair
     #[arg(long)]
     keep_weights: bool,
-    /// OpenQuake disaggregation to compare with the records
+    /// Disaggregation (`OpenQuake`) to compare with the records
     #[arg(
         long = "disaggregation",
         value_name = "[SITE=]FILE",

@@ -21,7 +21,7 @@ pub(crate) struct ExportArguments {
     /// JSON with spectra, bands, coefficients and warnings
     #[arg(long)]
     json: bool,
-    /// MATLAB file; u_pgv_m is strength x probability x site
+    /// MATLAB file
     #[arg(long)]
     mat: bool,
     /// Excel workbook with spectra, bands, coefficients and hazard

@@ -26,7 +26,7 @@ pub(crate) struct FrameRiskArguments {
     /// Intensity measure [default: pgv]
     #[arg(long)]
     measure: Option<IntensityMeasure>,
-    /// Model of the frame: wobbling or planar [default: by its column_shape]
+    /// Model of the frame: wobbling or planar [default: by the shape of its columns]
     #[arg(long, value_name = "MODEL", value_parser = model)]
     model: Option<Model>,
     /// Print JSON
