@@ -164,7 +164,7 @@ fn every_branch_is_repaired_by_its_own_pair_of_curves() {
 fn branches_that_are_not_the_same_are_repaired_by_their_mean_and_it_is_said() {
     let apart = two_measures("north south", "north elsewhere", "");
     apart.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
-    let told = apart.uplift(&["consistency", "r.h5", "-q"]).ok().stdout;
+    let told = apart.uplift(&["consistency", "r.h5", "-q", "--details"]).ok().stdout;
     assert!(told.contains("Here by PGV: its weighted hazard curves are repaired by their mean only"), "{told}");
     let file = LabelledReader::open(&apart.path().join("r.h5")).unwrap();
     assert!(file.exists("/consistency/pgv/u_m") && !file.exists("/consistency/pgv/branches"));
@@ -261,13 +261,17 @@ fn numbers_of_a_structure_are_banded_over_the_curves_of_the_hazard() {
         }
     }
     // told in words, kept in the result, and exported
-    let told = study.uplift(&["design", "frame.toml", "--urs", "r.h5", "-q"]).ok().stdout;
+    let told = study.uplift(&["design", "frame.toml", "--urs", "r.h5", "-q", "--details"]).ok().stdout;
     assert!(told.contains("with the site's 2 hazard curves, ") && told.contains("capacity less demand"), "{told}");
-    let told = study.uplift(&["overturning", "frame.toml", "--urs", "r.h5", "-q", "-o", "o.csv"]).ok().stdout;
+    let told =
+        study.uplift(&["overturning", "frame.toml", "--urs", "r.h5", "-q", "--details", "-o", "o.csv"]).ok().stdout;
     assert!(told.contains("with the site's weighted hazard curves"), "{told}");
     let table = std::fs::read_to_string(study.path().join("o.risk.csv")).unwrap();
     assert!(table.contains("maf_records_upper_per_year,maf_hazard_lower_per_year"), "{table}");
-    let told = study.uplift(&[&["target", "frame.toml", "--urs", "r.h5", "-q"], &TARGET[1..]].concat()).ok().stdout;
+    let told = study
+        .uplift(&[&["target", "frame.toml", "--urs", "r.h5", "-q", "--details"], &TARGET[1..]].concat())
+        .ok()
+        .stdout;
     assert!(told.contains("records and hazard"), "{told}");
     study.uplift(&["export", "r.h5", "--json", "-o", "x.json", "-q"]).ok();
     let json = std::fs::read_to_string(study.path().join("x.json")).unwrap();

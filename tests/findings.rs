@@ -129,7 +129,8 @@ fn report_and_exports_tell_what_was_printed() {
     study.uplift(&["export", "r.h5", "--csv", "--json", "--mat", "--xlsx", "-q"]).ok();
     let text = |name: &str| std::fs::read_to_string(study.path().join(name)).unwrap();
     assert!(!study.path().join("r.structures.csv").exists() && !text("r.json").contains("\"structures\""));
-    let printed: Vec<Finished> = QUESTIONS.iter().map(|question| ask(&study, question)).collect();
+    let printed: Vec<Finished> =
+        QUESTIONS.iter().map(|question| ask(&study, &format!("{question} --details"))).collect();
     study.uplift(&["report", "r.h5", "-q"]).ok();
     study.uplift(&["export", "r.h5", "--csv", "--json", "--mat", "--xlsx", "-q"]).ok();
     let (page, json): (String, Value) = (text("r.html"), serde_json::from_str(&text("r.json")).unwrap());
