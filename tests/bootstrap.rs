@@ -344,7 +344,9 @@ fn influence_is_that_of_a_set_without_the_record() {
     assert!(whole > 20);
     let text = study.uplift(&["influence", "all.h5"]).ok().stdout;
     assert!(
-        text.contains("Records with the largest influence") && text.contains("SYN") && text.contains("all.influence.csv"),
+        text.contains("Records with the largest influence")
+            && text.contains("SYN")
+            && text.contains("all.influence.csv"),
         "{text}"
     );
 }

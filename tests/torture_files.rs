@@ -28,7 +28,8 @@ fn race(rounds: usize) {
         let mut killed = study.start(&["run", "study.toml", "--again", "--quiet", "-o", "site.h5"]);
         killed.wait_until("its lock", || study.path().join(".site.h5.lock").exists());
         killed.kill();
-        let runs = ["site.h5", "site.v2.h5"].map(|name| study.start(&["run", "study.toml", "--again", "--quiet", "-o", name]));
+        let runs =
+            ["site.h5", "site.v2.h5"].map(|name| study.start(&["run", "study.toml", "--again", "--quiet", "-o", name]));
         let codes = runs.map(|run| {
             let ended = run.end();
             if ended.code != 0 {

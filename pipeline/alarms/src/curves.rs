@@ -74,8 +74,8 @@ fn case(study: &UniformRiskStudy, site: &str, biases: [Option<f64>; 2]) -> Optio
         badness: times,
         subject: site.to_owned(),
         what: format!(
-            "its curve of PGA is {times:.1} times too {direction} for its curve of PGV and these records; sites differ by \
-             2 or 3 times"
+            "its curve of PGA is {times:.1} times too {direction} for its curve of PGV and these records; sites differ \
+             by 2 or 3 times"
         ),
         what_to_do: unit_that_explains(study, site, too_high)
             .unwrap_or_else(|| "Check both curves: unit, annual rates, site, and definition of the measure".to_owned()),

@@ -28,8 +28,8 @@ pub(super) fn case(curves: &CurvesAtSite<'_>) -> Option<Case> {
         format!("If so, write {line} with the years of the file, and poe for maf in its head")
     } else {
         format!(
-            "If all curves of {key} are, write {line}, and poe for maf in their heads; if not all, write rates per year \
-             into the files of those that are"
+            "If all curves of {key} are, write {line}, and poe for maf in their heads; if not all, write rates per \
+             year into the files of those that are"
         )
     };
     let first = found.curve.first();

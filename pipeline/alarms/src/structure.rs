@@ -99,8 +99,8 @@ fn none_seen(own: &OwnRisk) -> Option<Case> {
         badness: at_most_per_year,
         subject: own.subject.clone(),
         what: format!(
-            "0 of {} up to {} {}, so at most {at_most_per_year:.1e} a year: 0 of {pairs}{weighted} leave up to {} at the \
-             last level ({} confidence)",
+            "0 of {} up to {} {}, so at most {at_most_per_year:.1e} a year: 0 of {pairs}{weighted} leave up to {} at \
+             the last level ({} confidence)",
             records_in_words(own.records, own.pairs),
             own.levels.1,
             own.measure.unit(),

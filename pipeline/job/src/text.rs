@@ -42,9 +42,12 @@ pub fn two_digits(value: f64) -> String {
     if value.is_infinite() {
         return "∞".to_owned();
     }
-    let value = rounded(value, 2);
-    let decimals = if value == 0.0 { 0.0 } else { (1.0 - value.abs().log10().floor()).clamp(0.0, 5.0) };
-    format!("{value:.*}", decimals as usize)
+    // what rounding makes of it decides where the first digit stands
+    let written = format!("{value:.1e}");
+    let exponent = written.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()).unwrap_or(0);
+    let value = written.parse::<f64>().unwrap_or(value);
+    let decimals = if value == 0.0 { 0 } else { usize::try_from(1 - exponent).unwrap_or(0) };
+    format!("{value:.decimals$}")
 }
 
 /// A displacement with its confidence band in a sentence: `0.35 m (0.24 to 0.84)`.

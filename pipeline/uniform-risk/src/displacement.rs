@@ -12,7 +12,7 @@ use uplift_job::text::nearest;
 use uplift_job::{Array, JobError};
 use uplift_motion::IntensityMeasure;
 use uplift_result::{MeasureSpectra, ResultFile};
-use uplift_structure::{Capacity, Rule};
+use uplift_structure::{Capacity, Demand, Rule};
 
 use crate::asked::{AskedRisk, RiskTargets};
 use crate::consistency::Question;
@@ -304,7 +304,7 @@ fn capacity_rule(capacity_m: Option<f64>, uplift_displacement_m: f64) -> Result<
     Ok(move |zero_m: f64| match &capacity {
         // not a number: no band; infinite: it overturns
         Some(capacity) if zero_m.is_finite() => {
-            Rule::EqualEnergy.demand(capacity, zero_m).map_or(f64::NAN, |demand| demand.displacement_m())
+            Rule::EqualEnergy.demand(capacity, zero_m).map_or(f64::NAN, Demand::displacement_m)
         }
         _ => zero_m,
     })

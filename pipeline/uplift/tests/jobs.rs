@@ -15,7 +15,7 @@ use uplift::influence::{InfluenceOptions, influence};
 use uplift::result::{AskedRisk, RiskTargets};
 use uplift::structure::{DesignOptions, OverturningOptions, design, overturning};
 use uplift::study::{AnyStudy, Structure, Study};
-use uplift::{RunOptions, Silent, UpliftError, run};
+use uplift::{RunOptions, Silent, run};
 use uplift_labelled::LabelledReader;
 use uplift_motion::IntensityMeasure;
 

@@ -56,7 +56,8 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, name: &str) -> 
 fn print_intensities(out: &mut impl Write, report: &InfluenceReport, name: &str) -> Result<(), CommandError> {
     writeln!(
         out,
-        "\nIntensities behind the risk, {name}: levels below which 5, 50 and 95 % of it lie, and shares outside the levels"
+        "\nIntensities behind the risk, {name}: levels below which 5, 50 and 95 % of it lie, \
+         and shares outside the levels"
     )?;
     let level = |level: f64| if level.is_nan() { "-".to_owned() } else { format!("{level:.3}") };
     // a level outside the stripes is known to be no more than that

@@ -105,8 +105,8 @@ fn levels(check: &LevelCheck) -> String {
     let LevelCheck { im, unit, first_level, lower_tail_share, last_level, upper_tail_share, .. } = check;
     let strengths: Vec<String> = check.strengths.iter().map(|strength| format!("{strength:.3}")).collect();
     format!(
-        "{im}, at the strengths tried ({}): up to {} of the risk lies below the first level, {first_level} {unit}, up to \
-         {} above the last, {last_level} {unit}",
+        "{im}, at the strengths tried ({}): up to {} of the risk lies below the first level, {first_level} {unit}, \
+         up to {} above the last, {last_level} {unit}",
         strengths.join(", "),
         share(*lower_tail_share),
         share(*upper_tail_share)

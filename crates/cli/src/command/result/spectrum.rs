@@ -19,7 +19,13 @@ pub(crate) struct SpectrumArguments {
     #[command(flatten)]
     result: ResultArguments,
     /// Uplift strengths [default: about 0.1, 0.2 and 0.4]
-    #[arg(long, value_name = "STRENGTH[,…]", value_delimiter = ',', allow_negative_numbers = true, value_parser = number)]
+    #[arg(
+        long,
+        value_name = "STRENGTH[,…]",
+        value_delimiter = ',',
+        allow_negative_numbers = true,
+        value_parser = number
+    )]
     strength: Vec<f64>,
     #[command(flatten)]
     risk: RiskArguments,
