@@ -8,17 +8,14 @@ use uplift_uniform_risk::UniformRiskError;
 
 /// Why a result cannot be looked at.
 #[derive(Debug, Error)]
+#[error("{0}")]
 pub enum AlarmsError {
     /// What keeps any job from being done.
-    #[error("{0}")]
     Job(#[from] JobError),
     /// A result that cannot be read or written.
-    #[error("{0}")]
     Result(#[from] ResultError),
     /// Spectra that cannot be computed.
-    #[error("{0}")]
     UniformRisk(#[from] UniformRiskError),
     /// A hazard curve cannot be read or used.
-    #[error("{0}")]
     Hazard(#[from] HazardError),
 }

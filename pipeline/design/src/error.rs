@@ -22,65 +22,46 @@ use uplift_uniform_risk::UniformRiskError;
 
 /// Why a structure was not judged.
 #[derive(Debug, Error)]
+#[error("{0}")]
 pub enum DesignError {
     /// What keeps any job from being done.
-    #[error("{0}")]
     Job(#[from] JobError),
     /// Records or hazard curves that cannot be used.
-    #[error("{0}")]
     Inputs(#[from] InputsError),
     /// Analyses that cannot be carried out.
-    #[error("{0}")]
     Engine(#[from] EngineError),
     /// A result that cannot be read or written.
-    #[error("{0}")]
     Result(#[from] ResultError),
     /// Spectra that cannot be computed.
-    #[error("{0}")]
     UniformRisk(#[from] UniformRiskError),
     /// A result that cannot be looked at.
-    #[error("{0}")]
     Alarms(#[from] AlarmsError),
     /// A question that has no answer.
-    #[error("{0}")]
     Questions(#[from] QuestionsError),
     /// A hazard curve cannot be read or used.
-    #[error("{0}")]
     Hazard(#[from] HazardError),
     /// Demands and hazard that do not fit together.
-    #[error("{0}")]
     Risk(#[from] RiskError),
     /// Demands of which no fragility can be made.
-    #[error("{0}")]
     Fragility(#[from] FragilityError),
     /// Resamples that cannot be drawn.
-    #[error("{0}")]
     Bootstrap(#[from] BootstrapError),
     /// A structure that cannot be, or to which a rule does not apply.
-    #[error("{0}")]
     Structure(#[from] StructureError),
     /// A frame that cannot be shaken so.
-    #[error("{0}")]
     Frame(#[from] FrameError),
     /// An oscillator or its excitation that cannot be.
-    #[error("{0}")]
     Oscillator(#[from] OscillatorError),
     /// Blocks or pulses that cannot be; all that was found.
     #[error("{}", uplift_job::list("", .0))]
     Blocks(Vec<BlockError>),
     /// Structures that cannot be drawn.
-    #[error("{0}")]
     Uncertainty(#[from] UncertaintyError),
     /// A displacement spectrum that cannot be computed.
-    #[error("{0}")]
     Spectra(#[source] Box<SpectraError>),
 }
 
-impl From<IdaError> for DesignError {
-    fn from(error: IdaError) -> Self {
-        JobError::from(error).into()
-    }
-}
+uplift_job::through_job_error!(DesignError: IdaError);
 
 impl From<BlockError> for DesignError {
     fn from(error: BlockError) -> Self {

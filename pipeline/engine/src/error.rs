@@ -9,23 +9,12 @@ use crate::checkpoint::CheckpointError;
 
 /// Why analyses were not carried out.
 #[derive(Debug, Error)]
+#[error("{0}")]
 pub enum EngineError {
     /// What keeps any job from being done.
-    #[error("{0}")]
     Job(#[from] JobError),
     /// A file of finished analysis rows cannot be used.
-    #[error("{0}")]
     Checkpoint(#[from] CheckpointError),
 }
 
-impl From<IdaError> for EngineError {
-    fn from(error: IdaError) -> Self {
-        JobError::from(error).into()
-    }
-}
-
-impl From<FileError> for EngineError {
-    fn from(error: FileError) -> Self {
-        JobError::from(error).into()
-    }
-}
+uplift_job::through_job_error!(EngineError: IdaError, FileError);

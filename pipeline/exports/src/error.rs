@@ -13,32 +13,24 @@ use uplift_uniform_risk::UniformRiskError;
 
 /// Why an export was not made.
 #[derive(Debug, Error)]
+#[error("{0}")]
 pub enum ExportsError {
     /// What keeps any job from being done.
-    #[error("{0}")]
     Job(#[from] JobError),
     /// A result that cannot be read or written.
-    #[error("{0}")]
     Result(#[from] ResultError),
     /// Spectra that cannot be computed.
-    #[error("{0}")]
     UniformRisk(#[from] UniformRiskError),
     /// A result that cannot be looked at.
-    #[error("{0}")]
     Alarms(#[from] AlarmsError),
     /// A question that has no answer.
-    #[error("{0}")]
     Questions(#[from] QuestionsError),
     /// A single test that cannot be carried out.
-    #[error("{0}")]
     Laboratory(#[from] LaboratoryError),
     /// A hazard curve cannot be read or used.
-    #[error("{0}")]
     Hazard(#[from] HazardError),
     /// The study file has mistakes.
-    #[error("{0}")]
     Study(#[from] StudyError),
     /// Columns, a restrainer or a protocol that cannot be, or a displacement beyond their reach.
-    #[error("{0}")]
     Statics(#[from] StaticsError),
 }

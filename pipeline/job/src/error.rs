@@ -14,9 +14,9 @@ use crate::text::one_line;
 /// Why a job did not do what it was asked, whatever the job. Each crate of the pipeline wraps it in an error of its
 /// own; [`cause`] finds it there.
 #[derive(Debug, Error)]
+#[error("{0}")]
 pub enum JobError {
     /// What a job is asked for does not fit together.
-    #[error("{0}")]
     Usage(String),
     /// A choice among what a result has, that it does not have or that was not made.
     #[error("{}: the result has {}", choice(option, wanted.as_deref()), known.join(", "))]
@@ -41,10 +41,8 @@ pub enum JobError {
     )]
     Room(Vec<String>),
     /// A file cannot be opened or written.
-    #[error("{0}")]
     File(#[from] FileError),
     /// A file of labelled arrays, a result above all, cannot be read or written.
-    #[error("{0}")]
     Labelled(#[from] LabelledError),
     /// One of the files that a job reads is at fault.
     #[error("{}: {source}", path.display())]
@@ -55,7 +53,6 @@ pub enum JobError {
         source: Box<dyn Error + Send + Sync>,
     },
     /// An analysis that cannot be planned or finished; one that was told to stop is [`Interrupted`](Self::Interrupted).
-    #[error("{0}")]
     Analysis(#[source] Box<IdaError>),
     /// The user stopped the run.
     #[error(
@@ -77,6 +74,18 @@ pub enum JobError {
         /// The checkpoint that holds them.
         path: PathBuf,
     },
+}
+
+/// Makes the error of a crate of the pipeline from errors that a [`JobError`] is made from, by way of it.
+#[macro_export]
+macro_rules! through_job_error {
+    ($error:ty: $($from:ty),+) => {
+        $(impl From<$from> for $error {
+            fn from(error: $from) -> Self {
+                $crate::JobError::from(error).into()
+            }
+        })+
+    };
 }
 
 /// An option, with the value given to it.

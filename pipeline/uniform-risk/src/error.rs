@@ -12,35 +12,25 @@ use uplift_risk::RiskError;
 
 /// Why spectra were not computed.
 #[derive(Debug, Error)]
+#[error("{0}")]
 pub enum UniformRiskError {
     /// What keeps any job from being done.
-    #[error("{0}")]
     Job(#[from] JobError),
     /// Records or hazard curves that cannot be used.
-    #[error("{0}")]
     Inputs(#[from] InputsError),
     /// A result that cannot be read or written.
-    #[error("{0}")]
     Result(#[from] ResultError),
     /// A hazard curve cannot be read or used.
-    #[error("{0}")]
     Hazard(#[from] HazardError),
     /// Demands and hazard that do not fit together.
-    #[error("{0}")]
     Risk(#[from] RiskError),
     /// Demands of which no fragility can be made.
-    #[error("{0}")]
     Fragility(#[from] FragilityError),
     /// Records and hazard that cannot be held against each other.
-    #[error("{0}")]
     Consistency(#[source] Box<ConsistencyError>),
 }
 
-impl From<IdaError> for UniformRiskError {
-    fn from(error: IdaError) -> Self {
-        JobError::from(error).into()
-    }
-}
+uplift_job::through_job_error!(UniformRiskError: IdaError);
 
 impl From<ConsistencyError> for UniformRiskError {
     fn from(error: ConsistencyError) -> Self {

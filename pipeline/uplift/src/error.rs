@@ -23,65 +23,41 @@ use uplift_uniform_risk::UniformRiskError;
 
 /// Why a job did not do what it was asked.
 #[derive(Debug, Error)]
+#[error("{0}")]
 pub enum UpliftError {
     /// What keeps any job from being done.
-    #[error("{0}")]
     Job(#[from] JobError),
     /// Records or hazard curves that cannot be used.
-    #[error("{0}")]
     Inputs(#[from] InputsError),
     /// Analyses that cannot be carried out.
-    #[error("{0}")]
     Engine(#[from] EngineError),
     /// A result that cannot be read or written.
-    #[error("{0}")]
     Result(#[from] ResultError),
     /// Spectra that cannot be computed.
-    #[error("{0}")]
     UniformRisk(#[from] UniformRiskError),
     /// A result that cannot be looked at.
-    #[error("{0}")]
     Alarms(#[from] AlarmsError),
     /// A study that cannot be carried out.
-    #[error("{0}")]
     Studies(#[from] StudiesError),
     /// A question that has no answer.
-    #[error("{0}")]
     Questions(#[from] QuestionsError),
     /// A structure that cannot be judged.
-    #[error("{0}")]
     Design(#[from] DesignError),
     /// A single test that cannot be carried out.
-    #[error("{0}")]
     Laboratory(#[from] LaboratoryError),
     /// An export that cannot be made.
-    #[error("{0}")]
     Exports(#[from] ExportsError),
     /// The study file has mistakes.
-    #[error("{0}")]
     Study(#[from] StudyError),
     /// A study that TOML cannot hold; one that was loaded is none.
-    #[error("{0}")]
     StudyToml(#[from] toml::ser::Error),
     /// A file of finished analysis rows cannot be used.
-    #[error("{0}")]
     Checkpoint(#[from] CheckpointError),
     /// Columns, a restrainer or a protocol that cannot be, or a displacement beyond their reach.
-    #[error("{0}")]
     Statics(#[from] StaticsError),
 }
 
-impl From<LabelledError> for UpliftError {
-    fn from(error: LabelledError) -> Self {
-        JobError::from(error).into()
-    }
-}
-
-impl From<FileError> for UpliftError {
-    fn from(error: FileError) -> Self {
-        JobError::from(error).into()
-    }
-}
+uplift_job::through_job_error!(UpliftError: LabelledError, FileError);
 
 impl UpliftError {
     /// What happened, without the crates of the pipeline that passed it on: an error of a job, or of the crate of the
@@ -93,10 +69,8 @@ impl UpliftError {
     /// Blocks or pulses that cannot be, all that was found.
     pub fn blocks(&self) -> &[BlockError] {
         let root = self.root();
-        match (root.downcast_ref(), root.downcast_ref(), root.downcast_ref()) {
-            (Some(StudiesError::Blocks(blocks)), ..)
-            | (_, Some(DesignError::Blocks(blocks)), _)
-            | (.., Some(LaboratoryError::Blocks(blocks))) => blocks,
+        match (root.downcast_ref(), root.downcast_ref()) {
+            (Some(DesignError::Blocks(blocks)), _) | (_, Some(LaboratoryError::Blocks(blocks))) => blocks,
             _ => &[],
         }
     }
