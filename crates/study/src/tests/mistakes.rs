@@ -184,7 +184,7 @@ fn files_that_cannot_be() {
     let folder = Folder::new("[pgv]\n[records]\nmanifest = \".\"\n[output]\nfile = \".\"");
     let error = folder.load(&[]).unwrap_err();
     let told: Vec<_> = error.mistakes().iter().map(|m| m.message.split(':').next()).collect();
-    assert_eq!(told, [Some("this is not a file"), Some("this is a folder")]);
+    assert_eq!(told, [Some("this is a folder"), Some("this is a folder")]);
     for overwritten in ["study.toml", "pgv.csv", "../{}/manifest.csv"] {
         let name = folder.path("").file_name().unwrap().to_str().unwrap().to_owned();
         let text = format!(
