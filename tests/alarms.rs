@@ -488,10 +488,7 @@ fn numbers_in_other_units_are_taken_and_told() {
         assert!(mistake.starts_with(start), "{mistake}");
     }
     let shown = study.uplift(&[&pier[..], &["--details"]].concat()).ok().stdout;
-    assert!(
-        shown.contains("\nThese verdicts stand only if what is marked mistake? below is as it was meant.\n"),
-        "{shown}"
-    );
+    assert!(shown.contains("\nThese verdicts hold only if the inputs marked mistake? below are right.\n"), "{shown}");
 }
 
 #[test]

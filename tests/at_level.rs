@@ -280,7 +280,7 @@ fn mistakes_are_all_told_with_their_numbers() {
     study.write("sets.csv", "record_id,pgv_cm_s\nSYN001,1\nSYN002,3\nSYN001,10\nSYN003,30\nSYN001,100\n");
     let two = ["check", "study.toml", "--set", "records.at_level=sets.csv", "--set", "sites.0.pga=pga.csv"];
     let said = study.uplift(&[&two[..], &["--details"]].concat()).ok().stdout;
-    for words in ["3 synthetic pairs", "(1 a level)", "Here by PGV: the records bring"] {
+    for words in ["3 synthetic pairs", "(1 a level)", "Here by PGV: the records have"] {
         assert!(said.contains(words), "{words}: {said}");
     }
     set(&["--set", "records.first=2"], &["says which records are used"]);

@@ -238,7 +238,7 @@ fn an_interrupted_bootstrap_goes_on() {
             println!("finished after {pause} pauses");
             break;
         }
-        let done = done.fails(5, &["Run the same command to go on"]);
+        let done = done.fails(5, &["Run the same command to resume"]);
         assert!(!LabelledReader::open(&study.path().join("parts.h5")).unwrap().exists("/bootstrap"));
         kept = kept_strengths(&done.stderr);
         for input in ["parts.h5", "parts.bootstrap.part.h5"] {

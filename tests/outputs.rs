@@ -278,8 +278,8 @@ fn a_file_where_earlier_results_go_is_found_before_anything_is_computed() {
     let study = study();
     study.write("n.earlier", "notes of mine\n");
     study.uplift(&["check", "study.toml", "--set", "output.file=n.h5"]).fails(2, &["n.earlier is a file", "n.h5"]);
-    refused(&study, &["run", "study.toml", "-o", "n.h5"], "n.earlier", "another name");
-    refused(&study, &["run", "study.toml", "-o", "n.h5", "--force"], "n.earlier", "another name");
+    refused(&study, &["run", "study.toml", "-o", "n.h5"], "n.earlier", "rename that file");
+    refused(&study, &["run", "study.toml", "-o", "n.h5", "--force"], "n.earlier", "rename that file");
 }
 
 /// What the numbers of a result of the study are known by.

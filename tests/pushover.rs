@@ -471,7 +471,7 @@ fn what_is_typed_wrong() {
     refused(
         &["restrainer", "design", "frame.toml", "--catalogue", &discs, "--capacity-m", "2"],
         2,
-        &["a stack stands in series with a tendon", "kind = \"tendon\""],
+        &["a stack needs a tendon in series", "kind = \"tendon\""],
     );
 }
 

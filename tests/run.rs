@@ -181,7 +181,7 @@ fn termination_says_how_to_go_on() {
     let checkpoint = study.path().join("r.h5.part");
     run.wait_until("a checkpoint", || checkpoint.exists());
     run.terminate();
-    let ended = run.end().fails(5, &["interrupted", "checkpoint", "Run the same command to go on"]);
+    let ended = run.end().fails(5, &["interrupted", "checkpoint", "Run the same command to resume"]);
     assert_eq!(ended.stderr.lines().count(), 1, "{}", ended.stderr);
 }
 

@@ -119,7 +119,7 @@ fn pairs_by_key() {
         "pairs by exc_id",
         "FF, low",
         ">0.0800",
-        "known to be above that with them at their limits",
+        "a lower bound (>m) without an error",
     ] {
         assert!(told.contains(words), "{words} is not in\n{told}");
     }

@@ -59,7 +59,7 @@ class Mistake:
     key : str
         The key of the study, dotted; empty where it is none.
     line, column : int or None
-        Where it stands in the study file, from 1.
+        Its line in the study file, from 1.
     override : str or None
         The override in which it is.
     help : str or None
@@ -142,7 +142,7 @@ def find_program() -> Path:
     if on_path:
         return Path(on_path)
     raise FileNotFoundError(
-        "the program uplift is not installed: a wheel of uplift-urs brings it, a source distribution does not; build it"
+        "the program uplift is not installed: the wheel of uplift-urs has it, the source distribution does not; build it"
         " (make build), and put it on the path or name it in UPLIFT_PROGRAM"
     )
 
@@ -156,7 +156,7 @@ def call(arguments: Sequence[str | os.PathLike[str]], *, progress: Progress | No
     progress : callable, optional
         Called with every `Event`; False stops the program, and so does what it raises.
     text : str
-        What stands on its standard input.
+        Its standard input.
 
     Raises
     ------

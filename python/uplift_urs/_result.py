@@ -167,7 +167,7 @@ class Result(StructureCommands):
 
     @property
     def consistency(self) -> Dataset:
-        """Whether the records bring the hazard of the other measure; repaired spectra after `compute_consistency`."""
+        """Consistency with the hazard of the other measure; repaired spectra after `compute_consistency`."""
         return self._of_measure("consistency")
 
     @property

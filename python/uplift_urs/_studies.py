@@ -93,7 +93,7 @@ def check(study: str | os.PathLike[str] | Mapping[str, Any], **overrides: Any) -
 def _arguments(
     study: str | os.PathLike[str] | Mapping[str, Any], overrides: Mapping[str, Any]
 ) -> tuple[list[str], str]:
-    """The arguments that name a study, and what stands on standard input."""
+    """The arguments that name a study, and its standard input."""
     changes = [f"--set={change}" for change in _toml.overrides(overrides)]
     if isinstance(study, Mapping):
         return [*changes, "-"], _toml.document(study)

@@ -177,7 +177,7 @@ impl Events for Terminal {
             Event::Checkpoint { path: &checkpoint.to_string_lossy() }.tell();
         }
         self.set_interruption_message(format!(
-            "interrupted: all that is finished is in the checkpoint {}. Run the same command to go on from there",
+            "interrupted: finished work is in the checkpoint {}. Run the same command to resume",
             checkpoint.display()
         ));
     }

@@ -213,7 +213,7 @@ pub fn plot_hazard(options: &HazardPlotOptions, events: &dyn Events) -> Result<P
     let curves = read_curves(&options.files, &options.curves, events)?;
     if curves.len() > MOST_CURVES {
         return Err(JobError::Usage(format!(
-            "{} curves cannot be told apart in one figure: pick a site by --name or --near LON,LAT",
+            "{} curves are too many for one figure: pick a site by --name or --near LON,LAT",
             curves.len()
         ))
         .into());

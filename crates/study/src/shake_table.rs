@@ -109,7 +109,7 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<ShakeTableStu
     } else {
         root.mistake(
             "structure",
-            "which structure stands on the table?",
+            "which structure is on the table?",
             "add structure = \"frame.toml\", a structure file with columns and a deck",
         );
         None

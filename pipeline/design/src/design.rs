@@ -309,8 +309,8 @@ fn not_repaired(source: &StudyOfResult, place: Place<'_>) -> DesignError {
 fn beside(plain: Option<SpectrumDemand>, repaired: Option<SpectrumDemand>) -> Option<String> {
     let [plain_m, repaired_m] = [plain?, repaired?].map(|demand| demand.zero_stiffness_demand_m);
     Some(format!(
-        "the repaired spectrum, of records weighted so that they bring the site's hazard, demands {repaired_m:.4} m \
-         with zero stiffness where the plain one has {plain_m:.4} m: --repaired designs by it"
+        "the repaired spectrum has {repaired_m:.4} m with zero stiffness, the plain one {plain_m:.4} m: --repaired \
+         designs by it"
     ))
 }
 

@@ -101,7 +101,7 @@ pub fn read_bytes(bytes: &[u8], path: &Path, tag: Option<&str>) -> Result<Vec<Ro
         if wanted {
             match row(&mut cells, folder) {
                 Ok(row) if !ids.insert(row.id.clone()) => {
-                    mistakes.push(format!("manifest {name}, row {}: record {} stands there twice", index + 1, row.id));
+                    mistakes.push(format!("manifest {name}, row {}: record {} is listed twice", index + 1, row.id));
                 }
                 Ok(row) => rows.push(row),
                 Err(reasons) => {

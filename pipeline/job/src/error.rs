@@ -36,7 +36,7 @@ pub enum JobError {
     Implausible(Vec<Implausible>),
     /// A job cannot fit on this machine; why.
     #[error(
-        "{}\n(what is needed is estimated: UPLIFT_LIMITS=warn in the environment goes on nonetheless)",
+        "{}\n(the need is an estimate: UPLIFT_LIMITS=warn in the environment continues)",
         list(" before it fits on this machine", .0)
     )]
     Room(Vec<String>),
@@ -61,7 +61,7 @@ pub enum JobError {
     Interrupted,
     /// The user stopped a computation that goes on where it stopped.
     #[error(
-        "interrupted: {done} of {total} {what} are in the checkpoint {}. Run the same command to go on from there",
+        "interrupted: {done} of {total} {what} are in the checkpoint {}. Run the same command to resume",
         path.display()
     )]
     Paused {

@@ -115,7 +115,7 @@ impl Output {
         {
             let beside = beside.display();
             return Some(format!(
-                "{beside} is there already, and is not from this program: give another name, or --force to replace it"
+                "{beside} exists and is not from this program: give another name, or --force to overwrite it"
             ));
         }
         let head = self.kind.head_of(&self.path)?;

@@ -15,9 +15,9 @@ pub(super) fn no_result(path: &Path, error: LabelledError) -> ResultError {
     let name = path.display();
     let ends = |ending: &str| path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending));
     let told = match &error {
-        LabelledError::File(FileError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => Some(
-            "there is no such file: `uplift run STUDY.toml` writes results, results/STUDY.h5 unless told otherwise",
-        ),
+        LabelledError::File(FileError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {
+            Some("there is no such file: `uplift run STUDY.toml` writes results, results/STUDY.h5 by default")
+        }
         LabelledError::NotHdf5 { .. } if ends("toml") => Some(if Structure::load(path).is_ok() {
             "is a structure, and a result is wanted: `uplift design` and `overturning` take it, with --urs RESULT"
         } else if Study::read(path).is_ok() {

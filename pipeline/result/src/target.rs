@@ -47,8 +47,8 @@ pub fn check_place(study: &AnyStudy, options: &RunOptions, inputs: &[PathBuf]) -
     let earlier = beside(path, "earlier");
     if earlier.exists() && !earlier.is_dir() {
         return Err(JobError::Usage(format!(
-            "{} is a file, and a folder of this name keeps what gives way to {name}: give that file another name, or \
-             the result (-o)",
+            "{} is a file, and earlier results of {name} go into a folder of this name: rename that file, or the \
+             result (-o)",
             earlier.display()
         ))
         .into());

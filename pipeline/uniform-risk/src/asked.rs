@@ -93,7 +93,7 @@ fn probability(option: &str, value: f64, years: f64) -> Result<f64, String> {
         return Ok(poe);
     }
     Err(if option == RETURN_PERIOD_OPTION {
-        let (what, way_out) = if poe > 0.5 { ("certain", "fewer") } else { ("rarer than can be told", "more") };
+        let (what, way_out) = if poe > 0.5 { ("certain", "fewer") } else { ("rarer than any number", "more") };
         format!("{option} {value}: in {years} years that is {what}: give {way_out} --years")
     } else if poe > 0.0 && poe < 1.0 {
         format!("{option} {value:e}: a probability is {PROBABILITY}")

@@ -123,7 +123,7 @@ fn axis(text: &str) -> Result<Grid, String> {
 fn lines(text: &str) -> Result<Grid, String> {
     let grid = positive(text)?;
     if grid.len() > MOST_LINES {
-        return Err(format!("{} lines cannot be told apart in one figure: give at most {MOST_LINES}", grid.len()));
+        return Err(format!("{} lines are too many for one figure: give at most {MOST_LINES}", grid.len()));
     }
     Ok(grid)
 }

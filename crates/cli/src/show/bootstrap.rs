@@ -122,8 +122,8 @@ fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
     }
     writeln!(
         out,
-        "\nHow sure the repaired spectra are, their weights solved anew for every sample: e and r of the {} interval, \
-         beside r of the plain spectra, and samples whose weights do not bring the site's hazard, all in per cent",
+        "\nRepaired spectra, weights solved anew for every resample: e and r of the {} interval, r of the plain \
+         spectra, and resamples whose weights do not match the hazard, per cent",
         per_cent(report.confidence)
     )?;
     let header = ["site", "im", "probability", "records", "plain r", "repaired e", "repaired r", "failed"];
@@ -236,8 +236,7 @@ fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), Com
          weighted hazard curves{}, per cent",
         per_cent(report.confidence),
         if has_repaired {
-            "; the same of the repaired spectra, their weights solved anew for every sample and curve, and how many of \
-             these weights do not bring the hazard of the curve"
+            "; the same for the repaired spectra, and how many of their weights do not match the hazard of the curve"
         } else {
             ""
         }

@@ -48,7 +48,7 @@ fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
 fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     print_levels(out, report)?;
     if !report.unasked.is_empty() {
-        writeln!(out, "\nnot asked, for want of curves of two measures: {}", report.unasked.join(", "))?;
+        writeln!(out, "\nnot compared, since they lack curves of two measures: {}", report.unasked.join(", "))?;
     }
     print_scale_factors(out, report)?;
     print_earthquakes(out, report)?;
@@ -95,12 +95,12 @@ pub(super) fn consistency_lines(report: &ConsistencyReport) -> Vec<String> {
                 let at_one_rate =
                     most.map_or_else(String::new, |most| format!(", and {most:.2} times off at one rate"));
                 format!(
-                    "{site} by {scaled_to}: the records bring {bias:.2} times the {shows} of the site's \
-                     hazard{at_one_rate}: {verdict} (uplift consistency)"
+                    "{site} by {scaled_to}: the records have {bias:.2} times the site's {shows}{at_one_rate}: \
+                     {verdict} (uplift consistency)"
                 )
             }
             _ => {
-                format!("{site} by {scaled_to}: no verdict on the {shows} that the records bring (uplift consistency)")
+                format!("{site} by {scaled_to}: no verdict on {shows} (uplift consistency)")
             }
         });
     }
@@ -130,9 +130,8 @@ fn probabilities(report: &ConsistencyReport) -> String {
 fn print_levels(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     writeln!(
         out,
-        "\nWhat the records, scaled to one measure, bring of the other: its level over that of the site's own hazard\n\
-         curve at {}, and how many times as often as it should the\n\
-         site's level is reached; mean and largest deviation over the rates compared",
+        "\nLevel of the other measure: that of the scaled records over the site's, at {};\n\
+         how many times too often the site's level is reached; mean and largest deviation over the rates compared",
         probabilities(report)
     )?;
     let repaired = report.rows.iter().any(|row| row.repair.is_some());
@@ -145,7 +144,7 @@ fn print_levels(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
         .left("site", |row| &row.site)
         .right("scaled to", |row| row.scaled_to)
         .right("shows", |row| row.shows)
-        .right("brings over site's", |row| of_targets(row, |target| number(target.ratio, 2)))
+        .right("records over site", |row| of_targets(row, |target| number(target.ratio, 2)))
         .right("times as often", |row| of_targets(row, |target| number(target.times_as_often, 1)))
         .right("bias", |row| number(row.bias, 2))
         .right("max", |row| number(row.max, 2))

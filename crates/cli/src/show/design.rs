@@ -227,7 +227,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         Table::new(header, rows)
     )?;
     if report.alarms.iter().any(|alarm| alarm.severity == Severity::Mistake) {
-        writeln!(out, "These verdicts stand only if what is marked mistake? below is as it was meant.")?;
+        writeln!(out, "These verdicts hold only if the inputs marked mistake? below are right.")?;
     }
     let tendons = report.rules.iter().filter_map(|outcome| {
         let stiffness_n_m = outcome.check()?.required_tendon_stiffness_n_m?;

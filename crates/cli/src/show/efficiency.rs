@@ -60,8 +60,8 @@ impl Shown<'_> {
     fn print_scatter(&self, out: &mut impl Write) -> Result<(), CommandError> {
         writeln!(
             out,
-            "\nEfficiency: scatter (logarithmic) of the level at which records bring the structure to a displacement, \
-             and rank, by\nstrength; the median over displacements from uplift to the largest that all records reach"
+            "\nEfficiency: logarithmic scatter of the level that causes a displacement, and rank, by strength; the\n\
+             median over displacements from uplift to the largest that all records reach"
         )?;
         let ranked = |row: &EfficiencyRow| match row.rank {
             Some(rank) => format!("{} ({rank})", number(row.dispersion_level, 2)),
@@ -81,7 +81,7 @@ impl Shown<'_> {
         writeln!(out, "\nScatter of the level at which it begins to rock")?;
         writeln!(out, "{}", self.table(|row| number(row.dispersion_initiation, 3)))?;
         if let Some(told) = self.rows().find(|row| row.is_told()) {
-            writeln!(out, "+ told of the runs scaled to {}, at levels that all records reach", told.scaled_to)?;
+            writeln!(out, "+ from runs scaled to {}, at levels that all records reach", told.scaled_to)?;
         }
         Ok(())
     }

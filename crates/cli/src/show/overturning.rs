@@ -161,7 +161,7 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
     let mut header = vec!["site", "im", "model", "per year", &in_years, "return period"];
     let weighted = if is_repaired {
         header.push("repaired");
-        "; with the records weighted so that they bring the\nsite's hazard"
+        "; with the records weighted for hazard consistency"
     } else {
         ""
     };
@@ -175,7 +175,7 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
     )?;
     let others = [
         (1, "The band if the earthquakes of these records were others:"),
-        (2, "The band with the site's weighted hazard curves, none of which is known to hold:"),
+        (2, "The band with the site's weighted hazard curves:"),
     ];
     for (place, title) in others {
         let of_model = |found: &CollapseReport| -> Vec<String> {

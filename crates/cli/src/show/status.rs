@@ -21,8 +21,8 @@ pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
     if let Some(BootstrapStatus { file, strengths }) = &report.bootstrap {
         writeln!(
             out,
-            "{}: an interrupted bootstrap, {strengths} strengths finished; the same `uplift bootstrap` goes on from \
-             there",
+            "{}: an interrupted bootstrap, {strengths} strengths finished; the same `uplift bootstrap` resumes \
+             it",
             file.display()
         )?;
     }

@@ -43,7 +43,7 @@ pub(crate) fn print_sweep(report: &SweepReport, terminal: &Terminal) -> Result<(
         let table = Table::of(rows)
             .left("site", |(site, _)| site)
             .each(report.keys.iter().enumerate(), |table, (at, key)| {
-                table.right(key, move |(_, variant)| variant.values[at].as_deref().unwrap_or("as it stands"))
+                table.right(key, move |(_, variant)| variant.values[at].as_deref().unwrap_or("default"))
             })
             .when(risks.len() > 1, |table| {
                 table.right("risk", |(_, variant)| risk(variant, im).unwrap_or_else(|| "-".to_owned()))

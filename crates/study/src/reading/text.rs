@@ -81,7 +81,7 @@ fn line_at(text: &str, span: Option<std::ops::Range<usize>>) -> &str {
 /// What to do about a mistake of TOML syntax in this `line`.
 fn syntax_help(message: &str, line: &str) -> Cow<'static, str> {
     if message.contains("duplicate") {
-        "each key and each [section] may stand once; write [[sites]] for one site more".into()
+        "each key and each [section] is allowed once; write [[sites]] for another site".into()
     } else if let Some(pointed) = decimal_comma(line) {
         format!("the decimal mark is a point: write {pointed}").into()
     } else if line.split('#').next().is_some_and(|line| line.contains('"') && line.contains('\\')) {

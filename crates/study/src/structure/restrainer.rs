@@ -141,7 +141,7 @@ impl RestrainerFile {
         if !section.is_present() && root.field("restrainer").is_none() {
             if root.field("tendon_stiffness_n_m").is_some() {
                 let help = "to see its line, write [restrainer], kind = \"linear\" and stiffness_n_m in their place";
-                let found = "the file has no table [restrainer]: its tendons are told by `tendon_stiffness_n_m`";
+                let found = "the file has no table [restrainer]: its tendons are given by `tendon_stiffness_n_m`";
                 root.mistake("tendon_stiffness_n_m", found, help);
             } else {
                 let help = "write [restrainer] and its kind: \"linear\", \"tendon\" or \"disc-springs\"";

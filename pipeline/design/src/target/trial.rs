@@ -251,7 +251,7 @@ impl<'a> Trials<'a> {
                 // a curve that is level has one level for several
                 Ok(level) if asked.last().is_none_or(|(_, before)| level > *before) => asked.push((years, level)),
                 Ok(_) => {}
-                Err(error) => notes.push(format!("nothing is told of a return period of {years} years: {error}")),
+                Err(error) => notes.push(format!("no fragility at the return period of {years} years: {error}")),
             }
         }
         if asked.is_empty() {

@@ -128,8 +128,8 @@ pub(super) fn assumptions(structure: &Structure, file: &ResultFile, restitution:
     }
     if file.has_repair() {
         notes.push(
-            "the records count alike here: the result has weights by which they bring the site's hazard, and uplift \
-             overturning and uplift design --repaired use them"
+            "the records count alike here; uplift overturning and uplift design --repaired use the weights of the \
+             result"
                 .to_owned(),
         );
     }

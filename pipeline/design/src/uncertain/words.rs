@@ -19,7 +19,7 @@ impl UncertainResult {
                     );
                 }
                 let owed = match no_shares {
-                    Some(reason) => format!("what it owes to what cannot be told: {reason}"),
+                    Some(reason) => format!("the shares of the variance are not known: {reason}"),
                     None => owed(shares),
                 };
                 let [alone, all] = [by_structure, by_all].map(|spread| limits(spread, unit));

@@ -128,8 +128,8 @@ pub fn join(paths: &[PathBuf], work: &Work<'_>) -> Result<FinishedRows, EngineEr
         let [has, of_shard] = work.share_of(Shard { index: shard - 1, count: shards }, &finding.rows);
         if has < of_shard {
             mistakes.push(format!(
-                "{name}: has {has} of its {of_shard} analysis rows: run --shard {shard}/{shards} again, it goes on \
-                 where it stopped"
+                "{name}: has {has} of its {of_shard} analysis rows: run --shard {shard}/{shards} again to \
+                 resume it"
             ));
         }
         rows.extend(finding.rows);

@@ -168,7 +168,7 @@ pub fn design(
     let held = columns.restrainer().and_then(|held| held.parts().tendon.map(|tendon| (tendon, *held.parts())));
     let Some((tendon, parts)) = held else {
         return Err(JobError::Usage(format!(
-            "{}: a stack stands in series with a tendon, and [restrainer] has none: give tendon_stiffness_n_m, or \
+            "{}: a stack needs a tendon in series, and [restrainer] has none: give tendon_stiffness_n_m, or \
              tendon_area_m2 and tendon_length_m (kind = \"tendon\" until there is a stack)",
             structure.file.display()
         ))

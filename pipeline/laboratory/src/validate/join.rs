@@ -130,7 +130,7 @@ fn keyed(table: &Peaks, key: impl Fn(&Row) -> Vec<String>) -> Result<BTreeMap<Ve
         let name = key(row);
         if let Some(before) = found.get(&name) {
             twice.push(format!(
-                "{}: {:?} stands in rows {} and {}: name by --by or --key what tells them apart, or leave one",
+                "{}: {:?} is in rows {} and {}: name the column that distinguishes them by --by or --key, or leave one",
                 table.name,
                 words(&name),
                 before.number,
@@ -197,7 +197,7 @@ impl Unmatched {
         let told = kinds.into_iter().filter(|(names, _)| !names.is_empty()).map(|(names, what)| {
             let first: Vec<&str> = names.iter().take(TOLD).map(String::as_str).collect();
             let more = if names.len() > TOLD { ", …" } else { "" };
-            format!("{} {what}, and stand in no statistic: {}{more}", names.len(), first.join("; "))
+            format!("{} {what}, and are left out: {}{more}", names.len(), first.join("; "))
         });
         told.collect()
     }

@@ -302,9 +302,8 @@ fn notes(options: &ValidateOptions, groups: &[GroupReport], unmatched: &Unmatche
     }
     if groups.iter().any(|group| group.censored.is_some()) {
         notes.push(
-            "peaks above a limit (>x) rank above all values, and have no part in bias, dispersion and Pearson's \
-             correlation; the distance with them at their limits stands beside. A median that they may move is known \
-             to be above that with them at their limits (>m), and has no error"
+            "peaks above a limit (>x) rank above all values. Bias, dispersion and Pearson's correlation leave them \
+             out; a median that they may move is a lower bound (>m) without an error"
                 .to_owned(),
         );
     }

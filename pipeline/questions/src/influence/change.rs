@@ -122,7 +122,7 @@ pub(super) fn influence_on_repaired(
             .collect();
         if !failing.is_empty() {
             events.note(&format!(
-                "{} by {}: without {} no weights bring the site's hazard: what is left is repaired in part only",
+                "{} by {}: without {} no weights match the site's hazard, so the others are repaired in part only",
                 stored.sites[site],
                 measure.measure.label(),
                 failing.join(", ")

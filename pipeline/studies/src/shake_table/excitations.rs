@@ -35,7 +35,7 @@ pub(super) fn all(records: &RecordSets) -> Result<Vec<Chosen>, StudiesError> {
     let twice: Vec<String> = ids
         .windows(2)
         .filter(|pair| pair[0] == pair[1])
-        .map(|pair| format!("excitation {} stands twice in the column exc_id of the manifest", pair[0]))
+        .map(|pair| format!("excitation {} is twice in the column exc_id of the manifest", pair[0]))
         .collect();
     if twice.is_empty() { Ok(all) } else { Err(JobError::Inputs(twice).into()) }
 }
@@ -62,7 +62,7 @@ pub(super) fn read_table(path: &Path, records: &RecordSets) -> Result<(Vec<Chose
         if exc_id.is_empty() || record.is_empty() {
             mistakes.push(format!("{}, row {}: exc_id or {by} is blank", path.display(), row + 1));
         } else if chosen.iter().any(|before| before.exc_id == exc_id) || missing.contains(&exc_id) {
-            mistakes.push(format!("{}, row {}: excitation {exc_id} stands there twice", path.display(), row + 1));
+            mistakes.push(format!("{}, row {}: excitation {exc_id} is listed twice", path.display(), row + 1));
         } else if let Some(record) = records.records.iter().position(|found| is_numbered(found, &record)) {
             chosen.push(Chosen { exc_id, class: class.unwrap_or_else(|| ALL.to_owned()), record });
         } else {
@@ -74,7 +74,7 @@ pub(super) fn read_table(path: &Path, records: &RecordSets) -> Result<(Vec<Chose
     }
     if chosen.is_empty() {
         return Err(table
-            .fail("none of its records is among those of the study: bring them by records.manifest")
+            .fail("none of its records is among those of the study: give them by records.manifest")
             .into());
     }
     let note = (!missing.is_empty()).then(|| {

@@ -189,10 +189,9 @@ fn unasked(question: &Question, findings: &[Finding]) -> Vec<String> {
 
 fn nothing_to_ask(question: &Question) -> String {
     if question.sites.is_empty() {
-        "the study has no sites, so there is no hazard that records could be held against".to_owned()
+        "the study has no sites, so there is no hazard to compare the records with".to_owned()
     } else {
-        "no site has hazard curves of two measures: give each both, pgv and pga, to see whether the records bring \
-         the one that they are not scaled to"
+        "no site has hazard curves of two measures: give each both, pgv and pga, to compare the records with them"
             .to_owned()
     }
 }

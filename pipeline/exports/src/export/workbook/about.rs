@@ -42,7 +42,7 @@ impl Export {
             ("Confidence bands", bands.unwrap_or_else(|| "none: `uplift bootstrap` makes them".to_owned())),
             ("Coefficients", "u = c0 exp(c1 strength) + c2, c2 not negative (Eq. 4.11)".to_owned()),
             ("Fitted", format!("strengths above {}", study.regression.strength_above)),
-            ("Units", "displacements u in m; strength is f_up/(m g); censored: larger than can be told".to_owned()),
+            ("Units", "displacements u in m; strength is f_up/(m g); censored: larger than any analysed".to_owned()),
         ];
         let mut line = 0;
         for (name, value) in &facts {
