@@ -337,7 +337,7 @@ fn what_differs_from_the_study_is_said() {
     );
     let found = design(&study, "other.toml", &[]);
     let notes = found["notes"].to_string();
-    for words in ["the structure's is 4 mm", "the structure's is 0.9", "9.81 m/s2"] {
+    for words in ["this structure has 4 mm", "this structure has 0.9", "9.81 m/s2"] {
         assert!(notes.contains(words), "{words}: {notes}");
     }
     assert_eq!(found["structure"]["restitution"], 0.9);

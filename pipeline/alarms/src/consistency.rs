@@ -30,6 +30,25 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     Alarm::from_cases("hazard-inconsistent", cases)
 }
 
+/// Spectra that no weights repair, though the study or a command asked for it.
+pub(super) fn without_repair(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
+    let mut cases = Vec::new();
+    for consistency in evidence.consistency.iter().filter(|own| own.u_m.is_some()) {
+        for (site, name) in evidence.spectra.sites.iter().enumerate() {
+            if scope.holds(site, consistency.scaled_to) && !consistency.is_repaired(site) {
+                cases.push(Case {
+                    severity: Severity::Caution,
+                    badness: consistency.max[site],
+                    subject: format!("{name} by {}", consistency.scaled_to.label()),
+                    what: "no weights match both hazard curves, so there is no repaired spectrum".to_owned(),
+                    what_to_do: "See why: uplift consistency RESULT --details".to_owned(),
+                });
+            }
+        }
+    }
+    Alarm::from_cases("no-repair", cases)
+}
+
 /// Bands of repaired spectra of whose samples many cannot be weighed to the site's hazard.
 pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let stored = evidence.bands.as_ref()?;
@@ -54,7 +73,7 @@ pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alar
                             "weights fail for {:.0} % {what}; their band is repaired in part only",
                             100.0 * share
                         ),
-                        what_to_do: "Add records, or records of another kind: uplift consistency".to_owned(),
+                        what_to_do: "Add records, or records of another kind".to_owned(),
                     });
                 }
             }
@@ -74,10 +93,12 @@ fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) ->
         subject: format!("{name} by {scaled_to}"),
         what: format!("records scaled to {scaled_to} have {times:.1} times the site's {other}"),
         what_to_do: match u_m {
-            Some(_) if is_repaired => "Use the repaired spectra: uplift spectrum --repaired",
-            Some(_) => "No weights repair it; list what is missing: uplift consistency",
-            None => "Repair: uplift consistency --repair",
-        }
-        .to_owned(),
+            Some(_) if is_repaired => {
+                let key = consistency.scaled_to.key();
+                format!("Use the repaired spectra: uplift spectrum RESULT --repaired --measure {key}")
+            }
+            Some(_) => "See what is missing: uplift consistency RESULT --details".to_owned(),
+            None => "Repair: uplift consistency RESULT --repair".to_owned(),
+        },
     }
 }

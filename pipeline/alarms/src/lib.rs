@@ -113,6 +113,7 @@ fn spectra_alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, Alar
     alarms.extend(levels::alarms(evidence, scope)?);
     alarms.extend(measures::alarms(evidence, scope));
     alarms.extend(consistency::alarms(evidence, scope));
+    alarms.extend(consistency::without_repair(evidence, scope));
     alarms.extend(consistency::failing_samples(evidence, scope));
     Ok(alarms)
 }

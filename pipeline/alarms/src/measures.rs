@@ -9,7 +9,7 @@ pub const COMPARED_FROM_M: f64 = 0.003;
 use super::evidence::{Evidence, Scope};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_job::text::{per_cent, risk_name};
+use uplift_job::text::{per_cent, risk_name, rounded};
 use uplift_result::{MeasureSpectra, StoredBands};
 
 /// Ordinates that are further apart than this need no band to say so: with 105 recorded pairs 90 % bands are some 40 %
@@ -70,20 +70,16 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
             let (one, other) = (side(pgv), side(pga));
             let Some(gap) = largest_gap(one, other, &strengths) else { continue };
             let banded = one.band_m.is_some() && other.band_m.is_some();
-            cases.push(case(
-                evidence,
-                format!("{name}, {}", risk_name(probability, spectra.years)),
-                (one, other),
-                gap,
-                banded,
-            ));
+            let subject = format!("{name}, {}", risk_name(probability, spectra.years));
+            cases.push(case(evidence, subject, gap, banded));
         }
     }
     Alarm::from_cases("measures-disagree", cases)
 }
 
-fn case(evidence: &Evidence, subject: String, (pgv, pga): (Side<'_>, Side<'_>), gap: Gap, banded: bool) -> Case {
+fn case(evidence: &Evidence, subject: String, gap: Gap, banded: bool) -> Case {
     let times = gap.ratio.max(1.0 / gap.ratio);
+    let [larger, smaller] = if gap.ratio > 1.0 { ["PGA", "PGV"] } else { ["PGV", "PGA"] };
     let allowed = match &evidence.bands {
         Some(bands) if banded => format!(", outside each other's {} bands", per_cent(bands.confidence)),
         _ => String::new(),
@@ -93,10 +89,10 @@ fn case(evidence: &Evidence, subject: String, (pgv, pga): (Side<'_>, Side<'_>), 
         badness: times,
         subject,
         what: format!(
-            "spectra by PGV and by PGA differ {times:.1} times{allowed}: {:.3} and {:.3} m at strength {:.3}",
-            pgv.u_m[gap.strength], pga.u_m[gap.strength], evidence.spectra.strengths[gap.strength]
+            "the {larger} spectrum is {times:.1} times the {smaller} spectrum at strength {}{allowed}",
+            rounded(evidence.spectra.strengths[gap.strength], 4)
         ),
-        what_to_do: "Rank the measures: uplift measures".to_owned(),
+        what_to_do: "Rank the measures: uplift measures RESULT".to_owned(),
     }
 }
 

@@ -19,7 +19,7 @@ use uplift_ida::Shard;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
-use uplift_job::text::spectrum_words;
+use uplift_job::text::{rounded, spectrum_words};
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::PostUplift;
 use uplift_plausible::SAFETY_FACTOR;
@@ -373,16 +373,16 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     let uplift_m = system.spectral_uplift_displacement_m();
     if apart(uplift_m, oscillator.uplift_displacement_m) {
         notes.push(format!(
-            "the spectrum is of an uplift displacement of {} mm, the structure's is {} mm, over Γ {:.3} mm (Section \
-             3.5)",
-            1e3 * oscillator.uplift_displacement_m,
-            1e3 * system.conditions().uplift_displacement_m(),
-            1e3 * uplift_m
+            "the spectrum was computed for an uplift displacement of {} mm; this structure has {} mm, over Γ {} mm \
+             (Section 3.5)",
+            rounded(1e3 * oscillator.uplift_displacement_m, 4),
+            rounded(1e3 * system.conditions().uplift_displacement_m(), 4),
+            rounded(1e3 * uplift_m, 4)
         ));
     }
     if apart(restitution, oscillator.restitution) {
         notes.push(format!(
-            "the spectrum is of a restitution of {}, the structure's is {restitution}",
+            "the spectrum was computed for a restitution of {}; this structure has {restitution}",
             oscillator.restitution
         ));
     }

@@ -169,12 +169,15 @@ fn read_set(
     notes.extend(alike(&pairs));
     notes.extend(of_unusual_peak(&pairs, study.gravity_m_s2));
     notes.extend(of_unequal_length(&pairs, study));
-    let kind = if synthetic { "synthetic" } else { "recorded" };
     let noun = if pairs.len() == 1 { "pair" } else { "pairs" };
+    let kind = match pairs.iter().filter(|pair| is_made(pair)).count() {
+        made if made == pairs.len() || (made == 0 && synthetic) => format!("synthetic {noun}"),
+        0 => format!("recorded {noun}"),
+        made => format!("{noun}, {made} of them synthetic,"),
+    };
     let chosen = &study.records.select;
     let chosen = if chosen.is_empty() { String::new() } else { format!(", {chosen}") };
-    let mut description =
-        format!("{} {kind} {noun} ({source}{chosen}), component {}", pairs.len(), study.records.component);
+    let mut description = format!("{} {kind} ({source}{chosen}), component {}", pairs.len(), study.records.component);
     let mut verticals = None;
     if study.records.vertical {
         description.push_str(", with the vertical one");

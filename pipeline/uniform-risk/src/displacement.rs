@@ -271,7 +271,11 @@ fn strengths(asked: &[f64], known: &[f64]) -> Result<Vec<StrengthPlace>, JobErro
             ))
         })
     };
-    asked.iter().map(place).collect()
+    let places = asked.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    let twice = places.iter().enumerate().find(|(at, own)| places[..*at].contains(own));
+    twice.map_or(Ok(places.clone()), |(_, own)| {
+        Err(JobError::Usage(format!("--strength {} is given twice", own.strength)))
+    })
 }
 
 /// Positions of the sites `asked` for.
@@ -286,7 +290,11 @@ fn sites(asked: &[String], known: &[String]) -> Result<Vec<usize>, JobError> {
             known: known.to_vec(),
         })
     };
-    asked.iter().map(place).collect()
+    let places = asked.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    match places.iter().enumerate().find(|(at, own)| places[..*at].contains(own)) {
+        Some((_, &site)) => Err(JobError::Usage(format!("--site {} is given twice", known[site]))),
+        None => Ok(places),
+    }
 }
 
 fn stored_measure(known: &[StoredMeasure], asked: Option<IntensityMeasure>) -> Result<&StoredMeasure, JobError> {

@@ -13,7 +13,7 @@ use uplift_labelled::verify as verify_file;
 use uplift_motion::IntensityMeasure;
 use uplift_result::{Kind, Overview, Provenance, ResultFile, replaces_another, what_counts};
 use uplift_studies::uniform_risk::{self, MeasureReport};
-use uplift_study::{AnyStudy, UniformRiskStudy};
+use uplift_study::{AnyStudy, Repair, UniformRiskStudy};
 
 use crate::error::UpliftError;
 use crate::run::run;
@@ -51,19 +51,29 @@ pub(crate) fn finished(
     study: &UniformRiskStudy,
     options: &RunOptions,
     start: Instant,
+    events: &dyn Events,
 ) -> Result<Option<uniform_risk::RunReport>, UpliftError> {
     let path = options.result_file(&study.output.file);
     let tables: Vec<PathBuf> = uniform_risk::tables(study, path).iter().map(|table| table.path().to_owned()).collect();
-    let is_there = path.is_file() && tables.iter().all(|table| table.is_file());
-    if !is_there || !verify_file(path).is_ok_and(|verdict| verdict.is_sound()) || !is_result_of(study, path)? {
+    if !path.is_file() || !verify_file(path).is_ok_and(|verdict| verdict.is_sound()) || !is_result_of(study, path)? {
         return Ok(None);
     }
     let file = ResultFile::open(path)?;
-    let kept = file.stored_study()?.consistency;
-    if !study.consistency.differing_keys(&kept).is_empty() || study.consistency.repair != kept.repair {
+    let kept = file.stored_study()?;
+    let lacks_repair = study.consistency.repair == Repair::Weights && !file.has_repair();
+    if !study.consistency.differing_keys(&kept.consistency).is_empty() || lacks_repair {
         return Ok(None);
     }
     let (stored, alarms) = (file.head()?, alarms(&file)?);
+    let differs = [("title", study.title != kept.title), ("[bootstrap]", study.bootstrap != kept.bootstrap)];
+    let differs: Vec<&str> = differs.into_iter().filter(|(_, differs)| *differs).map(|(name, _)| name).collect();
+    if !differs.is_empty() {
+        events.note(&format!("{} of the result as it was run; --again takes that of the study", differs.join(", ")));
+    }
+    let (tables, missing): (Vec<_>, Vec<_>) = tables.into_iter().partition(|table| table.is_file());
+    for table in missing {
+        events.note(&format!("{} is missing; --again writes it", table.display()));
+    }
     let mut files = vec![path.to_owned()];
     files.extend(tables);
     let head = RunHead {

@@ -59,7 +59,7 @@ impl RunReport {
 /// where `events` say so.
 pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Result<RunReport, UpliftError> {
     if let (AnyStudy::UniformRisk(study), false) = (study, options.again)
-        && let Some(report) = finished(study, options, Instant::now())?
+        && let Some(report) = finished(study, options, Instant::now(), events)?
     {
         return Ok(RunReport::UniformRisk(Box::new(report)));
     }

@@ -22,6 +22,9 @@ pub(super) fn print_warnings(
     result: Option<&Path>,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
+    if terminal.is_quiet() {
+        return Ok(());
+    }
     let all =
         result.map_or_else(|| "--details".to_owned(), |path| format!("uplift warnings {}", shown_path(path).display()));
     print_warnings_up_to(out, alarms, &all, if terminal.shows_details() { usize::MAX } else { SHOWN })

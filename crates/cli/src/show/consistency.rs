@@ -21,7 +21,7 @@ pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal)
         print_details(out, report)?;
     }
     if !terminal.is_quiet() {
-        print_end(out, report)?;
+        print_end(out, report, terminal)?;
     }
     print_more(out, terminal)
 }
@@ -61,7 +61,7 @@ fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(),
 }
 
 /// What to do next, and where everything is.
-fn print_end(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
+fn print_end(out: &mut impl Write, report: &ConsistencyReport, terminal: &Terminal) -> Result<(), CommandError> {
     let Some(result) = report.result.as_ref().map(|result| shown_path(result).display()) else { return Ok(()) };
     let is_repaired = |row: &&ConsistencyRow| row.repair.as_ref().is_some_and(|repair| repair.failed.is_none());
     if let Some(repaired) = report.rows.iter().find(is_repaired) {
@@ -72,8 +72,8 @@ fn print_end(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), Com
     } else if report.rows.iter().any(|row| row.verdict == Some("inconsistent") && row.repair.is_none()) {
         writeln!(out, "\nRepair: uplift consistency {result} --repair")?;
     }
-    if !report.warnings.is_empty() {
-        writeln!(out, "Warnings {}: --details", report.warnings.len())?;
+    if !report.warnings.is_empty() && !terminal.shows_details() {
+        writeln!(out, "\nWarnings\n  {} more: --details", report.warnings.len())?;
     }
     writeln!(out, "Result   /consistency in {result}")?;
     if let Some(path) = &report.table {
@@ -192,7 +192,7 @@ fn print_scale_factors(out: &mut impl Write, report: &ConsistencyReport) -> Resu
         .right("scaled to", |(row, (index, _))| if index == 0 { row.scaled_to } else { "" })
         .right("probability", |(_, (_, target))| per_cent(target.poe))
         .right("factors", |(_, (_, target))| target.scale_factors.map(|factor| format!("{factor:.2}")).join(" / "))
-        .right("outside", |(_, (_, target))| format!("{:.0} %", (100.0 * target.outside_limits).max(0.0)))
+        .right("outside", |(_, (_, target))| format!("{:.0} %", (100.0 * target.outside_limits).max(0.0) + 0.0))
         .right("earthquakes", |(_, (_, target))| number(target.effective_events, 1));
     writeln!(out, "{table}")?;
     Ok(())

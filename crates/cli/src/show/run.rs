@@ -86,7 +86,7 @@ fn print_end(out: &mut impl Write, head: &RunHead, terminal: &Terminal) -> Resul
     print_warnings(out, &head.alarms, Some(result), terminal)?;
     let result = shown_path(result).display();
     let time = if head.done_already {
-        "done already; --again runs the study anew".to_owned()
+        "done already; --again writes it anew".to_owned()
     } else {
         format!("{:.1} s", head.seconds)
     };

@@ -71,7 +71,7 @@ fn a_table_is_known_by_what_stands_beside_it() {
     write("site,iml", &ours);
     assert!(refused(&path, kind, &[], false).unwrap().contains("a.csv is there already"));
     write("site,u_m", "{\"dc:title\": \"mine\"}");
-    assert!(refused(&path, kind, &[], false).unwrap().contains("a.csv-metadata.json is there already"));
+    assert!(refused(&path, kind, &[], false).unwrap().contains("a.csv-metadata.json exists and is not"));
     assert_eq!(refused(&path, kind, &[], true), None);
     // a table that nothing is said of
     std::fs::remove_file(&beside).unwrap();

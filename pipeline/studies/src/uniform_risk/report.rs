@@ -26,7 +26,7 @@ pub struct RunReport {
     /// Whether the records bring the hazard of the other measure.
     pub consistency: ConsistencyReport,
     /// Displacements with their confidence bands, of the smallest probability by the first measure; none without sites.
-    #[serde(skip)]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub displacements: Option<DisplacementReport>,
     /// The same of the repaired spectra, where the study asks for them.
     #[serde(skip)]

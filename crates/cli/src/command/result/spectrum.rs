@@ -49,7 +49,22 @@ pub(crate) struct SpectrumArguments {
     csv: bool,
 }
 
+/// Refuses `--strength 0,13`, which would be the strengths 0 and 13.
+fn refuse_decimal_comma() -> Result<(), CommandError> {
+    let typed: Vec<String> = std::env::args().collect();
+    let after = typed.windows(2).filter(|pair| pair[0] == "--strength").map(|pair| pair[1].as_str());
+    let mut texts = after.chain(typed.iter().filter_map(|text| text.strip_prefix("--strength=")));
+    let pointed = |text: &str| {
+        let decimals = text.strip_prefix("0,").filter(|rest| rest.bytes().all(|byte| byte.is_ascii_digit()))?;
+        Some(format!(
+            "--strength {text}: the decimal mark is a point: write 0.{decimals}, or 0.0,{decimals} for two strengths"
+        ))
+    };
+    texts.find_map(pointed).map_or(Ok(()), |message| Err(CommandError::Usage(message)))
+}
+
 pub(crate) fn spectrum(arguments: &SpectrumArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    refuse_decimal_comma()?;
     let found = arguments.result.find(terminal)?;
     let asked = DisplacementOptions {
         strengths: arguments.strength.clone(),

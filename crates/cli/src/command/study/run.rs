@@ -33,7 +33,7 @@ pub(crate) struct RunArguments {
         value_parser = shard
     )]
     shard: Option<Shard>,
-    /// Run the study even if its result is there
+    /// Write the result anew even if it is there
     #[arg(long)]
     again: bool,
     /// Print JSON
