@@ -142,7 +142,7 @@ def find_program() -> Path:
     if on_path:
         return Path(on_path)
     raise FileNotFoundError(
-        "the program uplift is not installed: the wheel of uplift-urs has it, the source distribution does not; build it"
+        "the program uplift is not installed: the wheel of uplift-urs has it, not the source distribution; build it"
         " (make build), and put it on the path or name it in UPLIFT_PROGRAM"
     )
 

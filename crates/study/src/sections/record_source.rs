@@ -107,7 +107,7 @@ pub(crate) fn enough(field: Option<&Field<'_>>, first: Option<Option<u64>>, synt
         && first > pairs
     {
         field.mistake(
-            format!("records.first is {first}, and there are {pairs} records"),
+            format!("{first} is more than the {pairs} records there are"),
             format!("use at most {pairs}, or raise records.synthetic.pairs"),
         );
     }

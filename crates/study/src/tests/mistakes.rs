@@ -149,7 +149,7 @@ fn one_by_one() {
             "oscillator.free_vibration: expected true or false, found the text \"yes\"",
         ),
         ("[pgv]\n[records]\ntag = \"x\"", "records.tag: a tag chooses rows of a manifest, and there is none"),
-        ("[pgv]\n[records]\nfirst = 106", "records.first: the first 106 records are asked for, and there are 105"),
+        ("[pgv]\n[records]\nfirst = 106", "records.first: 106 is more than the 105 records there are"),
         (
             "[pgv]\n[records]\nmanifest = \"manifest.csv\"\n[records.synthetic]\nfirst = 1",
             "records.synthetic.first: unknown key `first`",

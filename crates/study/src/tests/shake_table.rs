@@ -95,7 +95,7 @@ fn mistakes_are_all_told_at_once() {
     );
     let told = texts(&load(&folder).unwrap_err());
     for words in [
-        "which structure stands on the table",
+        "which structure is on the table",
         "length_scale",
         "tags are given set by set",
         "the level has no velocity",
