@@ -31,7 +31,17 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
         RunReport::Displacement(report) => displacement::print_spectra(&mut out, report)?,
         RunReport::ShakeTable(report) => shake_table::print_tests(&mut out, &report.table)?,
     }
-    if terminal.is_quiet() { Ok(()) } else { print_end(&mut out, report.head(), terminal) }
+    if terminal.is_quiet() {
+        return Ok(());
+    }
+    print_end(&mut out, report.head(), terminal)?;
+    let more = match report {
+        RunReport::Displacement(report) if report.has_design => "Design",
+        RunReport::ShakeTable(_) => "Tests",
+        RunReport::UniformRisk(_) | RunReport::Displacement(_) => return Ok(()),
+    };
+    let result = report.head().files.first().map(|result| shown_path(result).display().to_string());
+    Ok(writeln!(out, "{more:<8} uplift table {}", result.unwrap_or_default())?)
 }
 
 /// The spectra by every measure and for every risk, and their spread over hazard curves and structures.
