@@ -176,8 +176,9 @@ fn levels_are_weighed_with_their_own_records_factors_and_shares() {
     assert!(repair["max"].as_f64().unwrap() < 0.1, "{repair}");
     study.uplift(&["report", "sets.h5", "-q"]).ok();
     let page = std::fs::read_to_string(study.path().join("sets.html")).unwrap();
-    assert!(page.contains("r1-bands-pgv-repaired"));
-    study.uplift(&["plot", "sets.h5", "--only", "ida", "-q"]).ok();
+    assert!(page.contains("r1-urs-pgv"));
+    study.uplift(&["plot", "sets.h5", "-q"]).ok();
+    assert!(study.path().join("sets.figures/bands-pgv-repaired.svg").is_file());
     let figure = std::fs::read_to_string(study.path().join("sets.figures/ida.svg")).unwrap();
     assert!(figure.contains("weighted percentiles over the records of each level"), "{figure:.600}");
     // half of the weight lies below the median of a stripe
