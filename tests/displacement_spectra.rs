@@ -171,7 +171,7 @@ fn sets_are_made_by_tags_and_records_left_out() {
     // 5 ways of scaling x 20 oscillators x 8 motions
     assert_eq!(check["analyses"], 800);
     assert!(check["seconds"].as_f64().unwrap() > 0.0);
-    let plan = study.uplift(&["check", "study.toml"]).ok().stdout;
+    let plan = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
     for words in ["[[record_sets]]", "Second set!: 2 records, 4 motions", "800", "in order"] {
         assert!(plan.contains(words), "{words}:\n{plan}");
     }

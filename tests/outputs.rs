@@ -86,7 +86,7 @@ fn what_others_wrote_is_left_alone() {
     // the tables of a run too, before anything is computed
     study.write("r.urs.csv", "mine\n");
     refused(&study, &["run", "study.toml", "-o", "r.h5"], "r.urs.csv", "--force");
-    study.uplift(&["run", "study.toml", "-o", "r.h5", "--force"]).ok();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "--again", "--force"]).ok();
     // and what is of another result
     study.uplift(&["run", "study.toml", "-o", "other.h5"]).ok();
     refused(&study, &["export", "other.h5", "--csv", "-o", "r.spectra.csv"], "r.spectra.csv", "not of other.h5");
@@ -193,7 +193,7 @@ fn what_was_made_of_a_replaced_result_goes_with_it() {
         assert!(text.contains(&format!("study digest {first}")), "{table}");
     }
     // another run of the same numbers: the tables are of it still, and the bands that were in the file are kept
-    study.uplift(&run).ok();
+    study.uplift(&[&run[..], &["--again"]].concat()).ok();
     assert_eq!(digest("r.h5"), first);
     let earlier = study.path().join("r.earlier").join(&first);
     assert_eq!(names(&earlier), ["r.h5"]);

@@ -300,7 +300,7 @@ fn stacks_out_of_a_catalogue() {
         let found = found.unwrap_or_else(|| panic!("{name}: {stacks:#?}"));
         assert!(found["parallel"] == 1 && found["miss"].as_f64().unwrap().abs() < 0.1, "{found}");
         assert!(!report["tolerances"].as_array().unwrap().is_empty());
-        let told = run(&arguments).1.ok().stdout;
+        let told = run(&[&arguments[..], &["--details"]].concat()).1.ok().stdout;
         assert!(told.contains("u_cap, m") && told.contains("a nut loosened by 2.0 mm"), "{told}");
         assert!(told.contains("a prestress of "), "{told}");
         // of a stack that is named: its own change, not that of the first

@@ -172,7 +172,7 @@ fn samples_tables_and_figures() {
     study.write("tests.csv", &rows(1.0).replace("level,", "exc_id,").replace("high", "1").replace("low", "1"));
     study
         .uplift(&["validate", "tests.csv", "tests.csv"])
-        .fails(4, &["tests.csv: \"1\" stands in rows 1 and 2", "24 more rows", "--key"]);
+        .fails(4, &["tests.csv: \"1\" is in rows 1 and 2", "24 more rows", "--key"]);
     study.write("measured.csv", MEASURED);
     study.write("computed.csv", COMPUTED);
     study
