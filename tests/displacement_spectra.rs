@@ -172,7 +172,13 @@ fn sets_are_made_by_tags_and_records_left_out() {
     assert_eq!(check["analyses"], 800);
     assert!(check["seconds"].as_f64().unwrap() > 0.0);
     let plan = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
-    for words in ["[[record_sets]]", "Second set!: 2 records, 4 motions", "800", "in order"] {
+    for words in [
+        "3 recorded pairs (manifest.csv) in 2 sets",
+        "first: 2 records",
+        "Second set!: 2 records, 4 motions",
+        "800",
+        "in order",
+    ] {
         assert!(plan.contains(words), "{words}:\n{plan}");
     }
 

@@ -85,7 +85,7 @@ fn what_others_wrote_is_left_alone() {
     }
     // the tables of a run too, before anything is computed
     study.write("r.urs.csv", "mine\n");
-    refused(&study, &["run", "study.toml", "-o", "r.h5"], "r.urs.csv", "--force");
+    refused(&study, &["run", "study.toml", "-o", "r.h5", "--again"], "r.urs.csv", "--force");
     study.uplift(&["run", "study.toml", "-o", "r.h5", "--again", "--force"]).ok();
     // and what is of another result
     study.uplift(&["run", "study.toml", "-o", "other.h5"]).ok();
