@@ -119,7 +119,7 @@ fn designs_tables_and_pages_take_it() {
 
     study.uplift(&["report", "r.h5", "-o", "page.html", "--poe", "0.05", "-q"]).ok();
     let page = std::fs::read_to_string(study.path().join("page.html")).unwrap();
-    assert!(page.contains("5 % in 50 years") && page.contains("asked for after the run"));
+    assert!(page.contains("5 % in 50 years") && page.contains("read after the run"));
     assert!(page.contains("id=\"r1-bands-together\"") && !page.contains("2 % in 50 years"));
 }
 

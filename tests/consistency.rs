@@ -136,7 +136,7 @@ fn a_verdict_can_be_required() {
 fn the_curve_of_a_measure_that_is_not_analysed_is_enough() {
     let study = study("[pgv]", "pgv pga", "");
     let check = study.uplift(&["check", "study.toml", "--details"]).ok();
-    assert!(check.stdout.contains("Hazard    Montreux by PGV: the records bring"), "{}", check.stdout);
+    assert!(check.stdout.contains("Hazard    Montreux by PGV: the records have"), "{}", check.stdout);
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let asked = json(&study.uplift(&["consistency", "r.h5", "--json", "-q"]).ok());
     assert_eq!(asked["rows"].as_array().unwrap().len(), 2);
