@@ -1,5 +1,6 @@
 """Studies run from Python are those of the program, and results come back as they stand in the file."""
 
+import json
 import os
 import signal
 import subprocess
@@ -61,6 +62,19 @@ def test_a_study_and_its_dict_are_the_run_of_the_program(here, program, result):
     assert of_dict.attributes["title"] == "small"
     plan = uplift.check(STUDY)
     assert plan["analyses"] == 6 * 4 * (6 + 4)
+
+
+def test_displacements_are_those_of_the_spectrum(here, program, result):
+    rows = result.displacement(strength=0.13, return_period=475)
+    assert [row["site"] for row in rows] == ["Here", "Thérè"]
+    for row in rows:
+        assert row["strength"] == 0.13
+        assert row["return_period_years"] == pytest.approx(475)
+        assert row["poe"] == pytest.approx(-np.expm1(-row["years"] / 475))
+        lower, upper = row["band_m"]
+        assert 0 < lower <= row["u_m"] <= upper
+    told = program(here, "spectrum", "result.h5", "--strength", "0.13", "--return-period", "475", "--json")
+    assert rows == json.loads(told)["displacements"]
 
 
 def test_values_of_python_are_those_of_the_study(here):
