@@ -61,14 +61,16 @@ pub(crate) fn finished(
     let file = ResultFile::open(path)?;
     let kept = file.stored_study()?;
     let lacks_repair = study.consistency.repair == Repair::Weights && !file.has_repair();
-    if !study.consistency.differing_keys(&kept.consistency).is_empty() || lacks_repair {
+    // what a bootstrap of the result is asked for by default is kept in it
+    if study.bootstrap != kept.bootstrap
+        || !study.consistency.differing_keys(&kept.consistency).is_empty()
+        || lacks_repair
+    {
         return Ok(None);
     }
     let (stored, alarms) = (file.head()?, alarms(&file)?);
-    let differs = [("title", study.title != kept.title), ("[bootstrap]", study.bootstrap != kept.bootstrap)];
-    let differs: Vec<&str> = differs.into_iter().filter(|(_, differs)| *differs).map(|(name, _)| name).collect();
-    if !differs.is_empty() {
-        events.note(&format!("{} of the result as it was run; --again takes that of the study", differs.join(", ")));
+    if study.title != kept.title {
+        events.note("the result keeps the title that it was run with; --again takes that of the study");
     }
     let (tables, missing): (Vec<_>, Vec<_>) = tables.into_iter().partition(|table| table.is_file());
     for table in missing {
