@@ -297,3 +297,27 @@ fn shipped_studies_are_in_order() {
         common::uplift(out.path(), &["check", study, "--set", "records.first=2", "--set", &set, "-q"]).ok();
     }
 }
+
+#[test]
+fn a_finished_run_is_done_already_and_keeps_what_was_added() {
+    let study = SmallStudy::new();
+    let run = |more: &[&str]| study.uplift(&[&["run", "study.toml", "-o", "r.h5"][..], more].concat()).ok();
+    let done = |more: &[&str]| -> bool {
+        let told: serde_json::Value = serde_json::from_str(&run(&[&["--json"], more].concat()).stdout).unwrap();
+        told["done_already"].as_bool().unwrap()
+    };
+    assert!(!done(&[]));
+    study.uplift(&["bootstrap", "r.h5", "--replicates", "20", "--sizes", "2", "-q"]).ok();
+    let before = std::fs::read(study.path().join("r.h5")).unwrap();
+    assert!(done(&[]) && run(&[]).stdout.contains("done already"));
+    // a table that is gone, and another title, take nothing away
+    std::fs::remove_file(study.path().join("r.urs.csv")).unwrap();
+    assert!(run(&[]).stderr.contains("r.urs.csv is missing"));
+    assert!(done(&["--set", "title=\"other\""]));
+    assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), before);
+    // what a bootstrap is asked for by default is another result, and so is a damaged one
+    assert!(!done(&["--force", "--set", "bootstrap.replicates=30"]));
+    std::fs::write(study.path().join("r.h5"), &before[..before.len() / 2]).unwrap();
+    assert!(!done(&["--force"]));
+    assert!(!done(&["--again"]) && study.path().join("r.urs.csv").exists());
+}
