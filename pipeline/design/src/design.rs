@@ -34,7 +34,7 @@ use super::opening::{Place, choose_measure, job_name, records, restitution};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::rules::{RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
-use super::spectrum::{SpectrumDemand, read_spectrum};
+use super::spectrum::SpectrumDemand;
 use super::uncertain::UncertaintyReport;
 use super::weights::{RepairedWeights, SiteWeights};
 use crate::error::DesignError;
@@ -337,13 +337,7 @@ fn require_zero_stiffness(source: &StudyOfResult) -> Result<(), DesignError> {
 fn spectrum_demand(structure: &Structure, source: &StudyOfResult, u_m: &[f64]) -> Option<SpectrumDemand> {
     let system = &structure.system;
     let strength = system.spectral_strength_at(source.study.gravity_m_s2);
-    let reading = read_spectrum(&source.study.strengths, u_m, strength)?;
-    Some(SpectrumDemand {
-        strength,
-        between_strengths: reading.between,
-        ordinate_m: reading.ordinate_m,
-        zero_stiffness_demand_m: system.participation() * reading.ordinate_m,
-    })
+    SpectrumDemand::read(&source.study.strengths, u_m, (strength, system.participation()))
 }
 
 /// Why the spectrum cannot be read.

@@ -54,15 +54,11 @@ impl<'a> Place<'a> {
 
 /// Position of the site `wanted`; of the only one where none is.
 pub(super) fn site_index(source: &StudyOfResult, wanted: Option<&str>) -> Result<usize, DesignError> {
-    let found = match wanted {
-        Some(wanted) => source.sites.iter().position(|site| site.eq_ignore_ascii_case(wanted)),
-        None => (source.sites.len() == 1).then_some(0),
-    };
-    Ok(found.ok_or_else(|| JobError::Choice {
-        option: "--site",
-        wanted: wanted.map(str::to_owned),
-        known: source.sites.clone(),
-    })?)
+    Ok(match (wanted, &source.sites[..]) {
+        (Some(wanted), known) => uplift_uniform_risk::site_index(known, wanted)?,
+        (None, [_]) => 0,
+        (None, known) => return Err(JobError::Choice { option: "--site", wanted: None, known: known.to_vec() }.into()),
+    })
 }
 
 /// The measure `wanted`; the first where none is, which is PGV if the result has it.

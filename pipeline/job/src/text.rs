@@ -52,18 +52,28 @@ pub fn two_digits(value: f64) -> String {
 
 /// A displacement with its confidence band in a sentence: `0.35 m (0.24 to 0.84)`.
 pub fn metres_with_band(u_m: f64, band_m: Option<[f64; 2]>) -> String {
-    match band_m.map(|limits_m| limits_m.map(two_digits)) {
-        _ if u_m.is_nan() => "none".to_owned(),
-        Some([lower, _]) if u_m.is_infinite() && lower != "∞" => format!("overturns (above {lower} m)"),
-        _ if u_m.is_infinite() => "overturns".to_owned(),
-        Some([lower, upper]) => format!("{} m ({lower} to {upper})", two_digits(u_m)),
-        None => format!("{} m", two_digits(u_m)),
-    }
+    with_band((u_m, band_m), " m", ["", " to "])
+}
+
+/// The same where nothing else says what the brackets hold: `0.35 m (90 % band 0.24 to 0.84)`.
+pub fn metres_with_named_band(u_m: f64, band_m: Option<[f64; 2]>, confidence: f64) -> String {
+    with_band((u_m, band_m), " m", [&format!("{} band ", per_cent(confidence)), " to "])
 }
 
 /// The same in a cell of a table, whose heading has the unit: `0.35 (0.24–0.84)`.
 pub fn cell_with_band(u_m: f64, band_m: Option<[f64; 2]>) -> String {
-    metres_with_band(u_m, band_m).replacen(" m", "", 1).replacen(" to ", "–", 1)
+    with_band((u_m, band_m), "", ["", "–"])
+}
+
+/// A displacement in a unit, with what opens its band and what parts the limits.
+fn with_band((u_m, band_m): (f64, Option<[f64; 2]>), unit: &str, [opening, between]: [&str; 2]) -> String {
+    match band_m.map(|limits_m| limits_m.map(two_digits)) {
+        _ if u_m.is_nan() => "none".to_owned(),
+        Some([lower, _]) if u_m.is_infinite() && lower != "∞" => format!("overturns ({opening}above {lower}{unit})"),
+        _ if u_m.is_infinite() => "overturns".to_owned(),
+        Some([lower, upper]) => format!("{}{unit} ({opening}{lower}{between}{upper})", two_digits(u_m)),
+        None => two_digits(u_m) + unit,
+    }
 }
 
 /// A number with a few digits, in powers of ten where it is very large or small.

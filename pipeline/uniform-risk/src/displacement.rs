@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
-use polars::prelude::Column;
 use rayon::prelude::*;
 use serde::Serialize;
 use uplift_bootstrap::{inferred_limits, units};
 use uplift_hazard::rate_from_probability;
-use uplift_job::table::table_text;
+use uplift_job::table::{ColumnsOf, table_text};
 use uplift_job::text::nearest;
 use uplift_job::{Array, JobError};
 use uplift_motion::IntensityMeasure;
@@ -17,7 +16,7 @@ use uplift_structure::{Capacity, Demand, Rule};
 use crate::asked::{AskedRisk, RiskTargets};
 use crate::consistency::Question;
 use crate::error::UniformRiskError;
-use crate::stored_stripes::{StoredMeasure, StoredStripes, poe_index};
+use crate::stored_stripes::{StoredMeasure, poe_index, stored_measure};
 
 /// How often a band is to hold the displacement of all records like those at hand.
 pub const CONFIDENCE: f64 = 0.9;
@@ -96,52 +95,59 @@ pub struct DisplacementReport {
 /// have.
 pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<DisplacementReport, UniformRiskError> {
     let is_rarest_alone = asked.risk.targets == RiskTargets::OfStudy && !asked.every_probability;
-    let (stored, spectra, head) = (StoredStripes::read(file)?, file.spectra()?, file.head()?);
+    let (axes, study, spectra, head) = (file.axes_with_sites()?, file.stored_study()?, file.spectra()?, file.head()?);
     let poes = if is_rarest_alone { vec![poe_index(&spectra.poes, None)?] } else { (0..spectra.poes.len()).collect() };
     let places = strengths(&asked.strengths, &spectra.strengths)?;
     let sites = sites(&asked.sites, &spectra.sites)?;
-    let measure = stored_measure(&stored.measures, asked.measure)?;
-    let reading = Reading {
-        targets_per_year: poes.iter().map(|&poe| stored.targets_per_year[poe]).collect(),
-        u_m: ordinates(file, spectra.measures, measure.measure, asked.repaired)?,
-        pairs: (!asked.repaired).then_some(units(&Question::from_result(file)?.pair_of())),
-        measure,
-        poes: &poes,
-    };
-    let rule = capacity_rule(asked.capacity_m, stored.uplift_displacement_m)?;
+    let measure = chosen_measure(&file.measures(), asked.measure)?;
+    let targets_per_year = (poes.iter())
+        .map(|&poe| rate_from_probability(spectra.poes[poe], spectra.years))
+        .collect::<Result<Vec<_>, _>>()?;
+    let u_m = ordinates(file, spectra.measures, measure, asked.repaired)?;
+    let rule = capacity_rule(asked.capacity_m, study.oscillator.uplift_displacement_m)?;
 
     let mut looked_at: Vec<usize> = places.iter().flat_map(|place| [place.left, place.right]).collect();
     looked_at.sort_unstable();
     looked_at.dedup();
-    let rows = looked_at.par_iter().map(|&strength| reading.limits(strength, &sites));
-    let limits_m = rows.collect::<Result<Vec<_>, UniformRiskError>>()?;
-    let row = |strength: usize| &limits_m[looked_at.partition_point(|&own| own < strength)];
+    // [strength][site][poe]; none with repaired weights
+    let bands_m = if asked.repaired {
+        None
+    } else {
+        let stripes = stored_measure(file, &axes, &[], measure, study.risk.extrapolate)?;
+        let pairs = units(&Question::from_result(file)?.pair_of());
+        let of_strength = |&strength: &usize| bands(&stripes, &pairs, &targets_per_year, strength, &sites);
+        Some(looked_at.par_iter().map(of_strength).collect::<Result<Vec<_>, _>>()?)
+    };
+    let row = |strength: usize| looked_at.partition_point(|&own| own < strength);
 
     let mut displacements = Vec::new();
     for (of_site, &site) in sites.iter().enumerate() {
         for (of_poe, &poe) in poes.iter().enumerate() {
             for place in &places {
-                let [left, right] = [place.left, place.right].map(|strength| row(strength)[of_site][of_poe]);
-                let [u_m, lower_m, upper_m] = [0, 1, 2].map(|value| rule(place.between(left[value], right[value])));
-                let target = rate_from_probability(spectra.poes[poe], spectra.years)?;
+                let [left_m, right_m] = [place.left, place.right].map(|strength| u_m[[site, poe, strength]]);
+                let band_m = bands_m.as_ref().map(|bands_m| {
+                    let [left_m, right_m] = [place.left, place.right].map(|at| bands_m[row(at)][of_site][of_poe]);
+                    [0, 1].map(|limit| rule(place.between(left_m[limit], right_m[limit])))
+                });
                 displacements.push(Displacement {
                     site: spectra.sites[site].clone(),
-                    im: measure.measure.label(),
+                    im: measure.label(),
                     strength: place.strength,
                     poe: spectra.poes[poe],
                     years: spectra.years,
-                    return_period_years: 1.0 / target,
-                    u_m,
-                    band_m: (!upper_m.is_nan()).then_some([lower_m, upper_m]),
+                    return_period_years: 1.0 / targets_per_year[of_poe],
+                    u_m: rule(place.between(left_m, right_m)),
+                    // a single record has none
+                    band_m: band_m.filter(|[_, upper_m]| !upper_m.is_nan()),
                 });
             }
         }
     }
     Ok(DisplacementReport {
         record_set: head.record_set,
-        records: stored.records.len(),
+        records: axes.records.len(),
         synthetic: head.synthetic,
-        measure: measure.measure,
+        measure,
         repaired: asked.repaired,
         capacity_m: asked.capacity_m,
         displacements,
@@ -154,57 +160,39 @@ impl DisplacementReport {
     /// # Errors
     /// None for a report that was read.
     pub fn csv(&self) -> Result<Vec<u8>, JobError> {
-        let number = |name: &str, of: fn(&Displacement) -> f64| {
-            Column::new(name.into(), self.displacements.iter().map(of).collect::<Vec<f64>>())
-        };
-        let text = |name: &str, of: fn(&Displacement) -> &str| {
-            Column::new(name.into(), self.displacements.iter().map(of).collect::<Vec<&str>>())
-        };
-        let columns = vec![
-            text("site", |own| &own.site),
-            text("im", |own| own.im),
-            number("strength", |own| own.strength),
-            number("poe", |own| own.poe),
-            number("years", |own| own.years),
-            number("return_period_years", |own| own.return_period_years),
-            number("u_m", |own| own.u_m),
-            number("lower_m", |own| own.band_m.map_or(f64::NAN, |[lower_m, _]| lower_m)),
-            number("upper_m", |own| own.band_m.map_or(f64::NAN, |[_, upper_m]| upper_m)),
-        ];
+        let limit = |own: &Displacement, at: usize| own.band_m.map_or(f64::NAN, |limits_m| limits_m[at]);
+        let columns = ColumnsOf::new(&self.displacements)
+            .with("site", |own| own.site.as_str())
+            .with("im", |own| own.im)
+            .with("strength", |own| own.strength)
+            .with("poe", |own| own.poe)
+            .with("years", |own| own.years)
+            .with("return_period_years", |own| own.return_period_years)
+            .with("u_m", |own| own.u_m)
+            .with("lower_m", |own| limit(own, 0))
+            .with("upper_m", |own| limit(own, 1))
+            .build();
         table_text(Path::new("standard output"), "", columns)
     }
 }
 
-/// What displacements are read from.
-struct Reading<'a> {
-    measure: &'a StoredMeasure,
-    /// The spectra `[site, poe, strength]`, m.
-    u_m: Array<3>,
-    /// The records of each pair: two components of one are not independent. None without bands.
-    pairs: Option<Vec<Vec<usize>>>,
-    /// Positions of the probabilities.
-    poes: &'a [usize],
-    targets_per_year: Vec<f64>,
-}
-
-impl Reading<'_> {
-    /// The ordinate and both limits of its band at a strength of the result, `[site][poe]`, m; NaN without a band.
-    fn limits(&self, strength: usize, sites: &[usize]) -> Result<Vec<Vec<[f64; 3]>>, UniformRiskError> {
-        let demand = self.measure.demand(strength)?;
-        let of_site = |&site: &usize| -> Result<Vec<[f64; 3]>, UniformRiskError> {
-            let bands = self.pairs.as_ref().map(|pairs| {
-                let weights = &self.measure.weights[site];
-                inferred_limits(&demand, weights, pairs, &self.targets_per_year, (&[pairs.len()], CONFIDENCE))
-            });
-            let bands = bands.transpose()?.unwrap_or_default();
-            let of_poe = |(at, &poe): (usize, &usize)| {
-                let [lower_m, upper_m] = bands.get(at).map_or([f64::NAN; 2], |limits| limits.truth_m);
-                [self.u_m[[site, poe, strength]], lower_m, upper_m]
-            };
-            Ok(self.poes.iter().enumerate().map(of_poe).collect())
-        };
-        sites.iter().map(of_site).collect()
-    }
+/// Limits of the bands at a strength of the result, `[site][target]`, m; NaN of a single record.
+///
+/// - `pairs`: the records of each pair: two components of one are not independent.
+fn bands(
+    stripes: &StoredMeasure,
+    pairs: &[Vec<usize>],
+    targets_per_year: &[f64],
+    strength: usize,
+    sites: &[usize],
+) -> Result<Vec<Vec<[f64; 2]>>, UniformRiskError> {
+    let demand = stripes.demand(strength)?;
+    let of_site = |&site: &usize| {
+        let asked = (&[pairs.len()][..], CONFIDENCE);
+        let limits = inferred_limits(&demand, &stripes.weights[site], pairs, targets_per_year, asked)?;
+        Ok(limits.iter().map(|limits| limits.truth_m).collect())
+    };
+    sites.iter().map(of_site).collect()
 }
 
 /// The spectra by `measure`, `[site, poe, strength]`, m: the plain or the repaired ones.
@@ -271,11 +259,7 @@ fn strengths(asked: &[f64], known: &[f64]) -> Result<Vec<StrengthPlace>, JobErro
             ))
         })
     };
-    let places = asked.iter().map(place).collect::<Result<Vec<_>, _>>()?;
-    let twice = places.iter().enumerate().find(|(at, own)| places[..*at].contains(own));
-    twice.map_or(Ok(places.clone()), |(_, own)| {
-        Err(JobError::Usage(format!("--strength {} is given twice", own.strength)))
-    })
+    each_once(asked.iter().map(place), |own| format!("--strength {}", own.strength))
 }
 
 /// Positions of the sites `asked` for.
@@ -283,26 +267,41 @@ fn sites(asked: &[String], known: &[String]) -> Result<Vec<usize>, JobError> {
     if asked.is_empty() {
         return Ok((0..known.len()).collect());
     }
-    let place = |wanted: &String| {
-        known.iter().position(|site| site.to_lowercase() == wanted.to_lowercase()).ok_or_else(|| JobError::Choice {
-            option: "--site",
-            wanted: Some(wanted.clone()),
-            known: known.to_vec(),
-        })
-    };
-    let places = asked.iter().map(place).collect::<Result<Vec<_>, _>>()?;
-    match places.iter().enumerate().find(|(at, own)| places[..*at].contains(own)) {
-        Some((_, &site)) => Err(JobError::Usage(format!("--site {} is given twice", known[site]))),
-        None => Ok(places),
-    }
+    each_once(asked.iter().map(|name| site_index(known, name)), |&site| format!("--site {}", known[site]))
 }
 
-fn stored_measure(known: &[StoredMeasure], asked: Option<IntensityMeasure>) -> Result<&StoredMeasure, JobError> {
-    let found = known.iter().find(|own| asked.is_none_or(|wanted| own.measure == wanted));
+/// The position of the site called `wanted`; in letters of either case where none is spelt so.
+///
+/// # Errors
+/// A site that is not among those `known`.
+pub fn site_index(known: &[String], wanted: &str) -> Result<usize, JobError> {
+    let spelt_so = known.iter().position(|site| site == wanted);
+    let found = spelt_so.or_else(|| known.iter().position(|site| site.to_lowercase() == wanted.to_lowercase()));
+    found.ok_or_else(|| JobError::Choice { option: "--site", wanted: Some(wanted.to_owned()), known: known.to_vec() })
+}
+
+/// What was asked for, unless one of it is given twice.
+fn each_once<T: PartialEq>(
+    asked: impl Iterator<Item = Result<T, JobError>>,
+    name: impl Fn(&T) -> String,
+) -> Result<Vec<T>, JobError> {
+    let mut all = Vec::new();
+    for one in asked {
+        let one = one?;
+        if all.contains(&one) {
+            return Err(JobError::Usage(format!("{} is given twice", name(&one))));
+        }
+        all.push(one);
+    }
+    Ok(all)
+}
+
+fn chosen_measure(known: &[IntensityMeasure], asked: Option<IntensityMeasure>) -> Result<IntensityMeasure, JobError> {
+    let found = known.iter().copied().find(|own| asked.is_none_or(|wanted| *own == wanted));
     found.ok_or_else(|| JobError::Choice {
         option: "--measure",
         wanted: asked.map(|measure| measure.key().to_owned()),
-        known: known.iter().map(|own| own.measure.key().to_owned()).collect(),
+        known: known.iter().map(|own| own.key().to_owned()).collect(),
     })
 }
 
@@ -312,7 +311,7 @@ fn capacity_rule(capacity_m: Option<f64>, uplift_displacement_m: f64) -> Result<
     let capacity =
         capacity_m.map(|capacity_m| Capacity::new(uplift_displacement_m, capacity_m)).transpose().map_err(usage)?;
     Ok(move |zero_m: f64| match &capacity {
-        // not a number: no band; infinite: it overturns
+        // not a number: no repaired spectrum, or no band; infinite: it overturns
         Some(capacity) if zero_m.is_finite() => {
             Rule::EqualEnergy.demand(capacity, zero_m).map_or(f64::NAN, Demand::displacement_m)
         }

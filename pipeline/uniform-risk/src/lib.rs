@@ -30,7 +30,7 @@ mod units;
 pub use asked::{AskedRisk, RiskTargets, at, stored_spectra};
 pub use coefficients::{Coefficients, fit_ordinates, fit_spectra, fit_spectrum};
 pub use displacement::{
-    CONFIDENCE, Displacement, DisplacementOptions, DisplacementReport, StrengthPlace, displacements,
+    CONFIDENCE, Displacement, DisplacementOptions, DisplacementReport, StrengthPlace, displacements, site_index,
 };
 pub use epistemic::{BRANCHES, BranchSpectra, write_branch_spectra};
 pub use error::UniformRiskError;

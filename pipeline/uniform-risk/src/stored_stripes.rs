@@ -231,6 +231,11 @@ pub(super) fn weigh(
 /// Exact ordinates `[site, poe, strength]` of all spectra, m.
 fn exact_ordinates(measure: &StoredMeasure, targets_per_year: &[f64]) -> Result<Array<3>, UniformRiskError> {
     let [_, strengths, _] = measure.edp_m.shape();
+    let shape = [measure.weights.len(), targets_per_year.len(), strengths];
+    // who asks for none needs no strength sorted
+    if targets_per_year.is_empty() {
+        return Ok(Array::from_fn(shape, |_| f64::NAN));
+    }
     // [strength][site][poe]: each strength is sorted once
     let mut by_strength = Vec::with_capacity(strengths);
     for strength in 0..strengths {
@@ -238,6 +243,5 @@ fn exact_ordinates(measure: &StoredMeasure, targets_per_year: &[f64]) -> Result<
         let of_site = |weights| RiskCurve::new(&demand, weights)?.exact_ordinates(targets_per_year);
         by_strength.push(measure.weights.iter().map(of_site).collect::<Result<Vec<_>, _>>()?);
     }
-    let shape = [measure.weights.len(), targets_per_year.len(), strengths];
     Ok(Array::from_fn(shape, |[site, poe, strength]| by_strength[strength][site][poe].displacement_m))
 }

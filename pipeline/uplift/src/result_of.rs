@@ -6,9 +6,9 @@ use std::time::Instant;
 use uplift_alarms::alarms;
 use uplift_engine::checkpoint::oscillator_key;
 use uplift_inputs::{Record, input_checksums, motion_keys, read_hazard, read_other_hazard, read_records};
+use uplift_job::JobError;
 use uplift_job::events::{Events, Silent};
 use uplift_job::study_run::{RunHead, RunOptions};
-use uplift_job::{COMMIT, JobError, VERSION};
 use uplift_labelled::verify as verify_file;
 use uplift_motion::IntensityMeasure;
 use uplift_result::{Kind, Overview, Provenance, ResultFile, replaces_another, what_counts};
@@ -46,7 +46,7 @@ pub fn result_of(study: &UniformRiskStudy, options: &RunOptions, events: &dyn Ev
 /// study has to be run.
 ///
 /// # Errors
-/// Inputs that cannot be used; a result that changes while it is read.
+/// A result that changes while it is read.
 pub(crate) fn finished(
     study: &UniformRiskStudy,
     options: &RunOptions,
@@ -55,7 +55,9 @@ pub(crate) fn finished(
 ) -> Result<Option<uniform_risk::RunReport>, UpliftError> {
     let path = options.result_file(&study.output.file);
     let tables: Vec<PathBuf> = uniform_risk::tables(study, path).iter().map(|table| table.path().to_owned()).collect();
-    if !path.is_file() || !verify_file(path).is_ok_and(|verdict| verdict.is_sound()) || !is_result_of(study, path)? {
+    // a run tells what is wrong with its inputs; every byte of the file is read only where it is the one
+    let is_own = path.is_file() && is_result_of(study, path).unwrap_or(false);
+    if !is_own || !verify_file(path).is_ok_and(|verdict| verdict.is_sound()) {
         return Ok(None);
     }
     let file = ResultFile::open(path)?;
@@ -78,19 +80,9 @@ pub(crate) fn finished(
     }
     let mut files = vec![path.to_owned()];
     files.extend(tables);
-    let head = RunHead {
-        program: "uplift",
-        version: VERSION,
-        commit: COMMIT,
-        study: options.study_file.display().to_string(),
-        title: stored.title,
-        record_set: stored.record_set,
-        synthetic: stored.synthetic,
-        files,
-        alarms,
-        seconds: start.elapsed().as_secs_f64(),
-        done_already: true,
-    };
+    let (records, seconds) = ((stored.record_set.as_str(), stored.synthetic), start.elapsed().as_secs_f64());
+    let head = Provenance::new(options, stored.input_checksums).head(&stored.title, records, alarms, files, seconds);
+    let head = RunHead { done_already: true, ..head };
     let Overview::UniformRisk { analyses, .. } = file.overview()? else { return Ok(None) };
     let of_measure = |im: &str| analyses.iter().find(|(own, _)| *own == im).map_or(0, |(_, count)| *count);
     let labels = file.measures().into_iter().map(IntensityMeasure::label);

@@ -55,6 +55,18 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
     })
 }
 
+/// Several numbers, parted by commas.
+#[derive(Debug, Clone)]
+pub(crate) struct Numbers(pub(crate) Vec<f64>);
+
+/// Reads `0.1,0.2`; `0,13` is a number with a decimal comma.
+pub(crate) fn numbers(text: &str) -> Result<Numbers, String> {
+    if let Some(decimals) = text.strip_prefix("0,").filter(|rest| rest.bytes().all(|byte| byte.is_ascii_digit())) {
+        return Err(format!("the decimal mark is a point: write 0.{decimals}, or 0.0,{decimals} for two numbers"));
+    }
+    text.split(',').map(number).collect::<Result<_, _>>().map(Numbers)
+}
+
 /// Refuses a `folder` for some files (`what`) whose name is that of a file, unless there is such a folder.
 pub(crate) fn require_folder(folder: &Path, what: &str) -> Result<(), CommandError> {
     let looks_like_a_file = folder.extension().is_some_and(|ending| FILES.iter().any(|known| ending == *known));
@@ -79,5 +91,8 @@ mod tests {
         for text in ["1,234,567", "0.2 m", "x", ""] {
             assert!(number(text).is_err_and(|error| error.starts_with("write a number")), "{text}");
         }
+        assert!(numbers("0,13").is_err_and(|error| error.contains("write 0.13")));
+        assert!(numbers("0.1,x").is_err());
+        assert!(numbers("0.1,0.2").is_ok_and(|Numbers(all)| all == [0.1, 0.2]));
     }
 }

@@ -2,10 +2,9 @@
 
 use std::io::Write;
 
-use uplift::UpliftError;
 use uplift::spectrum::SpectrumReport;
 use uplift::text::{
-    Table, cell_with_band, kind_of_risks, metres_with_band, per_cent, risk_in_words, risk_name, rounded,
+    Table, cell_with_band, kind_of_risks, metres_with_named_band, per_cent, risk_in_words, risk_name, rounded,
 };
 use uplift::uniform_risk::{CONFIDENCE, Displacement, DisplacementReport};
 
@@ -29,8 +28,7 @@ pub(crate) fn print_spectrum(report: &SpectrumReport, terminal: &Terminal) -> Re
 fn print_answers(out: &mut impl Write, report: &DisplacementReport) -> Result<(), CommandError> {
     for own in &report.displacements {
         let Displacement { site, im, strength, u_m, band_m, .. } = own;
-        let band = format!("({} band ", per_cent(CONFIDENCE));
-        let displacement = metres_with_band(*u_m, *band_m).replacen('(', &band, 1);
+        let displacement = metres_with_named_band(*u_m, *band_m, CONFIDENCE);
         let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
         writeln!(out, "{displacement}  {site}, strength {strength}, {}, by {im}{capacity}", risk(own))?;
     }
@@ -80,5 +78,5 @@ pub(super) fn print_displacements(
 
 /// The displacements as CSV, with all their digits.
 pub(crate) fn print_spectrum_csv(report: &DisplacementReport) -> Result<(), CommandError> {
-    Ok(output().write_all(&report.csv().map_err(UpliftError::from)?)?)
+    Ok(output().write_all(&report.csv()?)?)
 }

@@ -115,7 +115,7 @@ impl RunReport {
         let plain_m: Vec<_> = spectra.measures.iter().map(|own| (own.measure, own.u_m.clone())).collect();
         let (answer, precision) = match known {
             Some((answer, precision)) => (answer.clone(), precision.to_vec()),
-            None => again(file, &study)?,
+            None => recomputed(file, &study)?,
         };
         let (displacements, repaired) = (shown(false)?, shown(true)?);
         Ok(Self {
@@ -133,7 +133,7 @@ impl RunReport {
 }
 
 /// Consistency and precision of a result, as its run had them.
-fn again(file: &ResultFile, study: &UniformRiskStudy) -> Result<(Answer, Vec<Precision>), StudiesError> {
+fn recomputed(file: &ResultFile, study: &UniformRiskStudy) -> Result<(Answer, Vec<Precision>), StudiesError> {
     if study.sites.is_empty() {
         return Ok((Answer::from_result(file, None)?, Vec::new()));
     }

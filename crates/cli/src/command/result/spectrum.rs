@@ -5,7 +5,7 @@ use uplift::spectrum::spectrum as read;
 use uplift::uniform_risk::DisplacementOptions;
 use uplift_motion::IntensityMeasure;
 
-use crate::command::arguments::{ResultArguments, RiskArguments, number};
+use crate::command::arguments::{Numbers, ResultArguments, RiskArguments, number, numbers};
 use crate::error::CommandError;
 use crate::show::{print_json, print_spectrum, print_spectrum_csv};
 use crate::terminal::Terminal;
@@ -22,11 +22,10 @@ pub(crate) struct SpectrumArguments {
     #[arg(
         long,
         value_name = "STRENGTH[,…]",
-        value_delimiter = ',',
         allow_negative_numbers = true,
-        value_parser = number
+        value_parser = numbers
     )]
-    strength: Vec<f64>,
+    strength: Vec<Numbers>,
     #[command(flatten)]
     risk: RiskArguments,
     /// Sites [default: all]
@@ -49,25 +48,10 @@ pub(crate) struct SpectrumArguments {
     csv: bool,
 }
 
-/// Refuses `--strength 0,13`, which would be the strengths 0 and 13.
-fn refuse_decimal_comma() -> Result<(), CommandError> {
-    let typed: Vec<String> = std::env::args().collect();
-    let after = typed.windows(2).filter(|pair| pair[0] == "--strength").map(|pair| pair[1].as_str());
-    let mut texts = after.chain(typed.iter().filter_map(|text| text.strip_prefix("--strength=")));
-    let pointed = |text: &str| {
-        let decimals = text.strip_prefix("0,").filter(|rest| rest.bytes().all(|byte| byte.is_ascii_digit()))?;
-        Some(format!(
-            "--strength {text}: the decimal mark is a point: write 0.{decimals}, or 0.0,{decimals} for two strengths"
-        ))
-    };
-    texts.find_map(pointed).map_or(Ok(()), |message| Err(CommandError::Usage(message)))
-}
-
 pub(crate) fn spectrum(arguments: &SpectrumArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    refuse_decimal_comma()?;
     let found = arguments.result.find(terminal)?;
     let asked = DisplacementOptions {
-        strengths: arguments.strength.clone(),
+        strengths: arguments.strength.iter().flat_map(|Numbers(all)| all.iter().copied()).collect(),
         risk: arguments.risk.asked(),
         sites: arguments.site.clone(),
         measure: arguments.measure,

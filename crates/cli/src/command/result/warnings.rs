@@ -23,8 +23,6 @@ pub(crate) struct WarningsArguments {
 }
 
 pub(crate) fn warnings(arguments: &WarningsArguments) -> Result<(), CommandError> {
-    let file = ResultFile::open(&arguments.result).map_err(uplift::UpliftError::from)?;
-    let file = at(file, &arguments.risk.asked()).map_err(uplift::UpliftError::from)?;
-    let alarms = alarms(&file).map_err(uplift::UpliftError::from)?;
+    let alarms = alarms(&at(ResultFile::open(&arguments.result)?, &arguments.risk.asked())?)?;
     if arguments.json { print_json(&alarms) } else { print_all_warnings(&alarms) }
 }
