@@ -196,7 +196,7 @@ def test_commands_add_to_the_result(folder, program):
 def test_figures_and_pages_for_notebooks(result):
     figure = result.plot("urs")
     assert figure._repr_svg_().startswith("<svg") or figure.svg.lstrip().startswith("<?xml")
-    assert set(result.figures("urs")) == {"urs-pgv", "urs-pga"}
+    assert set(result.figures("urs")) == {"urs-sites", "urs-pgv", "urs-pga"}
     assert result.of("pga").plot().svg != figure.svg
     assert "<table>" in result._repr_html_() and "small" in result._repr_html_()
     with pytest.raises(ValueError, match="nothing"):
