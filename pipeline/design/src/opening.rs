@@ -66,15 +66,8 @@ pub(super) fn choose_measure(
     source: &StudyOfResult,
     wanted: Option<IntensityMeasure>,
 ) -> Result<&SpectraOfResult, DesignError> {
-    let found = match wanted {
-        Some(wanted) => source.measures.iter().find(|measure| measure.measure() == wanted),
-        None => source.measures.first(),
-    };
-    Ok(found.ok_or_else(|| JobError::Choice {
-        option: "--measure",
-        wanted: wanted.map(|wanted| wanted.key().to_owned()),
-        known: source.measures.iter().map(|measure| measure.measure().key().to_owned()).collect(),
-    })?)
+    let known: Vec<IntensityMeasure> = source.measures.iter().map(SpectraOfResult::measure).collect();
+    Ok(&source.measures[uplift_uniform_risk::measure_index(&known, wanted)?])
 }
 
 /// Coefficient of restitution of a structure's oscillator: its own, else that of the study.

@@ -99,7 +99,8 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
     let poes = if is_rarest_alone { vec![poe_index(&spectra.poes, None)?] } else { (0..spectra.poes.len()).collect() };
     let places = strengths(&asked.strengths, &spectra.strengths)?;
     let sites = sites(&asked.sites, &spectra.sites)?;
-    let measure = chosen_measure(&file.measures(), asked.measure)?;
+    let measures = file.measures();
+    let measure = measures[measure_index(&measures, asked.measure)?];
     let targets_per_year = (poes.iter())
         .map(|&poe| rate_from_probability(spectra.poes[poe], spectra.years))
         .collect::<Result<Vec<_>, _>>()?;
@@ -296,11 +297,15 @@ fn each_once<T: PartialEq>(
     Ok(all)
 }
 
-fn chosen_measure(known: &[IntensityMeasure], asked: Option<IntensityMeasure>) -> Result<IntensityMeasure, JobError> {
-    let found = known.iter().copied().find(|own| asked.is_none_or(|wanted| *own == wanted));
+/// The position of the measure `wanted`; of the first where none is, which is PGV if the result has it.
+///
+/// # Errors
+/// A measure that is not among those `known`.
+pub fn measure_index(known: &[IntensityMeasure], wanted: Option<IntensityMeasure>) -> Result<usize, JobError> {
+    let found = known.iter().position(|own| wanted.is_none_or(|wanted| *own == wanted));
     found.ok_or_else(|| JobError::Choice {
         option: "--measure",
-        wanted: asked.map(|measure| measure.key().to_owned()),
+        wanted: wanted.map(|measure| measure.key().to_owned()),
         known: known.iter().map(|own| own.key().to_owned()).collect(),
     })
 }

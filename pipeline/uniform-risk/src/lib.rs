@@ -30,7 +30,8 @@ mod units;
 pub use asked::{AskedRisk, RiskTargets, at, stored_spectra};
 pub use coefficients::{Coefficients, fit_ordinates, fit_spectra, fit_spectrum};
 pub use displacement::{
-    CONFIDENCE, Displacement, DisplacementOptions, DisplacementReport, StrengthPlace, displacements, site_index,
+    CONFIDENCE, Displacement, DisplacementOptions, DisplacementReport, StrengthPlace, displacements, measure_index,
+    site_index,
 };
 pub use epistemic::{BRANCHES, BranchSpectra, write_branch_spectra};
 pub use error::UniformRiskError;
