@@ -32,7 +32,7 @@ fn a_study_in_place_of_a_result_is_told_as_one() {
     for command in ["report", "table", "export"] {
         let format = if command == "export" { &["--json"][..] } else { &[] };
         let said = study.uplift(&[&[command, "study.toml"], format].concat());
-        said.fails(4, &["study.toml: is a study, and a result is wanted: `uplift run` makes one of it"]);
+        said.fails(4, &["study.toml: is a study, not a result: `uplift run` computes its result"]);
     }
 }
 

@@ -403,7 +403,7 @@ fn what_is_typed_wrong() {
     refused(&["pushover", &column, "--to-m", "9"], 2, &["a displacement of 9 m is beyond the column's reach"]);
     refused(&["pushover", &column, "--rows", "1"], 2, &["give from 2"]);
     refused(&["pushover", &column, "--stiffness-n-m=-3"], 2, &["`stiffness_n_m` is -3 N/m"]);
-    refused(&["pushover", "study.toml"], 3, &["it is a study, and a structure is wanted"]);
+    refused(&["pushover", "study.toml"], 3, &["it is a study, not a structure"]);
     refused(&["protocol", "--first", "0"], 2, &["`first` is 0: it must be finite and positive"]);
     refused(&["protocol", "--first", "0.36"], 2, &["`last amplitude` is 15.", "a drift ratio, not per cent"]);
     refused(&["protocol", "--parts", "4000000000"], 2, &["a million points"]);
