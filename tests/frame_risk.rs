@@ -224,7 +224,7 @@ fn what_is_typed_wrong_is_told_and_figures_are_drawn() {
     assert!(planar.stdout.contains("do not wobble") && !planar.stdout.contains("torsion"), "{}", planar.stdout);
     assert!(planar.stdout.contains("planar frame") && !planar.stdout.contains("wobbling frame"));
     assert!(std::fs::read_to_string(study.path().join("r.svg")).unwrap().contains("displacement of the deck, m"));
-    ask("frame.toml", &[]).fails(2, &["--site", "Here, There"]);
+    ask("frame.toml", &[]).fails(2, &["name one with --site Here: the result has Here, There"]);
     ask("frame.toml", &["--site", "Here", "-o", "manifest.csv"]).fails(2, &["manifest.csv"]);
     ask("frame.toml", &["--site", "Here", "--plot", "frame.toml"]).fails(2, &["frame.toml"]);
     study.write("mass.toml", "kind = \"point-mass\"\nmass_kg = 1\nwidth_m = 1\ncentre_height_m = 4\n");
