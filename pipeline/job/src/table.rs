@@ -94,11 +94,8 @@ pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), JobError> {
 /// `text` as a cell that a spreadsheet shows and does not compute: an apostrophe goes before what it would take for a
 /// formula, and what a terminal obeys is spelt out. A number stays a number.
 pub fn neutral(text: &str) -> Cow<'_, str> {
-    if begins_formula(text) && text.trim().parse::<f64>().is_err() {
-        Cow::Owned(format!("'{}", one_line(text)))
-    } else {
-        one_line(text)
-    }
+    let text = one_line(text);
+    if begins_formula(&text) && text.trim().parse::<f64>().is_err() { Cow::Owned(format!("'{text}")) } else { text }
 }
 
 /// The text of a cell that [`neutral`] made.
