@@ -157,6 +157,31 @@ fn a_design_has_the_frame_beside_its_proxy() {
     assert_eq!(whole["frame"], design["frame"]);
 }
 
+/// Overturning of the frame is that of `risk`, at every site.
+#[test]
+fn overturning_has_the_frame_beside_its_oscillator() {
+    let study = study(STUDY);
+    study.write("free.toml", &FRAME.split("[restrainer]").next().unwrap().replace("restrained-frame", "frame"));
+    let found = json(&study, &["overturning", "free.toml", "-o", "o.csv"]);
+    let names = ["oscillator", "block", "wobbling frame", "planar frame"];
+    let rows = found["overturning"].as_array().unwrap();
+    let of = |values: &Value| values.as_array().unwrap().iter().map(|of| of["model"].clone()).collect::<Vec<_>>();
+    assert_eq!(
+        (of(&found["overturning"]), of(&found["models"])),
+        (names.map(Value::from).to_vec(), names.map(Value::from).to_vec())
+    );
+    for (place, site) in ["Here", "There"].into_iter().enumerate() {
+        let risk = json(&study, &["risk", "free.toml", "--site", site]);
+        assert_eq!(rows[2]["sites"][place]["per_year"], risk["overturning"]["per_year"], "{site}");
+    }
+    let fragility = self::rows(&study, "o.csv");
+    assert!(fragility.iter().any(|row| row["model"] == "planar frame" && row["restitution"] == "0.9"), "{fragility:?}");
+    let said = study.uplift(&["overturning", "free.toml", "--urs", "r.h5"]).ok().stdout;
+    assert!(said.lines().next().unwrap().contains("times as often as its oscillator"), "{said}");
+    let alone = study.uplift(&["overturning", "free.toml", "--urs", "r.h5", "--proxy"]).ok().stdout;
+    assert!(!alone.contains("wobbling") && alone.contains("block"), "{alone}");
+}
+
 /// Events happen as often as their displacements are exceeded, the state is that of a pushover at the demand.
 #[test]
 #[ignore = "long: make test-long"]

@@ -105,11 +105,12 @@ class StructureCommands:
         site: str | None = None,
         measure: str | None = None,
         restitution: float | None = None,
+        proxy: bool = False,
         manifest: _PathLike | None = None,
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> dict[str, Any]:
-        """Says how often a structure overturns, by oscillator and rigid block, as ``uplift overturning`` does.
+        """Says how often a structure overturns, by oscillator, rigid block and frame, as ``uplift overturning`` does.
 
         Parameters
         ----------
@@ -118,6 +119,8 @@ class StructureCommands:
             Without them all of the result.
         restitution : float, optional
             One for both models, in place of their own.
+        proxy : bool
+            Whether the frame that wobbles is left out.
         manifest
             As of `compute_design`.
 
@@ -130,6 +133,7 @@ class StructureCommands:
             "site": site,
             "measure": measure,
             "restitution": restitution,
+            "proxy": proxy,
             "manifest": manifest,
             "threads": threads,
         }

@@ -31,7 +31,7 @@ use uplift_uniform_risk::{AskedRisk, EventRisk, SpectraOfResult, StudyOfResult, 
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
 use super::opening::{Place, job_name, records_and_pairs, restitution};
-use super::own_frame::{FrameReport, OwnFrame};
+use super::own_frame::{FrameReport, OF_FRAME, OwnFrame};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::rules::{RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
@@ -291,11 +291,6 @@ pub fn design_shard(
         events,
     )?)
 }
-
-/// What the models of a frame leave out.
-const OF_FRAME: &str = "the wobbling model loses no energy by impact or friction, and its deck does not turn; the \
-                        planar one is shaken by one component alone, which is known to be unconservative (Section \
-                        6.2.3)";
 
 /// What runs weigh at a place: as a repair says where there is one.
 fn site_weights<'a>(

@@ -31,6 +31,11 @@ const LEVELS: usize = 28;
 /// How many times as often as the target the first of them is exceeded.
 const TIMES_TARGET: f64 = 30.0;
 
+/// What the models of a frame leave out.
+pub(super) const OF_FRAME: &str = "the wobbling model loses no energy by impact or friction, and its deck does not \
+                                   turn; the planar one is shaken by one component alone, which is known to be \
+                                   unconservative (Section 6.2.3)";
+
 /// The frame itself, as a design or the overturning of a structure shows it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FrameReport {
@@ -156,6 +161,8 @@ pub(super) fn modelled(frame: &RockingFrame, model: Model, restitution: f64) -> 
 pub(super) struct OwnFrame {
     wobbling: Vec<System>,
     planar: Vec<System>,
+    /// Where the restitution of the planar model comes from.
+    restitution_from: &'static str,
     pairs: Pairs,
 }
 
@@ -169,12 +176,36 @@ impl OwnFrame {
     /// The frame of `structure`, to be shaken by `pairs`.
     pub(super) fn from_structure(structure: &Structure, pairs: Pairs) -> Result<Self, DesignError> {
         let frame = rocking_frame(structure)?;
-        let restitution = structure.description.restitution.unwrap_or_else(|| frame.momentum_restitution());
+        let own = structure.description.restitution;
+        let (restitution, restitution_from) =
+            own.map_or_else(|| (frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
         Ok(Self {
             wobbling: vec![modelled(&frame, Model::Wobbling, 1.0)],
             planar: vec![modelled(&frame, Model::Planar, restitution)],
+            restitution_from,
             pairs,
         })
+    }
+
+    /// Its models, each with the origin of its restitution.
+    pub(super) fn models(&self) -> [(&System, &'static str); 2] {
+        [(&self.wobbling[0], "the model loses no energy"), (&self.planar[0], self.restitution_from)]
+    }
+
+    /// Positions of the levels at which it is shaken to count what overturns: from the last one on at which no pair of
+    /// components lifts it.
+    pub(super) fn levels_that_uplift(&self, set: &RecordSet, measure: &SpectraOfResult) -> Vec<usize> {
+        let System::Frame(shaken) = &self.wobbling[0] else { return Vec::new() };
+        let (of, threshold_m_s2) = (measure.measure(), shaken.frame.uplift_acceleration_m_s2());
+        let largest = |pair: &RecordPair| {
+            let [one, other] = [&pair.h1, &pair.h2].map(Accelerogram::acceleration_m_s2);
+            one.iter().zip(other).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max)
+        };
+        let per_amplitude = |(index, pair): (usize, &RecordPair)| largest(pair) / self.pairs.amplitude(set, of, index);
+        let most = self.pairs.all.iter().enumerate().map(per_amplitude).fold(0.0, f64::max);
+        let levels = &measure.plan.levels;
+        let stands = |level: &f64| most * of.amplitude(*level) < threshold_m_s2;
+        sparse(levels, levels.iter().rposition(stands).unwrap_or(0))
     }
 
     /// Its stripes at `levels` of a measure: wobbling, then planar.
@@ -221,6 +252,13 @@ pub(super) struct FramePeaks {
     models: [(&'static str, f64, Vec<f64>); 2],
 }
 
+impl FramePeaks {
+    /// Those of each model.
+    pub(super) fn each(&self) -> impl Iterator<Item = (&'static str, &[f64])> {
+        self.models.iter().map(|(model, _, peaks_m)| (*model, &peaks_m[..]))
+    }
+}
+
 /// What is asked of the peaks of a frame at one site.
 pub(super) struct FrameQuestion<'a> {
     /// Positions of its levels among those of the study.
@@ -244,9 +282,7 @@ impl FrameQuestion<'_> {
         let of_study = &self.place.measure.plan.levels;
         let levels: Vec<f64> = self.places.iter().map(|&place| of_study[place]).collect();
         let mean: StripeWeights = self.hazard.mean.at_levels(self.places)?;
-        let of_branch = |(weight, stripes): &(f64, StripeWeights)| Ok((*weight, stripes.at_levels(self.places)?));
-        let branches = self.hazard.branches.iter().map(of_branch).collect::<Result<_, DesignError>>()?;
-        let hazard = Hazard { mean: &mean, branches };
+        let hazard = self.hazard.at_levels(&mean, self.places)?;
         let repaired: Option<RunWeights> = match self.weights {
             SiteWeights::Alike(_) => None,
             SiteWeights::Repaired(runs) => Some(runs.at_levels(self.places)?),
