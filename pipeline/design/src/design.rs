@@ -31,7 +31,7 @@ use uplift_uniform_risk::{AskedRisk, EventRisk, SpectraOfResult, StudyOfResult, 
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
 use super::opening::{Place, job_name, records_and_pairs, restitution};
-use super::own_frame::{FrameReport, OF_FRAME, OwnFrame};
+use super::own_frame::{FrameReport, OF_FRAME, OwnFrame, STOPPED};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::rules::{RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
@@ -185,10 +185,11 @@ pub fn design(
     if spectrum.is_none() {
         notes.push(beyond_spectrum(structure, &source));
     }
-    let wobbles = OwnFrame::is_described(structure);
+    let [wobbles, is_shaken] = [OwnFrame::is_described(structure), OwnFrame::can_be_shaken(structure)];
+    notes.extend((wobbles && !is_shaken).then(|| STOPPED.to_owned()));
     let mut own = None;
     if !options.spectrum_only {
-        match records_and_pairs(&source, options.manifest.as_deref(), wobbles && !options.proxy)? {
+        match records_and_pairs(&source, options.manifest.as_deref(), is_shaken && !options.proxy)? {
             Ok(records) => {
                 let question = Question { place, weights: &weights, target_per_year };
                 let analysed = (options, records);
@@ -278,7 +279,7 @@ pub fn design_shard(
     let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
     let target_per_year = source.target_per_year(source.only_risk(&options.risk)?)?;
-    let with_pairs = OwnFrame::is_described(structure) && !options.proxy;
+    let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
     // the levels of a frame are those of a site; oscillators are the same at all of them
     let any_site = source.sites.first().filter(|_| !with_pairs);
     let place = Place::choose(&source, options.site.as_ref().or(any_site).map(String::as_str), options.measure)?;

@@ -28,7 +28,7 @@ use super::opening::{
     ShakenRecords, check_tables, choose_measure, job_name, records_and_pairs, required, site_index,
     study_with_common_records,
 };
-use super::own_frame::{FramePeaks, OF_FRAME, OwnFrame};
+use super::own_frame::{FramePeaks, OF_FRAME, OwnFrame, STOPPED};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{OVERTURNING_M, own_risk};
 use super::tables::{risk_path, write_tables};
@@ -315,7 +315,10 @@ impl<'a> OverturningAnalysis<'a> {
     ) -> Result<Self, DesignError> {
         let measures = measures(source, options.measure)?;
         let models = models(structure, source, options.restitution, notes)?;
-        let with_pairs = OwnFrame::is_described(structure) && !options.proxy;
+        let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
+        if OwnFrame::is_described(structure) && !OwnFrame::can_be_shaken(structure) {
+            notes.push(STOPPED.to_owned());
+        }
         let found = records_and_pairs(source, options.manifest.as_deref(), with_pairs)?;
         let (records, pairs) = required(found, "overturning")?;
         let frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;

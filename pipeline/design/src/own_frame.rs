@@ -16,6 +16,7 @@ use uplift_job::checksum::motion_key;
 use uplift_job::text::thousands;
 use uplift_motion::{Accelerogram, IntensityMeasure, RecordPair};
 use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
+use uplift_statics::RestrainedColumns;
 use uplift_study::Structure;
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, seen, shaken_upwards, stripes_of};
 
@@ -35,6 +36,10 @@ const TIMES_TARGET: f64 = 30.0;
 pub(super) const OF_FRAME: &str = "the wobbling model loses no energy by impact or friction, and its deck does not \
                                    turn; the planar one is shaken by one component alone, which is known to be \
                                    unconservative (Section 6.2.3)";
+
+/// Why a frame that can wobble is left out.
+pub(super) const STOPPED: &str = "the frame itself is not analysed: its motion ends where flat springs stop the \
+                                  columns (when_flat = \"stop\")";
 
 /// The frame itself, as a design or the overturning of a structure shows it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -171,6 +176,12 @@ impl OwnFrame {
     pub(super) fn is_described(structure: &Structure) -> bool {
         let frame = structure.rocking_frame().and_then(Result::ok);
         frame.is_some_and(|frame| frame.shape() == ColumnShape::Cylinder)
+    }
+
+    /// Whether it is one that can be shaken to the end: flat springs that stop the columns end its motion.
+    pub(super) fn can_be_shaken(structure: &Structure) -> bool {
+        let stops = |columns: &RestrainedColumns| columns.restrainer().is_some_and(|held| held.limit_m().is_some());
+        Self::is_described(structure) && !structure.columns.as_ref().is_some_and(stops)
     }
 
     /// The frame of `structure`, to be shaken by `pairs`.
