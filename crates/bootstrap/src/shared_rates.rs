@@ -81,8 +81,15 @@ impl SharedRates {
     /// The rate of all records, 1/yr, with the scatter of the units.
     pub(crate) fn mean(&self) -> SkewedMean {
         let units = self.deviations.len() as f64;
-        let moment = |power: i32| self.deviations.iter().map(|own| own.powi(power)).sum::<f64>() / units;
-        let mean = SkewedMean::new(self.per_year, [2, 3, 4].map(moment), self.deviations.len());
+        // squares and their products as powers have them, in one pass
+        let mut sums = [0.0; 3];
+        for own in &self.deviations {
+            let square = own * own;
+            for (sum, power) in sums.iter_mut().zip([square, own * square, square * square]) {
+                *sum += power;
+            }
+        }
+        let mean = SkewedMean::new(self.per_year, sums.map(|sum| sum / units), self.deviations.len());
         match &self.carried {
             Some(carried) => mean.carried_by(carried),
             None => mean,

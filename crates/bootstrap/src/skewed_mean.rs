@@ -62,8 +62,12 @@ impl SkewedMean {
 
     /// The same of units that carry as much as `carried` says, of each: they amount to (Σ a²)²/Σ a⁴ that carry alike.
     pub fn carried_by(self, carried: &[f64]) -> Self {
-        let sum = |power: i32| carried.iter().map(|own| own.powi(power)).sum::<f64>();
-        let effective = sum(2).powi(2) / sum(4);
+        let (mut second, mut fourth) = (0.0, 0.0);
+        for square in carried.iter().map(|own| own * own) {
+            second += square;
+            fourth += square * square;
+        }
+        let effective = second * second / fourth;
         // nothing is carried where nothing is exceeded
         Self { effective_units: if effective.is_nan() { self.effective_units } else { effective }, ..self }
     }
