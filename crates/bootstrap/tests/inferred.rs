@@ -247,7 +247,7 @@ proptest! {
     }
 }
 
-// Earthquakes of 1, 1, 1, 2, 3, 5, 8 and 13 records, which are alike in what the earthquake was, drawn a dozen at a time.
+// Earthquakes of 1, 1, 1, 2, 3, 5, 8 and 13 records, each with one factor for all its records, a dozen in a set.
 #[test]
 fn nine_of_ten_bands_hold_the_rate_where_a_dozen_earthquakes_are_not_alike() {
     let normal = Normal::standard();
