@@ -148,6 +148,9 @@ pub struct SiteRisk {
     /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repaired: Option<EventRisk>,
+    /// How sure that is; none where there is none, and where no run shows it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repaired_bands: Option<Bands>,
     /// Frequency with the lognormal fragility in place of the counts, 1/yr; none without a fit.
     pub lognormal_per_year: Option<f64>,
     /// The frequency from the counts with its range over scale factors up to 4e-15 smaller and larger, 1/yr.
@@ -218,9 +221,14 @@ pub fn overturning(
             };
             let rounded = (1..=NUDGES).map(at_nudge).collect::<Result<_, _>>()?;
             let demand = PooledDemand::new(&Stripe::new(levels, &peaks_m_at(0))?)?;
-            let of_site = |hazard: &Hazard<'_>| rate_bands(&demand, hazard, &scatter, OVERTURNING_M);
+            let of_site = |hazard: &Hazard<'_>| rate_bands(&demand, (hazard, None), &scatter, OVERTURNING_M);
             let bands = hazard.iter().map(of_site).collect::<Result<_, _>>()?;
-            Ok::<_, DesignError>(Collapses { own: at_nudge(0)?, rounded, bands })
+            let of_repaired = |(hazard, (_, repaired)): (&Hazard<'_>, &(&StripeWeights, Option<&RunWeights>))| {
+                let of = |own| rate_bands(&demand, (hazard, Some(own)), &scatter, OVERTURNING_M);
+                Ok::<_, DesignError>(repaired.map(of).transpose()?.flatten())
+            };
+            let repaired_bands = hazard.iter().zip(&weights).map(of_repaired).collect::<Result<_, _>>()?;
+            Ok::<_, DesignError>(Collapses { own: at_nudge(0)?, rounded, bands, repaired_bands })
         });
         found.push((measure, of_models.collect::<Result<_, _>>()?));
         hazards.push(hazard);
@@ -439,6 +447,8 @@ struct Collapses {
     rounded: Vec<Collapse>,
     /// How sure its risks are, `[site]`.
     bands: Vec<Option<Bands>>,
+    /// The same of those with repaired weights.
+    repaired_bands: Vec<Option<Bands>>,
 }
 
 /// Overturning of a frame by each of its models.
@@ -555,7 +565,7 @@ impl ModelReport {
 
 impl CollapseReport {
     fn from_collapse(
-        Collapses { own, rounded, bands }: &Collapses,
+        Collapses { own, rounded, bands, repaired_bands }: &Collapses,
         measure: IntensityMeasure,
         model: &'static str,
         records: u32,
@@ -571,6 +581,7 @@ impl CollapseReport {
             risk: own.risks[index],
             bands: bands[index],
             repaired: own.repaired[index],
+            repaired_bands: repaired_bands[index],
             lognormal_per_year: own.fitted.as_ref().map(|fitted| fitted[index].per_year),
             per_year_rounding: around(&|found| found.risks[index].per_year),
             lognormal_per_year_rounding: own
