@@ -279,7 +279,7 @@ fn repaired_weights_stand_beside_the_plain_ones() {
 }
 
 #[test]
-fn what_is_typed_wrong_is_told_and_figures_are_drawn() {
+fn wrong_arguments_are_refused_and_figures_are_drawn() {
     let study = study(STUDY);
     let square = FRAME.replace("cylinder", "rectangle");
     study.write("square.toml", &square);

@@ -36,7 +36,7 @@ fn brief(study: &SmallStudy, command: &str, most: usize) -> String {
 }
 
 #[test]
-fn a_run_and_what_is_asked_of_its_result_are_brief() {
+fn runs_and_questions_print_few_words() {
     let study = six_sites();
     brief(&study, "check study.toml", 100);
     let run = brief(&study, "run study.toml -o r.h5", 120);

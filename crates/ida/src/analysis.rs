@@ -237,7 +237,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_peak_that_is_no_number_is_an_error_and_an_overturning_is_an_answer() {
+    fn a_nan_peak_is_an_error_and_an_overturning_is_a_result() {
         let system = |post_uplift| System::Oscillator(Oscillator::new(0.3, 9.81, 0.0005, 0.95, post_uplift).unwrap());
         let [constant, falls] = [PostUplift::Zero, PostUplift::Negative { capacity_m: 0.4 }].map(system);
         let check = |system: &System, displacement_m: f64| {

@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_fit_is_told_apart_from_what_is_tight() {
+    fn a_job_that_cannot_fit_differs_from_a_tight_one() {
         let fits = room(GB, GB);
         assert!(fits.cannot.is_empty() && fits.tight.is_empty(), "{fits:?}");
         let tight = room(3 * GB, 2 * GB);
