@@ -182,6 +182,24 @@ fn overturning_has_the_frame_beside_its_oscillator() {
     assert!(!alone.contains("wobbling") && alone.contains("block"), "{alone}");
 }
 
+/// The rest of a wobbling frame is a key of its file, which an option replaces.
+#[test]
+fn the_amplitude_of_rest_is_a_key_of_the_structure() {
+    let study = study(STUDY);
+    study.write("restless.toml", &FRAME.replace("restitution", "rest_amplitude_rad = 1e-2\nrestitution"));
+    let manifest = rows(&study, "manifest.csv");
+    let rests = |structure: &str, more: &[&str]| -> Value {
+        let files = ["--h1", &manifest[0]["file_h1"], "--h2", &manifest[0]["file_h2"], "--scale", "2", "--json"];
+        let ask = ["response", "--structure", structure];
+        let run: Value = serde_json::from_str(&study.uplift(&[&ask[..], &files, more].concat()).ok().stdout).unwrap();
+        run["runs"][0].clone()
+    };
+    let own = rests("restless.toml", &[]);
+    assert_eq!(own, rests("frame.toml", &["--rest-amplitude-rad", "1e-2"]));
+    assert_ne!(own, rests("frame.toml", &[]));
+    assert_eq!(rests("restless.toml", &["--rest-amplitude-rad", "1e-5"]), rests("frame.toml", &[]));
+}
+
 /// Events happen as often as their displacements are exceeded, the state is that of a pushover at the demand.
 #[test]
 #[ignore = "long: make test-long"]

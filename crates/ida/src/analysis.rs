@@ -191,7 +191,8 @@ pub(crate) fn single(system: &System, ground: &Ground<'_>, scale: f64, with_free
             let frame = RockingFrame::block(size_m, slenderness_rad, block.gravity_m_s2())
                 .map_err(|source| IdaError::Frame { motion: ground.id.to_owned(), scale, source: source.into() })?;
             let restitution = block.restitution();
-            wobbled(&ShakenFrame { frame, model: Model::Planar, restitution }, ground, scale, with_free_peak)
+            let shaken = ShakenFrame { frame, model: Model::Planar, restitution, rest_amplitude_rad: None };
+            wobbled(&shaken, ground, scale, with_free_peak)
         }
         System::Block(block) => rocked(block, ground, scale, with_free_peak),
         System::Frame(shaken) => wobbled(shaken, ground, scale, with_free_peak),
@@ -212,7 +213,8 @@ fn wobbled(shaken: &ShakenFrame, ground: &Ground<'_>, scale: f64, with_free_peak
         z: z.as_ref().map(component),
     };
     let until = if with_free_peak { Until::FirstFreePeak } else { Until::Time(shaking.duration_s()) };
-    let options = Options { until, restitution: Some(shaken.restitution), ..Options::default() };
+    let ShakenFrame { restitution, rest_amplitude_rad, .. } = *shaken;
+    let options = Options { until, restitution: Some(restitution), rest_amplitude_rad, ..Options::default() };
     let response = uplift_frame::respond(&shaken.frame, &shaking, shaken.model, &options)
         .map_err(|source| IdaError::Frame { motion: ground.id.to_owned(), scale, source: source.into() })?;
     let impacts = u32::try_from(response.impacts).unwrap_or(u32::MAX);

@@ -157,8 +157,16 @@ pub(super) fn in_the_plane_of_records<'a>(
 }
 
 /// A frame by one of its models.
-pub(super) fn modelled(frame: &RockingFrame, model: Model, restitution: f64) -> System {
-    System::Frame(Box::new(ShakenFrame { frame: frame.clone(), model, restitution }))
+///
+/// * `rest_amplitude_rad` — of the wobbling frame, as its structure file has it
+pub(super) fn modelled(
+    frame: &RockingFrame,
+    (model, restitution): (Model, f64),
+    rest_amplitude_rad: Option<f64>,
+) -> System {
+    // rest of the planar model is proved
+    let rest_amplitude_rad = rest_amplitude_rad.filter(|_| model == Model::Wobbling);
+    System::Frame(Box::new(ShakenFrame { frame: frame.clone(), model, restitution, rest_amplitude_rad }))
 }
 
 /// The frame of a structure that can wobble, by both models.
@@ -191,8 +199,8 @@ impl OwnFrame {
         let (restitution, restitution_from) =
             own.map_or_else(|| (frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
         Ok(Self {
-            wobbling: vec![modelled(&frame, Model::Wobbling, 1.0)],
-            planar: vec![modelled(&frame, Model::Planar, restitution)],
+            wobbling: vec![modelled(&frame, (Model::Wobbling, 1.0), structure.rest_amplitude_rad)],
+            planar: vec![modelled(&frame, (Model::Planar, restitution), None)],
             restitution_from,
             pairs,
         })

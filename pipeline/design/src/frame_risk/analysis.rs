@@ -54,7 +54,7 @@ impl FrameAnalysis {
         let frame = rocking_frame(structure)?;
         let own = structure.description.restitution;
         let restitution = own.map_or((frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
-        let of = |model: Model, restitution: f64| modelled(&frame, model, restitution);
+        let of = |model: Model, restitution: f64| modelled(&frame, (model, restitution), structure.rest_amplitude_rad);
         let wobbling = match (wanted, frame.shape()) {
             (Some(Model::Wobbling), ColumnShape::Rectangle) => return Err(FrameError::RectangleWobbles.into()),
             (Some(Model::Planar), _) | (None, ColumnShape::Rectangle) => vec![],
