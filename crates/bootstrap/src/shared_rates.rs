@@ -16,7 +16,7 @@ use crate::unit_rates::unit_of;
 /// it (the jackknife of clusters). And the scatter is known as well as by units that carry as much as λ has of them.
 ///
 /// # Source
-/// J. G. MacKinnon, M. Ø. Nielsen, M. D. Webb, J. Appl. Econometrics 38 (2023), 671–694: the jackknife where clusters
+/// J. G. `MacKinnon`, M. Ø. Nielsen, M. D. Webb, J. Appl. Econometrics 38 (2023), 671–694: the jackknife where clusters
 /// are few and not alike.
 #[derive(Debug, Clone)]
 pub(crate) struct SharedRates {

@@ -61,6 +61,7 @@ impl SkewedMean {
     }
 
     /// The same of units that carry as much as `carried` says, of each: they amount to (Σ a²)²/Σ a⁴ that carry alike.
+    #[must_use]
     pub fn carried_by(self, carried: &[f64]) -> Self {
         let (mut second, mut fourth) = (0.0, 0.0);
         for square in carried.iter().map(|own| own * own) {
