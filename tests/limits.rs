@@ -221,7 +221,8 @@ fn no_figure_and_no_comparison_is_ended_for_want_of_memory() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     for (name, factor) in [("measured.csv", 1.0), ("computed.csv", 1.01)] {
-        let rows: String = (0..200_000).map(|row| format!("{row},{}\n", factor * f64::from(row + 1))).collect();
+        let rows =
+            (0..200_000).map(|row| format!("{row},{}\n", factor * f64::from(row + 1))).collect::<Vec<_>>().concat();
         study.write(name, &format!("exc_id,u_m\n{rows}"));
     }
     for arguments in [

@@ -225,7 +225,7 @@ fn mistakes() {
 fn very_many_motions() {
     let study = SmallStudy::new();
     for (name, shift) in [("measured.csv", 0.0), ("computed.csv", 800.5)] {
-        let rows: String = (0..200_000).map(|row| format!("{row},{}\n", f64::from(row) + shift)).collect();
+        let rows = (0..200_000).map(|row| format!("{row},{}\n", f64::from(row) + shift)).collect::<Vec<_>>().concat();
         study.write(name, &format!("exc_id,u_m\n{rows}"));
     }
     let found = json(&study, &["measured.csv", "computed.csv"]);

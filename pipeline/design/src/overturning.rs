@@ -498,8 +498,15 @@ impl FrameSites<'_> {
         let of_model = |(model, peaks_m): (&'static str, &[f64])| {
             let own = collapse(&levels, (peaks_m, &self.scatter.pairs), &weights, self.years, true)?;
             let demand = PooledDemand::new(&Stripe::new(&levels, peaks_m)?)?;
-            let bands = hazard.iter().map(|hazard| rate_bands(&demand, hazard, self.scatter, OVERTURNING_M));
-            Ok((model, Collapses { own, rounded: Vec::new(), bands: bands.collect::<Result<_, _>>()? }))
+            let of = |hazard: &Hazard<'_>, runs: Option<&RunWeights>| {
+                rate_bands(&demand, (hazard, runs), self.scatter, OVERTURNING_M)
+            };
+            let bands = hazard.iter().map(|hazard| of(hazard, None)).collect::<Result<_, _>>()?;
+            let of_repaired = |(hazard, runs): (&Hazard<'_>, &Option<RunWeights>)| {
+                runs.as_ref().map_or(Ok(None), |runs| of(hazard, Some(runs)))
+            };
+            let repaired_bands = hazard.iter().zip(&repaired).map(of_repaired).collect::<Result<_, _>>()?;
+            Ok((model, Collapses { own, rounded: Vec::new(), bands, repaired_bands }))
         };
         peaks.each().map(of_model).collect()
     }

@@ -315,10 +315,7 @@ impl FrameQuestion<'_> {
             };
             let demand_m = weights.curve(&pool)?.exact_ordinate(self.target_per_year)?.displacement_m;
             let asked = (self.target_per_year, 1.0, self.capacity_m);
-            let bands = match weights {
-                SiteWeights::Alike(_) => demand_bands(&pool, &hazard, self.scatter, asked)?,
-                SiteWeights::Repaired(_) => None,
-            };
+            let bands = demand_bands(&pool, (&hazard, repaired.as_ref()), self.scatter, asked)?;
             Ok(FrameModel {
                 model,
                 restitution: *restitution,
