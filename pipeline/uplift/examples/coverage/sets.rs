@@ -70,7 +70,9 @@ impl Population {
                     let one =
                         |(number, sample): (usize, &RecordSample)| place.of_set(&analysis, (number, size), sample);
                     for tallies in samples.par_iter().enumerate().map(one).collect::<Result<Vec<_>, Failed>>()? {
-                        tallies.into_iter().for_each(|(key, tally)| all.entry(key).or_default().join(tally));
+                        for (key, tally) in tallies {
+                            all.entry(key).or_default().join(tally);
+                        }
                     }
                 }
             }
@@ -111,7 +113,9 @@ impl Population {
                 Ok(found)
             };
             for tallies in plan.samples().par_iter().enumerate().map(one).collect::<Result<Vec<_>, Failed>>()? {
-                tallies.into_iter().for_each(|(key, tally)| all.entry(key).or_default().join(tally));
+                for (key, tally) in tallies {
+                    all.entry(key).or_default().join(tally);
+                }
             }
         }
         Ok(all)
