@@ -21,7 +21,7 @@ use crate::error::LaboratoryError;
 const MOST_GROUPS: usize = 400;
 const MOST_REPLICATES: u32 = 10_000_000;
 /// Memory for each byte of the tables: rows, keys, pairs of them, and what the threads of their reader set apart.
-const MEMORY_OF_A_BYTE: u64 = 40;
+const MEMORY_OF_A_BYTE: u64 = 80;
 /// The column that the key stands in where none is named.
 const USUAL_KEY: &str = "exc_id";
 
