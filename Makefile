@@ -23,7 +23,7 @@ export CARGO_INCREMENTAL ?= 0
 endif
 
 .PHONY: run build install wheel dist test tests-built test-long check test-cluster torture doc-figures doc-outputs \
-	lint docs book python sbom notices bench fuzz clean
+	lint docs book python sbom notices bench coverage fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
@@ -130,6 +130,12 @@ bench: python
 	cargo bench --locked -p uplift-frame --bench frame
 	.venv/bin/python crates/frame/benches/dop853.py
 	cargo bench --locked -p uplift-consistency --bench repair
+
+# How often bands hold what they are bands of, some minutes; SETS=1000 for figures to print (docs/confidence-bands.md).
+SETS ?= 200
+
+coverage:
+	cargo run --release --locked --package uplift --example coverage $(SETS)
 
 # Every reader of files from outside against what libFuzzer makes of the samples, TIME seconds each (docs/testing.md);
 # one of them by its crate and name: `make fuzz FUZZ=motion/at2 TIME=600`.

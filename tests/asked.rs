@@ -194,7 +194,7 @@ fn what_is_no_risk_is_refused() {
 
 #[test]
 #[ignore = "long: make test-long"]
-fn what_no_sheet_holds_is_said() {
+fn data_too_large_for_a_sheet_is_refused() {
     let study = study(&[]);
     let many: Vec<String> = (1..=700).map(|index| (f64::from(index) / 1000.0).to_string()).collect();
     let refused = study.uplift(&["export", "r.h5", "--xlsx", "--poe", &many.join(",")]);

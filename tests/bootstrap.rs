@@ -114,9 +114,7 @@ fn same_bits_on_any_number_of_threads_and_from_a_kept_plan() {
     let [lower, inner] = ["simultaneous_lower_m", "u50_m"]
         .map(|name| array(&study.path().join("a.h5"), &format!("/bootstrap/pgv/{name}")));
     assert!(lower.iter().zip(&inner).all(|(lower, inner)| lower <= inner));
-    study
-        .uplift(&["bootstrap", "a.h5", "--plan", "study.toml"])
-        .fails(4, &["study.toml: is a study, and a result is wanted"]);
+    study.uplift(&["bootstrap", "a.h5", "--plan", "study.toml"]).fails(4, &["study.toml: is a study, not a result"]);
     study.uplift(&["run", "study.toml", "-o", "d.h5", "-q", "--set", "records.first=3"]).ok();
     study.uplift(&["bootstrap", "d.h5", "--plan", "a.h5"]).fails(4, &["other records"]);
     study.uplift(&["bootstrap", "a.h5", "--plan", "d.h5"]).fails(4, &["keeps no resampling plan"]);

@@ -136,7 +136,7 @@ fn a_verdict_can_be_required() {
 
 #[test]
 #[ignore = "long: make test-long"]
-fn the_curve_of_a_measure_that_is_not_analysed_is_enough() {
+fn the_curve_of_an_unanalysed_measure_is_enough() {
     let study = study("[pgv]", "pgv pga", "");
     let check = study.uplift(&["check", "study.toml", "--details"]).ok();
     assert!(check.stdout.contains("Hazard    Montreux by PGV: the records have"), "{}", check.stdout);

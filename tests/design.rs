@@ -329,7 +329,7 @@ fn tendons_of_the_required_capacity() {
 }
 
 #[test]
-fn what_differs_from_the_study_is_said() {
+fn differences_from_the_study_are_reported() {
     let study = study();
     study.write(
         "other.toml",

@@ -281,7 +281,7 @@ fn numbers_of_a_structure_are_banded_over_the_curves_of_the_hazard() {
 /// What a rule asks for follows from the spectrum, and each curve has one.
 #[test]
 #[ignore = "long: make test-long"]
-fn a_verdict_that_hangs_on_the_curve_is_told() {
+fn a_verdict_that_depends_on_the_curve_is_reported() {
     let rule = |name: &str| {
         let study = structure_study(&format!("pga = \"{name}.csv\"\n"));
         move |factor: &str| {

@@ -80,7 +80,7 @@ fn a_question_has_one_answer() {
 }
 
 #[test]
-fn a_structure_that_changed_is_said() {
+fn a_changed_structure_is_reported() {
     let study = study();
     ask(&study, QUESTIONS[0]);
     ask(&study, "design block.toml --urs r.h5 --site There");
@@ -233,7 +233,7 @@ fn answers_are_sealed_and_go_with_their_result() {
 
 /// 475 years are 9.991 % in 50 years: nobody asked for `poe 0.0999…`.
 #[test]
-fn a_return_period_is_told_as_it_was_asked_for() {
+fn a_return_period_is_reported_as_given() {
     let study = study();
     ask(&study, "design block.toml --urs r.h5 --site Here --return-period 475 --spectrum-only");
     ask(&study, "target block.toml --urs r.h5 --site Here --vary size --from 0.1 --to 2 --return-period 4750");

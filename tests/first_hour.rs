@@ -27,12 +27,12 @@ fn a_decimal_comma_is_named() {
 }
 
 #[test]
-fn a_study_in_place_of_a_result_is_told_as_one() {
+fn a_study_in_place_of_a_result_is_named_as_one() {
     let study = study();
     for command in ["report", "table", "export"] {
         let format = if command == "export" { &["--json"][..] } else { &[] };
         let said = study.uplift(&[&[command, "study.toml"], format].concat());
-        said.fails(4, &["study.toml: is a study, and a result is wanted: `uplift run` makes one of it"]);
+        said.fails(4, &["study.toml: is a study, not a result: `uplift run` computes its result"]);
     }
 }
 
@@ -107,7 +107,7 @@ fn figures_are_as_wide_as_a_journal_asks() {
 }
 
 #[test]
-fn a_footnote_stands_where_a_star_does() {
+fn every_star_has_its_footnote() {
     let study = study();
     let shown = study.uplift(&["table", "r.h5", "--im", "all"]).ok().stdout;
     let (table, notes) = shown.split_once("probabilities in").unwrap();

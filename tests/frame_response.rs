@@ -185,7 +185,7 @@ fn an_overturned_frame_is_said_and_drawn_with_what_the_model_leaves_out() {
 }
 
 #[test]
-fn what_is_typed_wrong_is_told() {
+fn wrong_arguments_are_refused() {
     let folder = folder();
     let at = folder.path();
     std::fs::write(at.join("square.toml"), FREE.replace("cylinder", "rectangle")).unwrap();

@@ -117,6 +117,89 @@ fn the_stripes_are_single_runs_and_the_proxies_those_of_a_design() {
     assert_eq!(counted, overturned);
 }
 
+/// A design has the frame's own numbers: few levels are all shaken, so that they are those of `risk` to the bit.
+#[test]
+fn a_design_has_the_frame_beside_its_proxy() {
+    let study = study(STUDY);
+    study.write("free.toml", &FRAME.split("[restrainer]").next().unwrap().replace("restrained-frame", "frame"));
+    let ask = ["--site", "Here"];
+    let risk = json(&study, &[&["risk", "free.toml"], &ask[..]].concat());
+    let design = json(&study, &[&["design", "free.toml"], &ask[..]].concat());
+    let models = design["frame"]["models"].as_array().unwrap();
+    for (model, name) in models.iter().zip(["wobbling frame", "planar frame"]) {
+        assert_eq!(model["model"], name);
+        assert_eq!(model["demand_m"], row(&risk, name)["demand_m"]["value"], "{name}");
+        let check = &model["check"];
+        let enough = number(&design["structure"]["capacity_m"]) >= 2.5 * number(&model["demand_m"]);
+        assert_eq!(check["satisfied"], enough, "{model}");
+    }
+    assert_eq!(models[0]["overturning"]["per_year"], risk["overturning"]["per_year"]);
+    assert_eq!(design["frame"]["levels"], serde_json::json!([1.0, 3.0, 10.0, 20.0, 40.0, 80.0, 160.0]));
+
+    let said = study.uplift(&[&["design", "free.toml", "--urs", "r.h5", "--report", "s.html"], &ask[..]].concat()).ok();
+    let (first, rest) = said.stdout.split_once('\n').unwrap();
+    let differ = models[0]["check"]["satisfied"] != design["rules"][0]["from_spectrum"]["satisfied"];
+    assert_eq!(first.contains("the verdicts differ"), differ, "{first}");
+    assert!(rest.contains("wobbling frame") && rest.contains("proxy, equal energy"), "{rest}");
+    let sheet = std::fs::read_to_string(study.path().join("s.html")).unwrap();
+    assert!(sheet.contains("The wobbling frame itself") && sheet.contains("required capacity, m"), "{sheet}");
+
+    let alone = study.uplift(&[&["design", "free.toml", "--urs", "r.h5", "--proxy"], &ask[..]].concat()).ok();
+    assert!(alone.stdout.contains("by its proxy alone") && !alone.stdout.contains("wobbling"), "{}", alone.stdout);
+    assert!(json(&study, &[&["design", "free.toml", "--proxy"], &ask[..]].concat())["frame"].is_null());
+    // two shards give the same answer
+    for part in ["1/2", "2/2"] {
+        let shard = ["design", "free.toml", "--urs", "r.h5", "--shard", part, "-q"];
+        study.uplift(&[&shard[..], &ask[..]].concat()).ok();
+    }
+    let files = ["r.h5.design-free.shard-1-of-2", "r.h5.design-free.shard-2-of-2"];
+    let whole = json(&study, &[&["design", "free.toml", "--shards", files[0], files[1]], &ask[..]].concat());
+    assert_eq!(whole["frame"], design["frame"]);
+}
+
+/// Overturning of the frame is that of `risk`, at every site.
+#[test]
+fn overturning_has_the_frame_beside_its_oscillator() {
+    let study = study(STUDY);
+    study.write("free.toml", &FRAME.split("[restrainer]").next().unwrap().replace("restrained-frame", "frame"));
+    let found = json(&study, &["overturning", "free.toml", "-o", "o.csv"]);
+    let names = ["oscillator", "block", "wobbling frame", "planar frame"];
+    let rows = found["overturning"].as_array().unwrap();
+    let of = |values: &Value| values.as_array().unwrap().iter().map(|of| of["model"].clone()).collect::<Vec<_>>();
+    assert_eq!(
+        (of(&found["overturning"]), of(&found["models"])),
+        (names.map(Value::from).to_vec(), names.map(Value::from).to_vec())
+    );
+    for (place, site) in ["Here", "There"].into_iter().enumerate() {
+        let risk = json(&study, &["risk", "free.toml", "--site", site]);
+        assert_eq!(rows[2]["sites"][place]["per_year"], risk["overturning"]["per_year"], "{site}");
+    }
+    let fragility = self::rows(&study, "o.csv");
+    assert!(fragility.iter().any(|row| row["model"] == "planar frame" && row["restitution"] == "0.9"), "{fragility:?}");
+    let said = study.uplift(&["overturning", "free.toml", "--urs", "r.h5"]).ok().stdout;
+    assert!(said.lines().next().unwrap().contains("times as often as its oscillator"), "{said}");
+    let alone = study.uplift(&["overturning", "free.toml", "--urs", "r.h5", "--proxy"]).ok().stdout;
+    assert!(!alone.contains("wobbling") && alone.contains("block"), "{alone}");
+}
+
+/// The rest of a wobbling frame is a key of its file, which an option replaces.
+#[test]
+fn the_amplitude_of_rest_is_a_key_of_the_structure() {
+    let study = study(STUDY);
+    study.write("restless.toml", &FRAME.replace("restitution", "rest_amplitude_rad = 1e-2\nrestitution"));
+    let manifest = rows(&study, "manifest.csv");
+    let rests = |structure: &str, more: &[&str]| -> Value {
+        let files = ["--h1", &manifest[0]["file_h1"], "--h2", &manifest[0]["file_h2"], "--scale", "2", "--json"];
+        let ask = ["response", "--structure", structure];
+        let run: Value = serde_json::from_str(&study.uplift(&[&ask[..], &files, more].concat()).ok().stdout).unwrap();
+        run["runs"][0].clone()
+    };
+    let own = rests("restless.toml", &[]);
+    assert_eq!(own, rests("frame.toml", &["--rest-amplitude-rad", "1e-2"]));
+    assert_ne!(own, rests("frame.toml", &[]));
+    assert_eq!(rests("restless.toml", &["--rest-amplitude-rad", "1e-5"]), rests("frame.toml", &[]));
+}
+
 /// Events happen as often as their displacements are exceeded, the state is that of a pushover at the demand.
 #[test]
 #[ignore = "long: make test-long"]
@@ -214,7 +297,7 @@ fn repaired_weights_stand_beside_the_plain_ones() {
 }
 
 #[test]
-fn what_is_typed_wrong_is_told_and_figures_are_drawn() {
+fn wrong_arguments_are_refused_and_figures_are_drawn() {
     let study = study(STUDY);
     let square = FRAME.replace("cylinder", "rectangle");
     study.write("square.toml", &square);
@@ -224,7 +307,7 @@ fn what_is_typed_wrong_is_told_and_figures_are_drawn() {
     assert!(planar.stdout.contains("do not wobble") && !planar.stdout.contains("torsion"), "{}", planar.stdout);
     assert!(planar.stdout.contains("planar frame") && !planar.stdout.contains("wobbling frame"));
     assert!(std::fs::read_to_string(study.path().join("r.svg")).unwrap().contains("displacement of the deck, m"));
-    ask("frame.toml", &[]).fails(2, &["--site", "Here, There"]);
+    ask("frame.toml", &[]).fails(2, &["name one with --site Here: the result has Here, There"]);
     ask("frame.toml", &["--site", "Here", "-o", "manifest.csv"]).fails(2, &["manifest.csv"]);
     ask("frame.toml", &["--site", "Here", "--plot", "frame.toml"]).fails(2, &["frame.toml"]);
     study.write("mass.toml", "kind = \"point-mass\"\nmass_kg = 1\nwidth_m = 1\ncentre_height_m = 4\n");

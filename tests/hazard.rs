@@ -43,6 +43,8 @@ fn a_site_of_an_export_becomes_a_study() {
     let done = study.uplift(&near).ok();
     // a degree of longitude at 45° is 78.6 km
     assert!(done.stderr.contains("nearest site: there, 15.7 km away: is that near enough?"), "{}", done.stderr);
+    let swapped = study.uplift(&["hazard", "show", "export.csv", "--near", "45.0,11.8"]).ok().stderr;
+    assert!(swapped.contains("--near takes longitude, then latitude"), "{swapped}");
     assert!(done.stdout.contains("[[sites]]\nname = \"there\"\npgv = \"mine/pgv.csv\""), "{}", done.stdout);
     let written = std::fs::read_to_string(study.path().join("mine/pgv.csv")).unwrap();
     for words in

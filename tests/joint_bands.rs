@@ -119,8 +119,9 @@ fn it_is_printed_in_tables_exports_and_the_page_and_hangs_on_no_thread() {
     let header =
         |name: &str| std::fs::read_to_string(study.path().join(name)).unwrap().lines().next().unwrap().to_owned();
     assert!(header("r.bands.csv").ends_with(
-        ",u95_consistent_m,u05_joint_m,u50_joint_m,u95_joint_m,u05_consistent_joint_m,u50_consistent_joint_m,\
-         u95_consistent_joint_m"
+        ",u95_consistent_m,truth_lower_consistent_m,truth_upper_consistent_m,prediction_lower_consistent_m,\
+         prediction_upper_consistent_m,u05_joint_m,u50_joint_m,u95_joint_m,u05_consistent_joint_m,\
+         u50_consistent_joint_m,u95_consistent_joint_m"
     ));
     assert!(
         header("r.table-4-1.csv")

@@ -214,6 +214,29 @@ fn what_does_not_fit_is_refused_before_anything_is_computed() {
     assert!(said.contains("of memory are needed") && said.contains("replicates"), "{said}");
 }
 
+/// What a limit of the address space ends is refused, however much there is.
+#[cfg(target_os = "linux")]
+#[test]
+fn no_figure_and_no_comparison_is_ended_for_want_of_memory() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    for (name, factor) in [("measured.csv", 1.0), ("computed.csv", 1.01)] {
+        let rows =
+            (0..200_000).map(|row| format!("{row},{}\n", factor * f64::from(row + 1))).collect::<Vec<_>>().concat();
+        study.write(name, &format!("exc_id,u_m\n{rows}"));
+    }
+    for arguments in [
+        "plot r.h5 --only urs-pgv --format png --dpi 1200 --force --threads 1",
+        "validate measured.csv computed.csv --replicates 1",
+    ] {
+        for kilobytes in [300_000, 450_000, 600_000] {
+            let (code, said) = with_address_space(&study, kilobytes, arguments, "refuse");
+            assert!(code == 0 || (code == 4 && said.contains("of memory")), "{kilobytes} {arguments}: {code} {said}");
+            assert!(code == 4 || kilobytes > 300_000, "{arguments}: {said}");
+        }
+    }
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_plan_says_what_there_is() {

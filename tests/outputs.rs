@@ -110,7 +110,7 @@ fn an_input_is_never_overwritten() {
 }
 
 #[test]
-fn a_result_gives_way_to_its_own_study() {
+fn a_result_is_overwritten_only_by_its_own_study() {
     let study = study();
     let changed = SMALL_STUDY.replace("first = 4", "first = 3");
     // edited, or renamed: it is that study
@@ -375,7 +375,7 @@ fn a_result_of_another_study_stays() {
 }
 
 #[test]
-fn a_table_gives_way_to_the_same_table_alone() {
+fn a_table_is_overwritten_only_by_the_same_table() {
     let study = study();
     study.uplift(&["influence", "r.h5"]).ok();
     study.uplift(&["bootstrap", "r.h5", "--replicates", "20", "--sizes", "2"]).ok();

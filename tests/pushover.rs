@@ -373,6 +373,23 @@ fn from_a_spectrum_to_a_stack() {
         }
     }
     assert_eq!(report["at_demand"].as_array().unwrap().len(), stacks.len());
+    assert!(report["frame"].is_null() && report["proxy"] == false, "columns that are squares do not wobble");
+    // columns that are cylinders wobble, and the first stack is held against the frame with it
+    let tower = std::fs::read_to_string(study.path().join("tower.toml")).unwrap();
+    study.write("round.toml", &tower.replace("[restrainer]", "column_shape = \"cylinder\"\n[restrainer]"));
+    let round = [&["restrainer", "design", "round.toml", "--catalogue", &catalogue][..], &spectrum, &["4"]].concat();
+    let found = json(study.uplift(&[&round[..], &["--json"]].concat()));
+    assert_eq!(found["stacks"], report["stacks"]);
+    let wobbling = &found["frame"]["models"][0];
+    let demand_m = wobbling["demand_m"].as_f64().unwrap_or(f64::INFINITY);
+    let capacity_m = found["stacks"][0]["capacity_m"].as_f64().unwrap();
+    assert!(demand_m > 0.0 && wobbling["model"] == "wobbling frame");
+    assert_eq!(wobbling["check"]["satisfied"], capacity_m >= 4.0 * demand_m);
+    let said = study.uplift(&round).ok().stdout;
+    let first = said.lines().next().unwrap();
+    assert!(first.contains("satisfied by the wobbling frame, which"), "{said}");
+    let alone = study.uplift(&[&round[..], &["--proxy"]].concat()).ok().stdout;
+    assert!(alone.lines().next().unwrap().ends_with("by its proxy alone"), "{alone}");
     // a spectrum asks for less than the columns have
     let arguments = [&arguments[..], &["1"]].concat();
     study.uplift(&arguments).fails(2, &["the columns have 0.4000 m without any restrainer"]);
@@ -403,7 +420,7 @@ fn what_is_typed_wrong() {
     refused(&["pushover", &column, "--to-m", "9"], 2, &["a displacement of 9 m is beyond the column's reach"]);
     refused(&["pushover", &column, "--rows", "1"], 2, &["give from 2"]);
     refused(&["pushover", &column, "--stiffness-n-m=-3"], 2, &["`stiffness_n_m` is -3 N/m"]);
-    refused(&["pushover", "study.toml"], 3, &["it is a study, and a structure is wanted"]);
+    refused(&["pushover", "study.toml"], 3, &["it is a study, not a structure"]);
     refused(&["protocol", "--first", "0"], 2, &["`first` is 0: it must be finite and positive"]);
     refused(&["protocol", "--first", "0.36"], 2, &["`last amplitude` is 15.", "a drift ratio, not per cent"]);
     refused(&["protocol", "--parts", "4000000000"], 2, &["a million points"]);

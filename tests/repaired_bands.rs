@@ -118,7 +118,8 @@ fn they_stand_beside_the_plain_bands_and_hang_on_no_thread() {
     assert!(
         table.ends_with(
             "u05_consistent_m,u50_consistent_m,u95_consistent_m,simultaneous_lower_consistent_m,\
-                             simultaneous_upper_consistent_m"
+             simultaneous_upper_consistent_m,truth_lower_consistent_m,truth_upper_consistent_m,\
+             prediction_lower_consistent_m,prediction_upper_consistent_m"
         ),
         "{table}"
     );

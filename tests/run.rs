@@ -321,3 +321,137 @@ fn a_finished_run_is_done_already_and_keeps_what_was_added() {
     assert!(!done(&["--force"]));
     assert!(!done(&["--again"]) && study.path().join("r.urs.csv").exists());
 }
+
+/// Whether the JSON of a run says that nothing was computed.
+fn says_done_already(study: &SmallStudy, arguments: &[&str]) -> (bool, serde_json::Value) {
+    let text = study.uplift(&[arguments, &["--json"]].concat()).ok().stdout;
+    let mut told: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let done = told["done_already"].as_bool().unwrap();
+    for volatile in ["done_already", "seconds"] {
+        told.as_object_mut().unwrap().remove(volatile);
+    }
+    (done, told)
+}
+
+#[test]
+fn every_kind_of_study_is_done_already_until_its_inputs_change() {
+    let study = SmallStudy::new();
+    study.write(
+        "spectra.toml",
+        "kind = \"displacement spectra\"\ntitle = \"few\"\n[records.synthetic]\npairs = 3\n[scaling]\nto = \
+         [\"unscaled\", \"2 PGA\"]\n[block]\nheight_m = [0.5]\n[slenderness]\nvalues = [0.1, 0.2]\n",
+    );
+    study.write("table.toml", crate::shake_table::STUDY);
+    study.write("frame.toml", crate::shake_table::FRAME);
+    for file in ["spectra.toml", "table.toml"] {
+        let run = ["run", file, "-o", "r.h5", "--force"];
+        let (done, first) = says_done_already(&study, &run);
+        assert!(!done, "{file}");
+        let bytes = std::fs::read(study.path().join("r.h5")).unwrap();
+        // the second report has the numbers of the first
+        assert_eq!(says_done_already(&study, &run), (true, first), "{file}");
+        assert!(study.uplift(&run).ok().stdout.contains("done already"));
+        assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), bytes, "{file}");
+        let other = [&run[..], &["--set", "records.synthetic.pairs=5"]].concat();
+        assert!(!says_done_already(&study, &other).0, "{file}");
+        assert!(!says_done_already(&study, &[&other[..], &["--again"]].concat()).0, "{file}");
+        // a damaged result is computed again
+        let whole = std::fs::read(study.path().join("r.h5")).unwrap();
+        std::fs::write(study.path().join("r.h5"), &whole[..whole.len() / 2]).unwrap();
+        assert!(!says_done_already(&study, &other).0 && says_done_already(&study, &other).0, "{file}");
+    }
+    // the same study of another structure
+    study.write("frame.toml", &crate::shake_table::FRAME.replace("9000", "9001"));
+    assert!(!says_done_already(&study, &["run", "table.toml", "-o", "r.h5", "--force"]).0);
+}
+
+/// Metadata of a manifest is in the result: another magnitude is another result, though the motions are the same.
+#[test]
+fn another_magnitude_in_the_manifest_is_another_displacement_result() {
+    let study = SmallStudy::new();
+    study.uplift(&["records", "synthesize", "--count", "3", "-o", "set", "-q"]).ok();
+    study.write(
+        "spectra.toml",
+        "kind = \"displacement spectra\"\ntitle = \"few\"\n[records]\nmanifest = \"set/manifest.csv\"\n[scaling]\n\
+         to = [\"unscaled\"]\n[block]\nheight_m = [0.5]\n[slenderness]\nvalues = [0.1]\n",
+    );
+    let run = ["run", "spectra.toml", "-o", "r.h5"];
+    assert!(!says_done_already(&study, &run).0 && says_done_already(&study, &run).0);
+    let manifest = std::fs::read_to_string(study.path().join("set/manifest.csv")).unwrap();
+    let changed = with_another_magnitude(&manifest);
+    assert_ne!(changed, manifest);
+    study.write("set/manifest.csv", &changed);
+    assert!(!says_done_already(&study, &run).0);
+}
+
+/// The manifest with another magnitude in its last row.
+fn with_another_magnitude(manifest: &str) -> String {
+    let header = manifest.lines().find(|line| !line.starts_with('#')).unwrap();
+    let last = manifest.lines().last().unwrap();
+    // the text of an earthquake may have commas: count from the end
+    let from_end = header.split(',').rev().position(|name| name == "magnitude").unwrap();
+    let mut cells: Vec<&str> = last.split(',').collect();
+    let column = cells.len() - 1 - from_end;
+    cells[column] = "6.123";
+    manifest.replace(last, &cells.join(","))
+}
+
+/// The additions that a file holds, in the words of `uplift status`.
+fn additions(study: &SmallStudy) -> Vec<&'static str> {
+    let reader = uplift_labelled::LabelledReader::open(&study.path().join("r.h5")).unwrap();
+    let groups = ["/bootstrap", "/influence", "/disaggregation", "/efficiency", "/sufficiency", "/structures"];
+    groups.into_iter().filter(|group| reader.exists(group)).collect()
+}
+
+#[test]
+fn additions_survive_every_change_that_does_not_touch_them() {
+    let study = SmallStudy::new();
+    let run = |more: &[&str]| study.uplift(&[&["run", "study.toml", "-o", "r.h5", "-q"][..], more].concat()).ok();
+    run(&[]);
+    study.write("block.toml", "kind = \"block\"\nheight_m = 6\nwidth_m = 0.6\nmass_kg = 1e4\n");
+    study.uplift(&["bootstrap", "r.h5", "--replicates", "20", "--sizes", "2", "-q"]).ok();
+    study.uplift(&["influence", "r.h5", "-q"]).ok();
+    study.uplift(&["measures", "r.h5", "-q"]).ok();
+    let site = ["--site", "Here"];
+    study.uplift(&[&["design", "block.toml", "--urs", "r.h5", "--spectrum-only", "-q"][..], &site].concat()).ok();
+    let all = ["/bootstrap", "/influence", "/disaggregation", "/efficiency", "/sufficiency", "/structures"];
+    assert_eq!(additions(&study), all);
+    let array = |name: &str| {
+        let reader = uplift_labelled::LabelledReader::open(&study.path().join("r.h5")).unwrap();
+        reader.array_f64(name).unwrap()
+    };
+    let before = array("/influence/pgv/u_without_m");
+    // bands alone depend on [bootstrap]
+    run(&["--set", "bootstrap.replicates=30"]);
+    assert_eq!(additions(&study), all[1..]);
+    assert_eq!(array("/influence/pgv/u_without_m"), before);
+    study.uplift(&["verify", "r.h5", "-q"]).ok();
+    study.uplift(&["influence", "r.h5", "-q"]).ok();
+    // where nothing is repaired, only answers about structures quote the consistency
+    let settings = ["--set", "bootstrap.replicates=30", "--set", "consistency.least_effective=2"];
+    run(&settings);
+    assert_eq!(additions(&study), all[1..5]);
+    // with repaired spectra, influence depends on it too
+    run(&[&settings[..], &["--set", "consistency.repair=\"weights\""]].concat());
+    assert_eq!(additions(&study), all[3..5]);
+    // other spectra leave nothing
+    run(&["--force", "--set", "risk.years=100"]);
+    assert_eq!(additions(&study), all[..0]);
+}
+
+/// A repair that a command added stays where the study does not ask for one.
+#[test]
+fn an_added_repair_survives_another_bootstrap_setting() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&["consistency", "r.h5", "--repair", "-q"]).ok();
+    let repaired = || {
+        let reader = uplift_labelled::LabelledReader::open(&study.path().join("r.h5")).unwrap();
+        reader.children("/consistency/pgv").unwrap()
+    };
+    let before = repaired();
+    assert!(before.iter().any(|name| name == "u_m"), "{before:?}");
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q", "--set", "bootstrap.replicates=30"]).ok();
+    assert_eq!(repaired(), before);
+    study.uplift(&["verify", "r.h5", "-q"]).ok();
+}

@@ -46,7 +46,7 @@ fn the_order_of_the_tests_is_predicted() {
     assert!(spearman >= 0.87, "{agreement}");
 }
 
-const STUDY: &str = r#"kind = "shake table"
+pub const STUDY: &str = r#"kind = "shake table"
 title = "two pairs"
 structure = "frame.toml"
 length_scale = 4
@@ -59,9 +59,17 @@ pgv_srss_m_s = 0.2
 name = "high"
 pgv_srss_m_s = 0.6
 "#;
-const FRAME: &str = "kind = \"restrained-frame\"\ncolumns = 4\nwidth_m = 0.2\nheight_m = 1.4\ncolumn_mass_kg = 120\n\
-                     deck_mass_kg = 9000\ncolumn_shape = \"cylinder\"\n[restrainer]\nkind = \"linear\"\n\
-                     stiffness_n_m = 1.5e6\n";
+pub const FRAME: &str = r#"kind = "restrained-frame"
+columns = 4
+width_m = 0.2
+height_m = 1.4
+column_mass_kg = 120
+deck_mass_kg = 9000
+column_shape = "cylinder"
+[restrainer]
+kind = "linear"
+stiffness_n_m = 1.5e6
+"#;
 
 fn small() -> SmallStudy {
     let study = SmallStudy::new();

@@ -121,7 +121,7 @@ fn run_and_compare(study: &SmallStudy, result: &str, more: &[&str]) -> Vec<f64> 
 
 #[test]
 #[ignore = "long: make test-long"]
-fn the_other_hazard_may_be_of_a_measure_that_is_not_analysed() {
+fn the_other_hazard_may_use_an_unanalysed_measure() {
     let study = by_pgv("");
     let told = study.uplift(&["check", "study.toml"]).ok();
     assert!(format!("{}{}", told.stdout, told.stderr).contains("5 found in the export of PGA"), "{}", told.stderr);

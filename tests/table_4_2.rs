@@ -59,7 +59,7 @@ fn table_of_a_result_alone_and_mistakes() {
     assert!(rows.iter().all(|row| row["median_ratio"].is_null()));
 
     study.uplift(&["table", "absent.h5"]).fails(4, &["absent.h5"]);
-    study.uplift(&["table", "study.toml"]).fails(4, &["study.toml: is a study, and a result is wanted"]);
+    study.uplift(&["table", "study.toml"]).fails(4, &["study.toml: is a study, not a result"]);
     study.write("reference.csv", "site,poe\nHere,0.02\n");
     study.uplift(&["table", "r.h5", "--reference", "reference.csv"]).fails(4, &["no column c0_m"]);
     study.write("reference.csv", "site,poe,c0_m,c1,c2_m\nElsewhere,0.02,1,-1,0\n");

@@ -108,7 +108,7 @@ fn a_strength_known_by_hand() {
 }
 
 #[test]
-fn what_cannot_be_found_is_said() {
+fn an_unreachable_target_is_reported() {
     let study = study();
     let ask = |more: &[&str]| study.uplift(&[&["target", "frame.toml", "--urs", "r.h5"], more].concat());
     ask(&["--overturning", "1e-9", "--vary", "width"]).fails(2, &["below what these stripes can tell", "pga.levels_g"]);

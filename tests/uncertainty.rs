@@ -87,7 +87,7 @@ fn a_mixture_known_by_hand() {
 /// Nothing else in a report changes; without scatter nothing at all.
 #[test]
 #[ignore = "long: make test-long"]
-fn what_is_known_keeps_its_numbers() {
+fn certain_properties_keep_their_numbers() {
     let study = study();
     for job in ["overturning", "design"] {
         let known = asked(&study, job, "", &[]);
@@ -183,7 +183,7 @@ fn a_target_known_by_hand() {
 
 #[test]
 #[ignore = "long: make test-long"]
-fn a_target_without_scatter_is_that_of_a_structure_that_is_known() {
+fn a_target_without_scatter_equals_that_of_a_certain_structure() {
     let study = study();
     let ask = ["--vary", "width", "--overturning", "2e-3", "--tolerance", "0.02"];
     let known = least(&study, "block.toml", BLOCK, &ask);
@@ -289,7 +289,7 @@ fn it_is_told_in_sentences_and_refused_in_words() {
 /// A block that no run overturns: the bound of what is known stands in the place of every 0.
 #[test]
 #[ignore = "long: make test-long"]
-fn what_no_run_shows_is_told_by_its_bound() {
+fn zero_counts_are_reported_as_a_bound() {
     let study = study();
     let large = "kind = \"block\"\nwidth_m = 30\nheight_m = 8\nmass_kg = 1e6\nrestitution = 0.95\n";
     for kind in KINDS {
@@ -407,7 +407,7 @@ fn the_table_of_a_target_has_what_is_uncertain() {
 
 /// Numbers that are probably in another unit are asked about, beside the refusal that they lead to.
 #[test]
-fn a_target_in_another_unit_is_asked_about() {
+fn a_target_in_another_unit_raises_a_warning() {
     let study = study();
     study.write("block.toml", BLOCK);
     let ask = ["target", "block.toml", "--urs", "r.h5", "--vary", "width"];

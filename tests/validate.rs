@@ -219,3 +219,31 @@ fn mistakes() {
         .fails(2, &["significance 10", "0 replicates"]);
     run(&["good.csv", "missing.csv"]).fails(4, &["missing.csv"]);
 }
+
+/// 200 000 motions take seconds, and what is no longer exact is said.
+#[test]
+fn very_many_motions() {
+    let study = SmallStudy::new();
+    for (name, shift) in [("measured.csv", 0.0), ("computed.csv", 800.5)] {
+        let rows = (0..200_000).map(|row| format!("{row},{}\n", f64::from(row) + shift)).collect::<Vec<_>>().concat();
+        study.write(name, &format!("exc_id,u_m\n{rows}"));
+    }
+    let found = json(&study, &["measured.csv", "computed.csv"]);
+    let group = &found["groups"][0];
+    assert_eq!((&group["kolmogorov_smirnov"]["is_exact"], &group["replicates"]), (&false.into(), &1000.into()));
+    close(&group["kolmogorov_smirnov"]["distance"], 0.004_005);
+    let notes = texts(&found["notes"]);
+    for words in ["p is Kolmogorov's", "bands are of 1000 replicates"] {
+        assert!(notes.iter().any(|note| note.contains(words)), "{notes:?}");
+    }
+    // and Ctrl-C takes a moment
+    #[cfg(unix)]
+    {
+        let run = study.start(&["validate", "measured.csv", "computed.csv"]);
+        std::thread::sleep(std::time::Duration::from_secs(2));
+        run.interrupt();
+        let begin = std::time::Instant::now();
+        assert_eq!(run.end().code, 5);
+        assert!(begin.elapsed().as_secs() < 2);
+    }
+}

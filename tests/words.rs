@@ -36,7 +36,7 @@ fn brief(study: &SmallStudy, command: &str, most: usize) -> String {
 }
 
 #[test]
-fn a_run_and_what_is_asked_of_its_result_are_brief() {
+fn runs_and_questions_print_few_words() {
     let study = six_sites();
     brief(&study, "check study.toml", 100);
     let run = brief(&study, "run study.toml -o r.h5", 120);
@@ -63,10 +63,11 @@ fn a_run_and_what_is_asked_of_its_result_are_brief() {
 fn questions_about_structures_are_answered_briefly() {
     let study = six_sites();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
-    for name in ["block.toml", "frame.toml", "pier.toml"] {
+    for name in ["block.toml", "frame.toml", "pier.toml", "footbridge.toml"] {
         std::fs::copy(repository().join("configs/structures").join(name), study.path().join(name)).unwrap();
     }
     brief(&study, "design pier.toml --urs r.h5 --site Athens", 150);
+    brief(&study, "design footbridge.toml --urs r.h5 --site Athens", 150);
     brief(&study, "design block.toml --urs r.h5 --site Montreux --spectrum-only", 150);
     brief(&study, "overturning block.toml --urs r.h5", 150);
     brief(&study, "risk frame.toml --urs r.h5 --site Athens", 150);

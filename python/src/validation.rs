@@ -43,6 +43,7 @@ pub(crate) fn validate(
         Ok(Validation {
             ks_distance: kolmogorov_smirnov.distance,
             ks_p: kolmogorov_smirnov.p_exact,
+            ks_p_is_exact: kolmogorov_smirnov.is_exact,
             ks_p_kstest2: kolmogorov_smirnov.p_kstest2,
             evidence: Evidence::of(kolmogorov_smirnov.p_exact).words(),
             anderson_darling: AndersonDarling::of(&one, &other).midrank,
@@ -65,6 +66,8 @@ pub(crate) fn validate(
 /// ----------
 /// ks_distance, ks_p, ks_p_kstest2 : float
 ///     Kolmogorov and Smirnov: the distance of the distributions, its p exact and as the dissertation has it.
+/// ks_p_is_exact : bool
+///     Whether that p is exact; beyond 10⁷ pairs of values it is Kolmogorov's.
 /// evidence : str
 ///     What the exact p says against equal distributions, in the words of Table 6.1.
 /// anderson_darling : float
@@ -84,6 +87,7 @@ pub(crate) fn validate(
 pub(crate) struct Validation {
     ks_distance: f64,
     ks_p: f64,
+    ks_p_is_exact: bool,
     ks_p_kstest2: f64,
     evidence: &'static str,
     anderson_darling: f64,

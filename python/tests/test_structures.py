@@ -136,6 +136,9 @@ def test_measured_and_computed_peaks():
     assert found.ks_distance == pytest.approx(expected.statistic, rel=1e-13)
     assert found.ks_p == pytest.approx(expected.pvalue, rel=1e-9)
     assert found.log_bias is None
+    many = np.arange(200_000.0)
+    found = uplift.validate(many, many + 800.5)
+    assert not found.ks_p_is_exact and found.ks_p == pytest.approx(found.ks_p_kstest2, rel=0.02)
     assert uplift.validate(measured, measured * 2).log_bias == pytest.approx(np.log(2))
     assert uplift.validate([1, np.inf], [2, 3]).wasserstein_distance is None
     with pytest.raises(ValueError):

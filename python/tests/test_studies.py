@@ -149,7 +149,7 @@ def test_the_peaks_are_read_without_a_copy(folder):
         for place, name in enumerate(axes):
             peaks.dims[place].label = name
             peaks.dims[place].attach_scale(file[f"axes/{name}"])
-    opened = uplift.open_result(path)
+    opened = uplift.open_result(path, verify=False)
     tracemalloc.start()
     read = opened.ida.edp_m.values
     peak = tracemalloc.get_traced_memory()[1]
@@ -190,7 +190,43 @@ def test_commands_add_to_the_result(folder, program):
     data[len(data) // 2] ^= 1
     damaged.write_bytes(data)
     with pytest.raises(ValueError, match="damaged"):
-        uplift.open_result(damaged).verify()
+        uplift.open_result(damaged, verify=False).verify()
+
+
+def test_no_byte_that_changed_is_read(folder, result):
+    whole = result.path.read_bytes()
+    copy = folder / "copy.h5"
+    copy.write_bytes(whole)
+    opened = uplift.open_result(copy)
+    spectra = opened.urs
+    for place in (100, len(whole) // 2, len(whole) - 200, len(whole) - 70):
+        copy.write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
+        for read in (lambda: uplift.open_result(copy), lambda: opened.urs, lambda: spectra.u_m.values):
+            with pytest.raises(OSError, match="damaged|checksum at its end is missing"):
+                read()
+    for part in (whole[:-1], whole[: len(whole) // 2], whole[:20]):
+        copy.write_bytes(part)
+        with pytest.raises(OSError, match="checksum at its end is missing"):
+            uplift.open_result(copy)
+    copy.write_bytes(b"")
+    with pytest.raises(OSError, match="not an HDF5 file"):
+        uplift.open_result(copy)
+    copy.write_bytes(whole)
+    assert uplift.open_result(copy).urs.u_m.equals(result.urs.u_m)
+    assert opened.of("pga").urs.u_m.equals(result.of("pga").urs.u_m)
+
+
+def test_nothing_hangs_on_a_file(folder, result):
+    # a heap of texts whose first object is none, and of no length: HDF5 looks for the next one for ever
+    damaged = bytearray(result.path.read_bytes())
+    heap = damaged.index(b"GCOL")
+    damaged[heap + 16 : heap + 32] = bytes(16)
+    (folder / "heap.h5").write_bytes(damaged)
+    os.mkfifo(folder / "pipe.h5")
+    for name, words in (("heap.h5", "the file is damaged"), ("pipe.h5", "is not a file")):
+        code = f"import uplift_urs; uplift_urs.open_result({str(folder / name)!r})"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+        assert done.returncode == 1 and words in done.stderr, done.stderr
 
 
 def test_figures_and_pages_for_notebooks(result):
@@ -221,8 +257,10 @@ def test_mistakes_come_all_at_once(here):
         uplift.open_result("absent.h5")
     with h5py.File("other.h5", "w"):
         pass
-    with pytest.raises(ValueError, match="not a result"):
+    with pytest.raises(OSError, match="checksum at its end is missing"):
         uplift.open_result("other.h5")
+    with pytest.raises(ValueError, match="not a result"):
+        uplift.open_result("other.h5", verify=False)
     with pytest.raises(ValueError, match="measure"):
         uplift.open_result("result.h5", measure="sa_1s")
 

@@ -40,6 +40,7 @@ class StructureCommands:
         repaired: bool = False,
         safety_factor: float | None = None,
         spectrum_only: bool = False,
+        proxy: bool = False,
         manifest: _PathLike | None = None,
         report: _PathLike | None = None,
         force: bool = False,
@@ -63,6 +64,8 @@ class StructureCommands:
             FS of Eq. 3.15; 2.5 without it.
         spectrum_only : bool
             Whether the structure itself is not analysed.
+        proxy : bool
+            Whether the frame that wobbles is left out, so that the verdict is that of its proxy.
         manifest : str or os.PathLike, optional
             The records' manifest, where it is no longer where the study says.
         report : str or os.PathLike, optional
@@ -87,6 +90,7 @@ class StructureCommands:
             "repaired": repaired,
             "safety_factor": safety_factor,
             "spectrum_only": spectrum_only,
+            "proxy": proxy,
             "manifest": manifest,
             "report": report,
             "force": force,
@@ -101,11 +105,12 @@ class StructureCommands:
         site: str | None = None,
         measure: str | None = None,
         restitution: float | None = None,
+        proxy: bool = False,
         manifest: _PathLike | None = None,
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> dict[str, Any]:
-        """Says how often a structure overturns, by oscillator and rigid block, as ``uplift overturning`` does.
+        """Says how often a structure overturns, by oscillator, rigid block and frame, as ``uplift overturning`` does.
 
         Parameters
         ----------
@@ -114,6 +119,8 @@ class StructureCommands:
             Without them all of the result.
         restitution : float, optional
             One for both models, in place of their own.
+        proxy : bool
+            Whether the frame that wobbles is left out.
         manifest
             As of `compute_design`.
 
@@ -126,6 +133,7 @@ class StructureCommands:
             "site": site,
             "measure": measure,
             "restitution": restitution,
+            "proxy": proxy,
             "manifest": manifest,
             "threads": threads,
         }

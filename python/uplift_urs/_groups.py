@@ -2,26 +2,19 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from ._optional import optional
+from ._sealed import SealedFile
 
 if TYPE_CHECKING:
     import xarray
 
 # what HDF5 and netCDF keep for themselves
 _INTERNAL = ("CLASS", "NAME", "DIMENSION_LIST", "DIMENSION_LABELS", "REFERENCE_LIST")
-
-
-def optional(name: str, extra: str) -> Any:
-    """A module that not everybody needs."""
-    try:
-        return importlib.import_module(name)
-    except ImportError as error:
-        raise ImportError(f"{name} is needed: pip install {name}, or uplift-urs[{extra}]") from error
 
 
 def attributes(of: Any) -> dict[str, Any]:
@@ -38,7 +31,7 @@ def _dimensions(array: Any) -> tuple[str, ...]:
 class Array:
     """An array of a file, which is not kept open."""
 
-    def __init__(self, file: Path, array: Any) -> None:
+    def __init__(self, file: SealedFile, array: Any) -> None:
         self.file, self.name = file, array.name
         self.attributes = attributes(array)
         self.is_text = array.dtype.kind == "O"
@@ -51,10 +44,10 @@ class Array:
 
     def read(self, key: Any = ()) -> np.ndarray[Any, Any]:
         """The values at `key`, straight from the file."""
-        with open_file(self.file) as file:
+        with self.file.open() as file:
             array = file.get(self.name)
             if array is None or array.attrs.get("sha256") != self.attributes.get("sha256"):
-                raise OSError(f"{self.file}: {self.name} has changed since it was opened: open the result again")
+                raise OSError(f"{self.file.path}: {self.name} has changed since it was opened: open the result again")
             return np.asarray((array.asstr() if self.is_text else array)[key])
 
 
@@ -92,15 +85,10 @@ class Arrays(Mapping[str, np.ndarray[Any, Any]]):
         return "\n".join(f"{name} {dimensions} {self.units.get(name, '')}" for name, dimensions in self.dims.items())
 
 
-def open_file(path: Path) -> Any:
-    """The file, to be closed by `with`."""
-    return optional("h5py", "results").File(path, "r")
-
-
-def read_group(path: Path, group: Any) -> Arrays:
+def read_group(of: SealedFile, group: Any) -> Arrays:
     """The arrays of an open group; none of them is read."""
     h5py = optional("h5py", "results")
-    arrays = {name: Array(path, item) for name, item in group.items() if isinstance(item, h5py.Dataset)}
+    arrays = {name: Array(of, item) for name, item in group.items() if isinstance(item, h5py.Dataset)}
     return Arrays(arrays, attributes(group))
 
 

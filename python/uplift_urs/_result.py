@@ -13,8 +13,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from ._commands import StructureCommands, command_options
 from ._figure import Figure
-from ._groups import Arrays, attributes, columns, dataset, open_file, optional, read_group
+from ._groups import Arrays, attributes, columns, dataset, read_group
+from ._optional import optional
 from ._program import Progress, StudyError, call
+from ._sealed import SealedFile
 
 if TYPE_CHECKING:
     import pandas
@@ -35,11 +37,11 @@ _ADDED_BY = {
 }
 
 
-def open_result(path: _PathLike, measure: str | None = None) -> Result:
+def open_result(path: _PathLike, measure: str | None = None, *, verify: bool = True) -> Result:
     """Opens a result file.
 
-    Arrays are read when they are looked at; the file is not kept open. That every byte is as it was written is looked
-    at by `Result.verify`.
+    Every byte is checked before HDF5 sees the file, and again after the file has changed. Arrays are read when they are
+    looked at; the file is not kept open.
 
     Parameters
     ----------
@@ -47,6 +49,8 @@ def open_result(path: _PathLike, measure: str | None = None) -> Result:
         A file that ``uplift run`` wrote.
     measure : str, optional
         The intensity measure that `Result.urs` and the like are of, "pga"; without it "pgv", or the first there is.
+    verify : bool
+        Whether the bytes are checked. HDF5 may hang or crash on a damaged file that is not.
 
     Returns
     -------
@@ -55,13 +59,13 @@ def open_result(path: _PathLike, measure: str | None = None) -> Result:
     Raises
     ------
     OSError
-        For a file that is not there or is no HDF5 file.
+        For a file that is not there, is no HDF5 file or is damaged.
     ValueError
         For a file of another program, or a measure that it does not have.
     ImportError
         If h5py is not installed.
     """
-    return Result(path, measure)
+    return Result(path, measure, verify=verify)
 
 
 def _has_arrays(group: Mapping[str, Any]) -> bool:
@@ -90,10 +94,18 @@ class Result(StructureCommands):
         What `run` told of it, with its "alarms"; none for a file that was opened.
     """
 
-    def __init__(self, path: _PathLike, measure: str | None = None, *, summary: dict[str, Any] | None = None) -> None:
+    def __init__(
+        self,
+        path: _PathLike,
+        measure: str | None = None,
+        *,
+        summary: dict[str, Any] | None = None,
+        verify: bool = True,
+    ) -> None:
         self.path = Path(path).absolute()
         self.summary = summary
-        with open_file(self.path) as file:
+        self._file = SealedFile(self.path, verify)
+        with self._file.open() as file:
             self.attributes = attributes(file)
             if self.attributes.get("program") != "uplift":
                 raise ValueError(f"{self.path}: is not a result of uplift")
@@ -106,7 +118,7 @@ class Result(StructureCommands):
 
     def of(self, measure: str) -> Result:
         """The same result, seen by another intensity measure: ``result.of("pga").urs``."""
-        return Result(self.path, measure, summary=self.summary)
+        return Result(self.path, measure, summary=self.summary, verify=self._file.verify)
 
     def __getitem__(self, group: str) -> Dataset:
         """Any group by its place in the file, ``result["epistemic/pgv/Athens"]``."""
@@ -116,7 +128,7 @@ class Result(StructureCommands):
     def groups(self) -> list[str]:
         """Places of all groups that have arrays."""
         found: list[str] = []
-        with open_file(self.path) as file:
+        with self._file.open() as file:
             file.visititems(lambda name, item: found.append(name) if hasattr(item, "keys") else None)
             return [group for group in found if _has_arrays(file[group])]
 
@@ -178,7 +190,7 @@ class Result(StructureCommands):
     @property
     def sufficiency(self) -> dict[str, Dataset]:
         """Trends of the residuals, by covariate, after `compute_measures`."""
-        with open_file(self.path) as file:
+        with self._file.open() as file:
             covariates = list(file.get(f"sufficiency/{self.measure}", ()))
         if not covariates:
             raise self._missing(f"sufficiency/{self.measure}")
@@ -269,7 +281,7 @@ class Result(StructureCommands):
         call(["report", self.path, *command_options({"output": output, "force": force})])
 
     def verify(self) -> None:
-        """Looks whether every byte is as it was written; a `ValueError` where one is not."""
+        """Checks every byte and every value, as ``uplift verify`` does; a `ValueError` where one has changed."""
         call(["verify", self.path])
 
     def displacement(
@@ -404,11 +416,11 @@ class Result(StructureCommands):
         return f"<table>{''.join(cells)}</table>"
 
     def _arrays(self, place: str) -> Arrays:
-        with open_file(self.path) as file:
+        with self._file.open() as file:
             group = file.get(place)
             if not hasattr(group, "items"):
                 raise self._missing(place)
-            return read_group(self.path, group)
+            return read_group(self._file, group)
 
     def _missing(self, place: str) -> ValueError:
         added_by = _ADDED_BY.get(place.strip("/").split("/")[0])
@@ -416,7 +428,7 @@ class Result(StructureCommands):
         return ValueError(f"{self.path}: has no {place}: {remedy}")
 
     def _place(self, group: str) -> str:
-        with open_file(self.path) as file:
+        with self._file.open() as file:
             return group if "/" in group or _has_arrays(file.get(group, {})) else self._own(group)
 
     def _own(self, group: str) -> str:

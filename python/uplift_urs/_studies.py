@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import _toml
-from ._groups import optional
+from ._optional import optional
 from ._program import Progress, call
 from ._result import Result
 

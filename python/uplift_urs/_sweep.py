@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from . import _toml
 from ._commands import command_options
 from ._figure import Figure
-from ._groups import optional
+from ._optional import optional
 from ._program import Progress, call
 from ._result import Result
 

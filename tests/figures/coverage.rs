@@ -7,7 +7,6 @@ use self::simulation::{BANDS, SIZES, coverage};
 use super::marks::hold;
 use crate::common::{real_records, repository, uplift};
 
-#[path = "../../pipeline/uplift/examples/coverage/simulation.rs"]
 mod simulation;
 
 /// Sets of each size.

@@ -22,7 +22,13 @@ fn table_6_2_decoded() {
         let values = |from: f64| Sample::new((0..n).map(|place| f64::from(place) + from).collect()).unwrap();
         let test = KolmogorovSmirnov::of(&values(0.0), &values(f64::from(k) - 0.5));
         let sizes = (n as usize, n as usize);
-        let sees = detectable_factor(sizes, DISPERSION, 0.1, Resampling { replicates: 2000, seed: 1 }).unwrap();
+        let sees = detectable_factor(
+            sizes,
+            DISPERSION,
+            0.1,
+            Resampling { replicates: 2000, seed: 1, ..Resampling::default() },
+        )
+        .unwrap();
         let name = |what: &str| format!("validation.{}.{}.{what}", cells[0], cells[1]);
         computed.push((name("kstest2"), format!("{:.3}", test.p_kstest2)));
         computed.push((name("exact"), format!("{:.3}", test.p_exact)));

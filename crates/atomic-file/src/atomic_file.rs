@@ -105,18 +105,29 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), FileError> {
     file.replace()
 }
 
-/// Follows a symbolic link, so that the result replaces the file and not the link.
+/// Follows a symbolic link, so that the result replaces the file and not the link; the file need not be there yet.
 ///
 /// # Errors
 /// [`FileError::NotAFile`] where `path` is a folder or a device, [`FileError::Io`] where it cannot be looked at.
 pub fn final_place(path: &Path) -> Result<PathBuf, FileError> {
     let metadata = match fs::metadata(path) {
         Ok(metadata) => metadata,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(path.to_owned()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return where_link_leads(path),
         Err(error) => return Err(io_error(path, "write the file")(error)),
     };
     require_file(path, &metadata)?;
     fs::canonicalize(path).map_err(io_error(path, "find the file"))
+}
+
+/// The place that links lead to, where no file is; their folder must be there, since it may be on a disk that is not.
+fn where_link_leads(path: &Path) -> Result<PathBuf, FileError> {
+    let mut place = path.to_owned();
+    // a ring of links is another error than a missing file
+    while let Ok(next) = fs::read_link(&place) {
+        place = folder_of(&place).join(next);
+        fs::metadata(folder_of(&place)).map_err(io_error(path, "follow the symbolic link"))?;
+    }
+    Ok(place)
 }
 
 fn folder_of(target: &Path) -> &Path {
@@ -224,6 +235,29 @@ pub(crate) mod tests {
             fs::write(file.partial(), "second").unwrap();
             file.replace().unwrap();
             assert_eq!((mode(&path), fs::read(&path).unwrap()), (kept, b"second".to_vec()));
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_to_a_file_that_is_not_there_stays_a_link() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("disk")).unwrap();
+        symlink("disk/result.h5", at("link.h5")).unwrap();
+        symlink(at("link.h5"), at("second.h5")).unwrap();
+        write_whole(&at("second.h5"), b"first").unwrap();
+        assert_eq!(fs::read(at("disk/result.h5")).unwrap(), b"first");
+        write_whole(&at("link.h5"), b"second").unwrap();
+        assert_eq!(fs::read(at("disk/result.h5")).unwrap(), b"second");
+        assert!(["link.h5", "second.h5"].iter().all(|link| fs::symlink_metadata(at(link)).unwrap().is_symlink()));
+        // to a folder that is not there, and in a ring
+        symlink("absent/result.h5", at("lost.h5")).unwrap();
+        symlink("ring.h5", at("ring.h5")).unwrap();
+        for link in ["lost.h5", "ring.h5"] {
+            assert!(matches!(write_whole(&at(link), b""), Err(FileError::Io { .. })), "{link}");
+            assert!(fs::symlink_metadata(at(link)).unwrap().is_symlink(), "{link}");
         }
     }
 

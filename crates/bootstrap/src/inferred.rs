@@ -1,6 +1,6 @@
 //! What a set of records says of the spectrum of all records there could be, and of that of another set.
 
-use uplift_risk::{PooledDemand, RiskError, StripeWeights};
+use uplift_risk::{PooledDemand, RiskError, RunWeights, StripeWeights};
 
 use crate::shared_rates::SharedRates;
 use crate::skewed_mean::{SkewedMean, StudentQuantiles};
@@ -43,6 +43,32 @@ pub fn inferred_limits(
     (sizes, confidence): (&[usize], f64),
 ) -> Result<Vec<InferredLimits>, RiskError> {
     check(demand, weights, units)?;
+    limits(demand, weights, (Rates::of(demand, units), units), targets_per_year, (sizes, confidence))
+}
+
+/// The same of records that count as `weights` say, repaired: the weights are taken as they are.
+///
+/// # Errors
+/// As [`inferred_limits`].
+pub fn repaired_limits(
+    demand: &PooledDemand,
+    weights: &RunWeights,
+    units: &[Vec<usize>],
+    targets_per_year: &[f64],
+    (sizes, confidence): (&[usize], f64),
+) -> Result<Vec<InferredLimits>, RiskError> {
+    check(demand, weights.stripes(), units)?;
+    let rates = Rates::weighted(weights, units);
+    limits(demand, weights.stripes(), (rates, units), targets_per_year, (sizes, confidence))
+}
+
+fn limits(
+    demand: &PooledDemand,
+    weights: &StripeWeights,
+    (mut rates, units): (Rates, &[Vec<usize>]),
+    targets_per_year: &[f64],
+    (sizes, confidence): (&[usize], f64),
+) -> Result<Vec<InferredLimits>, RiskError> {
     targets_per_year.iter().try_for_each(|target| check_target(*target))?;
     let none = InferredLimits { truth_m: [f64::NAN; 2], prediction_m: [f64::NAN; 2] };
     if units.len() < 2 {
@@ -53,8 +79,11 @@ pub fn inferred_limits(
     // [target, size] of truth and prediction
     let mut searches = vec![[Search::default(); 2]; targets_per_year.len() * sizes.len()];
     let per_year = weights.per_year();
-    let mut rates = Rates::of(demand, units);
     let mut look = |rates: &Rates, from_m: f64, to_m: f64| {
+        // further down nothing comes back
+        if searches.iter().flatten().all(|search| search.was_beyond) {
+            return;
+        }
         let mean = rates.mean();
         let of_set = quantiles.at(mean.degrees_of_freedom(units.len()));
         for (target, row) in targets_per_year.iter().zip(searches.chunks_exact_mut(sizes.len().max(1))) {
@@ -90,12 +119,34 @@ pub fn inferred_rate(
     (threshold_m, confidence): (f64, f64),
 ) -> Result<[f64; 2], RiskError> {
     check(demand, weights, units)?;
+    Ok(interval(demand, weights, (Rates::of(demand, units), units), (threshold_m, confidence)))
+}
+
+/// The same of records that count as `weights` say, repaired: the interval that [`repaired_limits`] inverts.
+///
+/// # Errors
+/// As [`inferred_limits`].
+pub fn repaired_rate(
+    demand: &PooledDemand,
+    weights: &RunWeights,
+    units: &[Vec<usize>],
+    (threshold_m, confidence): (f64, f64),
+) -> Result<[f64; 2], RiskError> {
+    check(demand, weights.stripes(), units)?;
+    Ok(interval(demand, weights.stripes(), (Rates::weighted(weights, units), units), (threshold_m, confidence)))
+}
+
+fn interval(
+    demand: &PooledDemand,
+    weights: &StripeWeights,
+    (mut rates, units): (Rates, &[Vec<usize>]),
+    (threshold_m, confidence): (f64, f64),
+) -> [f64; 2] {
     let per_year = weights.per_year();
-    let mut rates = Rates::of(demand, units);
     for (_, record, level) in demand.falling_runs().take_while(|run| run.0 > threshold_m) {
         rates.add(record, level, per_year[level]);
     }
-    Ok(rates.mean().interval(&StudentQuantiles::new(confidence, units.len())))
+    rates.mean().interval(&StudentQuantiles::new(confidence, units.len()))
 }
 
 /// A step of a displacement that falls through all runs.
@@ -124,16 +175,27 @@ pub(crate) fn fall(demand: &PooledDemand, mut take: impl FnMut(Step)) {
 pub(crate) enum Rates {
     /// Of records that are all run at every level.
     Alike(UnitRates),
-    /// Of levels with records of their own.
+    /// Of levels with records of their own, of units that are not of equally many records, and of weights.
     Shared(SharedRates),
 }
 
 impl Rates {
     pub(crate) fn of(demand: &PooledDemand, units: &[Vec<usize>]) -> Self {
+        let is_alike = units.windows(2).all(|two| two[0].len() == two[1].len());
         match demand.shares() {
-            None => Self::Alike(UnitRates::new(units)),
-            Some(shares) => Self::Shared(SharedRates::new(units, shares)),
+            None if is_alike => Self::Alike(UnitRates::new(units)),
+            Some(shares) if is_alike => Self::Shared(SharedRates::new(units, shares)),
+            Some(shares) => Self::Shared(SharedRates::new(units, shares).with_leverage()),
+            None => {
+                let runs = demand.record_count() * demand.level_count();
+                let shares = vec![1.0 / demand.record_count() as f64; runs];
+                Self::Shared(SharedRates::new(units, &shares).with_leverage())
+            }
         }
+    }
+
+    fn weighted(weights: &RunWeights, units: &[Vec<usize>]) -> Self {
+        Self::Shared(SharedRates::new(units, weights.shares()).with_leverage())
     }
 
     pub(crate) fn add(&mut self, record: usize, level: usize, per_year: f64) {

@@ -8,6 +8,7 @@
 //!   accelerated (BCa).
 //! - [`inferred_limits`]: the band of the spectrum of all records there could be, and that of another set's, without
 //!   resampling; [`inferred_rate`]: the same of the rate at which something is exceeded.
+//! - [`repaired_limits`], [`repaired_rate`]: the same of records with weights by which they bring a site's hazard.
 //! - [`inferred_limits_over_curves`], [`inferred_rate_over_curves`]: the same where there are weighted hazard curves.
 //! - [`simultaneous_bands`]: a band that holds whole spectra.
 //! - [`error_of_median`], [`range_of_interval`]: the two figures of Table 4.1 (Eq. 4.9, 4.10).
@@ -38,7 +39,7 @@ mod weighted_replicates;
 
 pub use accuracy::{error_of_median, range_of_interval};
 pub use error::BootstrapError;
-pub use inferred::{InferredLimits, inferred_limits, inferred_rate};
+pub use inferred::{InferredLimits, inferred_limits, inferred_rate, repaired_limits, repaired_rate};
 pub use interval::{Band, Interval};
 pub use jackknife::{acceleration, leave_one_out, without_each};
 pub use over_curves::{inferred_limits_over_curves, inferred_rate_over_curves};

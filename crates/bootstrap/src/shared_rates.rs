@@ -1,4 +1,4 @@
-//! The rates that records, or earthquakes, bring where each level has records of its own.
+//! The rates that records, or earthquakes, bring where they do not count alike.
 
 use crate::SkewedMean;
 use crate::unit_rates::unit_of;
@@ -10,6 +10,14 @@ use crate::unit_rates::unit_of;
 /// the more of it at every level that it belongs to, and the shares of a sample are made to add up to 1 again: F is a
 /// ratio. Linearised, one of U units deviates by U Σ w Σ p (1(u > c) − F), over the levels and the records of the unit.
 /// Shares that are all alike give the deviations of [`UnitRates`](crate::unit_rates::UnitRates).
+///
+/// A unit that has more of a level than others hides its own deviation, since F follows it. With
+/// [`with_leverage`](Self::with_leverage) it deviates by (1 − 1/U)/(1 − h) of that, h its share: what λ becomes without
+/// it (the jackknife of clusters). And the scatter is known as well as by units that carry as much as λ has of them.
+///
+/// # Source
+/// J. G. `MacKinnon`, M. Ø. Nielsen, M. D. Webb, J. Appl. Econometrics 38 (2023), 671–694: the jackknife where clusters
+/// are few and not alike.
 #[derive(Debug, Clone)]
 pub(crate) struct SharedRates {
     /// The unit of each record.
@@ -18,6 +26,10 @@ pub(crate) struct SharedRates {
     shares: Vec<f64>,
     /// Sum of the shares of the records of a unit, `[level, unit]`.
     of_units: Vec<f64>,
+    /// By what the deviation of a unit is multiplied, `[level, unit]`.
+    leverage: Vec<f64>,
+    /// What each unit carries of λ, 1/yr; none where units count alike.
+    carried: Option<Vec<f64>>,
     /// λ so far, 1/yr.
     per_year: f64,
     /// The deviation of each unit, 1/yr.
@@ -33,8 +45,20 @@ impl SharedRates {
             level.iter().zip(&unit_of).for_each(|(share, &unit)| of_units[unit] += share);
             of_units
         };
-        let of_units = shares.chunks_exact(unit_of.len().max(1)).flat_map(of_level).collect();
-        Self { unit_of, shares: shares.to_vec(), of_units, per_year: 0.0, deviations: vec![0.0; units.len()] }
+        let of_units: Vec<f64> = shares.chunks_exact(unit_of.len().max(1)).flat_map(of_level).collect();
+        let (leverage, deviations) = (vec![1.0; of_units.len()], vec![0.0; units.len()]);
+        Self { unit_of, shares: shares.to_vec(), of_units, leverage, carried: None, per_year: 0.0, deviations }
+    }
+
+    /// The same of units that do not count alike.
+    pub(crate) fn with_leverage(mut self) -> Self {
+        let units = self.deviations.len();
+        let alike = 1.0 - 1.0 / units as f64;
+        // of a level that a unit has alone nothing is known without it: its ratio is its own
+        let of = |&share: &f64| if share < 1.0 - 1e-9 { alike / (1.0 - share) } else { 1.0 };
+        self.leverage = self.of_units.iter().map(of).collect();
+        self.carried = Some(vec![0.0; units]);
+        self
     }
 
     /// The run of `record` at `level`, whose stripe weighs `per_year`, 1/yr, is exceeded from here on.
@@ -42,19 +66,34 @@ impl SharedRates {
         let units = self.deviations.len();
         let own = per_year * self.shares[level * self.unit_of.len() + record];
         self.per_year += own;
-        let own = own * units as f64;
-        let of_level = &self.of_units[level * units..][..units];
-        for (deviation, share) in self.deviations.iter_mut().zip(of_level) {
-            *deviation -= own * share;
+        let (of_level, leverage) = (&self.of_units[level * units..][..units], &self.leverage[level * units..][..units]);
+        for (carried, share) in self.carried.iter_mut().flatten().zip(of_level) {
+            *carried += own * share;
         }
-        self.deviations[self.unit_of[record]] += own;
+        let own = own * units as f64;
+        for ((deviation, share), leverage) in self.deviations.iter_mut().zip(of_level).zip(leverage) {
+            *deviation -= own * share * leverage;
+        }
+        let unit = self.unit_of[record];
+        self.deviations[unit] += own * leverage[unit];
     }
 
     /// The rate of all records, 1/yr, with the scatter of the units.
     pub(crate) fn mean(&self) -> SkewedMean {
         let units = self.deviations.len() as f64;
-        let moment = |power: i32| self.deviations.iter().map(|own| own.powi(power)).sum::<f64>() / units;
-        SkewedMean::new(self.per_year, [2, 3, 4].map(moment), self.deviations.len())
+        // squares and their products as powers have them, in one pass
+        let mut sums = [0.0; 3];
+        for own in &self.deviations {
+            let square = own * own;
+            for (sum, power) in sums.iter_mut().zip([square, own * square, square * square]) {
+                *sum += power;
+            }
+        }
+        let mean = SkewedMean::new(self.per_year, sums.map(|sum| sum / units), self.deviations.len());
+        match &self.carried {
+            Some(carried) => mean.carried_by(carried),
+            None => mean,
+        }
     }
 }
 
@@ -76,6 +115,22 @@ mod tests {
         assert!((alike.mean - shared.mean).abs() < 1e-15, "{alike:?} {shared:?}");
         assert!((alike.deviation - shared.deviation).abs() < 1e-13, "{alike:?} {shared:?}");
         assert!((alike.skewness - shared.skewness).abs() < 1e-9 && (alike.kurtosis - shared.kurtosis).abs() < 1e-9);
+    }
+
+    // Earthquakes of 3, 1 and 1 records with W = 0.3, 0.1, 0: λ = 0.08. Without the first λ is 0.05, without the second
+    // 0.3/4, without the third 0.4/4: 3 (λ − λ without it) times 2/3, as of the jackknife.
+    #[test]
+    fn with_leverage_units_deviate_as_when_they_are_left_out() {
+        let mut rates = SharedRates::new(&[vec![0, 1, 2], vec![3], vec![4]], &[0.2; 5]).with_leverage();
+        for (record, per_year) in [(0, 0.2), (1, 0.1), (3, 0.1)] {
+            rates.add(record, 0, per_year);
+        }
+        assert!((rates.per_year - 0.08).abs() < 1e-15);
+        for (found, without) in rates.deviations.iter().zip([0.05, 0.075, 0.1]) {
+            assert!((found - 3.0 * (0.08 - without) * 2.0 / 3.0).abs() < 1e-15, "{:?}", rates.deviations);
+        }
+        // they carry 3 : 1 : 1
+        assert!((rates.mean().effective_units - 121.0 / 83.0).abs() < 1e-12);
     }
 
     // Level 0 has records 0 and 1 by halves, level 1 record 2 alone. Record 0 exceeds at level 0, record 2 at level 1:

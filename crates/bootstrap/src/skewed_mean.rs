@@ -19,8 +19,12 @@ const ROUNDING: f64 = 1e-7;
 ///   of the kurtosis κ, rounded down, from 2 to n − 1: n − 1 where they are normal (Satterthwaite's matching of
 ///   moments).
 ///
+/// Units that do not count alike tell less than their number: the degrees of freedom are at most those of so many units
+/// that count alike as have a variance known as well, less one (Carter, Schnepel and Steigerwald's effective clusters).
+///
 /// # Source
-/// P. Hall, J. R. Stat. Soc. B 54 (1992), 221–228; F. E. Satterthwaite, Biometrics Bulletin 2 (1946), 110–114.
+/// P. Hall, J. R. Stat. Soc. B 54 (1992), 221–228; F. E. Satterthwaite, Biometrics Bulletin 2 (1946), 110–114; A. V.
+/// Carter, K. T. Schnepel, D. G. Steigerwald, Rev. Econ. Stat. 99 (2017), 698–709.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SkewedMean {
     /// The mean.
@@ -33,6 +37,8 @@ pub struct SkewedMean {
     pub kurtosis: f64,
     /// How many units.
     pub units: usize,
+    /// To how many units that count alike they amount, at most `units`.
+    pub effective_units: f64,
 }
 
 impl SkewedMean {
@@ -41,7 +47,7 @@ impl SkewedMean {
         let n = units as f64;
         let is_scattered = units > 1 && second > (ROUNDING * mean).powi(2);
         if !is_scattered {
-            return Self { mean, deviation: 0.0, skewness: 0.0, kurtosis: 3.0, units };
+            return Self { mean, deviation: 0.0, skewness: 0.0, kurtosis: 3.0, units, effective_units: n };
         }
         let adjusted = if units > 2 { (n * (n - 1.0)).sqrt() / (n - 2.0) } else { 0.0 };
         Self {
@@ -50,7 +56,21 @@ impl SkewedMean {
             skewness: adjusted * third / second.powf(1.5),
             kurtosis: fourth / (second * second),
             units,
+            effective_units: n,
         }
+    }
+
+    /// The same of units that carry as much as `carried` says, of each: they amount to (Σ a²)²/Σ a⁴ that carry alike.
+    #[must_use]
+    pub fn carried_by(self, carried: &[f64]) -> Self {
+        let (mut second, mut fourth) = (0.0, 0.0);
+        for square in carried.iter().map(|own| own * own) {
+            second += square;
+            fourth += square * square;
+        }
+        let effective = second * second / fourth;
+        // nothing is carried where nothing is exceeded
+        Self { effective_units: if effective.is_nan() { self.effective_units } else { effective }, ..self }
     }
 
     /// How far the mean of `units` such units lies above `value`, as the deviate of a normal variable; infinite where
@@ -70,7 +90,11 @@ impl SkewedMean {
     pub fn degrees_of_freedom(&self, units: usize) -> usize {
         let most = units.saturating_sub(1).max(1);
         let own = 2.0 * units as f64 / (self.kurtosis - 1.0).max(f64::MIN_POSITIVE) - 1.0;
-        (own.clamp(0.0, most as f64).floor() as usize).clamp(LEAST_FREEDOM.min(most), most)
+        let alike = (own.clamp(0.0, most as f64).floor() as usize).clamp(LEAST_FREEDOM.min(most), most);
+        let share = self.effective_units / self.units as f64;
+        // 12 units that count alike are 12, whatever rounding leaves
+        let freedom = share * units as f64 - 1.0 + ROUNDING;
+        if share > 1.0 - ROUNDING { alike } else { alike.min(freedom.max(1.0).floor() as usize) }
     }
 
     /// The interval of the mean over all units there could be, at the level of `quantiles`; NaN of a single unit. The
@@ -145,6 +169,19 @@ pub(crate) mod tests {
         // a mean of heavy tails knows its variance with fewer
         let heavy = SkewedMean { kurtosis: 11.0, ..found };
         assert_eq!((heavy.degrees_of_freedom(25), heavy.degrees_of_freedom(5)), (4, 2));
+    }
+
+    // 6, 2, 1, 1: (36 + 4 + 2)²/(1296 + 16 + 2) = 1764/1314 = 1.34; 2, 2, 1, 1: 100/34 = 2.94, one degree of freedom;
+    // in a sample of eight 5.88, four
+    #[test]
+    fn units_that_carry_more_leave_fewer_degrees_of_freedom() {
+        let alike = of(&[1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(alike.carried_by(&[0.3; 4]).degrees_of_freedom(4), alike.degrees_of_freedom(4));
+        let one = alike.carried_by(&[6.0, 2.0, 1.0, 1.0]);
+        assert!((one.effective_units - 1764.0 / 1314.0).abs() < 1e-12);
+        let two = alike.carried_by(&[2.0, 2.0, 1.0, 1.0]);
+        assert_eq!([one.degrees_of_freedom(4), two.degrees_of_freedom(4), two.degrees_of_freedom(8)], [1, 1, 4]);
+        assert_eq!(alike.carried_by(&[0.0; 4]), alike);
     }
 
     #[test]

@@ -256,7 +256,7 @@ fn twenty_records_of_one_side_are_out_of_reach() {
 }
 
 #[test]
-fn a_set_out_of_reach_is_told_so() {
+fn a_set_out_of_reach_is_reported() {
     let Some(pairs) = pairs() else { return };
     let whole = record_set(pairs, ScaledTo::Pga);
     let kept = keep(&whole, 20, false);

@@ -228,7 +228,7 @@ fn what_is_no_hazard_curve_is_named() {
 }
 
 #[test]
-fn what_is_no_export_is_told_so() {
+fn a_file_that_is_no_export_is_refused() {
     let header = "lon,lat,depth,poe-0.1,poe-0.2\n1,2,0,0.5,0.1\n";
     for (text, expected) in [
         (String::new(), "x.csv: empty"),

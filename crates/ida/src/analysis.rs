@@ -191,7 +191,8 @@ pub(crate) fn single(system: &System, ground: &Ground<'_>, scale: f64, with_free
             let frame = RockingFrame::block(size_m, slenderness_rad, block.gravity_m_s2())
                 .map_err(|source| IdaError::Frame { motion: ground.id.to_owned(), scale, source: source.into() })?;
             let restitution = block.restitution();
-            wobbled(&ShakenFrame { frame, model: Model::Planar, restitution }, ground, scale, with_free_peak)
+            let shaken = ShakenFrame { frame, model: Model::Planar, restitution, rest_amplitude_rad: None };
+            wobbled(&shaken, ground, scale, with_free_peak)
         }
         System::Block(block) => rocked(block, ground, scale, with_free_peak),
         System::Frame(shaken) => wobbled(shaken, ground, scale, with_free_peak),
@@ -212,7 +213,8 @@ fn wobbled(shaken: &ShakenFrame, ground: &Ground<'_>, scale: f64, with_free_peak
         z: z.as_ref().map(component),
     };
     let until = if with_free_peak { Until::FirstFreePeak } else { Until::Time(shaking.duration_s()) };
-    let options = Options { until, restitution: Some(shaken.restitution), ..Options::default() };
+    let ShakenFrame { restitution, rest_amplitude_rad, .. } = *shaken;
+    let options = Options { until, restitution: Some(restitution), rest_amplitude_rad, ..Options::default() };
     let response = uplift_frame::respond(&shaken.frame, &shaking, shaken.model, &options)
         .map_err(|source| IdaError::Frame { motion: ground.id.to_owned(), scale, source: source.into() })?;
     let impacts = u32::try_from(response.impacts).unwrap_or(u32::MAX);
@@ -237,7 +239,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_peak_that_is_no_number_is_an_error_and_an_overturning_is_an_answer() {
+    fn a_nan_peak_is_an_error_and_an_overturning_is_a_result() {
         let system = |post_uplift| System::Oscillator(Oscillator::new(0.3, 9.81, 0.0005, 0.95, post_uplift).unwrap());
         let [constant, falls] = [PostUplift::Zero, PostUplift::Negative { capacity_m: 0.4 }].map(system);
         let check = |system: &System, displacement_m: f64| {

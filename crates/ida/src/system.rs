@@ -33,6 +33,9 @@ pub struct ShakenFrame {
     pub model: Model,
     /// Velocity after over before an impact.
     pub restitution: f64,
+    /// Tilt whose energy is that of a frame at rest, rad; if none, that of the model
+    /// ([`Options::rest_amplitude_rad`](uplift_frame::Options::rest_amplitude_rad)).
+    pub rest_amplitude_rad: Option<f64>,
 }
 
 impl System {
@@ -115,6 +118,7 @@ impl System {
                 };
                 let mut numbers = vec![2.0, model, shaken.restitution, f64::from(uplift_frame::NUMERICS)];
                 numbers.extend(shaken.frame.identity());
+                numbers.extend(shaken.rest_amplitude_rad);
                 numbers
             }
         }

@@ -68,7 +68,7 @@ fn kept(row: &AnalysisRow<'_>) -> Kept {
 }
 
 #[test]
-fn what_is_known_is_not_computed_again() {
+fn known_cells_are_not_computed_again() {
     for case in [Case::new(), Case::of_both_kinds()] {
         let plan = case.plan();
         let whole = analyse(&plan, &Unwatched).unwrap();
@@ -133,7 +133,7 @@ fn any_division_and_any_known_rows_give_the_same_bits() {
 
 // A value put in by hand is believed: what is known is not looked at.
 #[test]
-fn what_is_known_is_taken_as_it_is() {
+fn known_cells_keep_their_values() {
     let case = Case::new();
     let plan = case.plan();
     let mut cells = Cells::unknown(&plan);

@@ -29,7 +29,12 @@ fn systems() -> Vec<System> {
         System::Oscillator(Oscillator::zsbe(0.1).unwrap()),
         System::Oscillator(Oscillator::new(0.1, 9.81, 0.0005, 0.95, falls).unwrap()),
         System::Block(RockingBlock::new(1.2, 0.12).unwrap()),
-        System::Frame(Box::new(ShakenFrame { frame: frame(), model: Model::Planar, restitution: 0.95 })),
+        System::Frame(Box::new(ShakenFrame {
+            frame: frame(),
+            model: Model::Planar,
+            restitution: 0.95,
+            rest_amplitude_rad: None,
+        })),
     ]
 }
 

@@ -26,7 +26,7 @@ fn frame(parts: Option<Parts>, path: TendonPath) -> RockingFrame {
 }
 
 fn system(frame: &RockingFrame, model: Model, restitution: f64) -> System {
-    System::Frame(Box::new(ShakenFrame { frame: frame.clone(), model, restitution }))
+    System::Frame(Box::new(ShakenFrame { frame: frame.clone(), model, restitution, rest_amplitude_rad: None }))
 }
 
 fn plan<'a>(pairs: &'a [[Accelerogram; 2]], systems: &'a [System], with_free_peak: bool) -> Plan<'a> {

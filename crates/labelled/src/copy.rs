@@ -3,13 +3,15 @@
 //! A file is never changed in place: a failure, or a full disk, would leave neither the old nor the new one. It is
 //! written anew, with what is added, and then takes the place of the old one at once.
 
+use std::collections::BTreeSet;
+
 use hdf5::types::{FloatSize, IntSize, TypeDescriptor};
 use hdf5::{Container, Location, LocationType};
 
 use super::AXES;
 use super::attribute::AttributeValue;
 use super::checksum::CHECKSUM;
-use super::dimension_scale::RESERVED;
+use super::dimension_scale::{self, RESERVED};
 use super::error::LabelledError;
 use super::reader::LabelledReader;
 use super::writer::LabelledWriter;
@@ -35,6 +37,25 @@ impl LabelledWriter {
             }
         }
         self.carry_group(reader, "", left_out)
+    }
+
+    /// Carries over the `groups` of `reader`, e.g. `/influence`, with those of their axes that this file lacks; a group
+    /// that is not there is skipped.
+    ///
+    /// # Errors
+    /// As [`Self::carry_over`].
+    pub fn carry_groups(&mut self, reader: &LabelledReader, groups: &[&str]) -> Result<(), LabelledError> {
+        for group in groups.iter().filter(|group| reader.exists(group)) {
+            for axis in reader.axes_below(group)? {
+                if !self.axes.contains_key(&axis) {
+                    self.carry_axis(reader, &axis, &format!("{AXES}/{axis}"))?;
+                }
+            }
+            self.group(group)?;
+            self.carry_attributes(reader, group, &[])?;
+            self.carry_group(reader, group, &[])?;
+        }
+        Ok(())
     }
 
     fn carry_group(&mut self, reader: &LabelledReader, group: &str, left_out: &[&str]) -> Result<(), LabelledError> {
@@ -125,6 +146,21 @@ impl LabelledReader {
     fn axes(&self) -> Result<Vec<String>, LabelledError> {
         let names = self.file.group(AXES).and_then(|group| group.member_names());
         self.check(names, AXES)
+    }
+
+    /// Names of the axes of the arrays in `group` and in the groups below it.
+    fn axes_below(&self, group: &str) -> Result<BTreeSet<String>, LabelledError> {
+        let mut axes = BTreeSet::new();
+        for name in self.children(group)? {
+            let path = format!("{group}/{name}");
+            if self.is_group(&path) {
+                axes.extend(self.axes_below(&path)?);
+            } else {
+                let dataset = self.check(self.file.dataset(&path), &path)?;
+                axes.extend(self.check(dimension_scale::names(&self.file, &dataset), &path)?.unwrap_or_default());
+            }
+        }
+        Ok(axes)
     }
 
     pub(super) fn is_group(&self, path: &str) -> bool {
@@ -230,6 +266,17 @@ mod tests {
         assert_eq!(reader.attribute_u64("/", "seed").unwrap(), 7);
         assert_eq!(reader.attribute_i64s("/", "levels").unwrap(), [1, 2]);
         assert_eq!(reader.attribute_texts("/", "names").unwrap(), ["å"]);
+        drop(reader);
+        let only = folder.path().join("d.h5");
+        let mut writer = LabelledWriter::create(&only).unwrap();
+        writer.axis_text("site", &["Focşani".to_owned(), "Perugia".to_owned()], "site").unwrap();
+        writer.carry_groups(&LabelledReader::open(&old).unwrap(), &["/bootstrap", "/urs", "/none"]).unwrap();
+        writer.finish().unwrap();
+        let reader = LabelledReader::open(&only).unwrap();
+        assert_eq!(reader.children("/").unwrap(), ["axes", "bootstrap", "urs"]);
+        assert_eq!(reader.array_f64("/bootstrap/u_m").unwrap().dims, ["site", "size"]);
+        assert_eq!(reader.axis_u32("size").unwrap(), [20, 40]);
+        assert_eq!(reader.attribute_text("/urs/pgv", "note").unwrap(), "a group");
         drop(reader);
         // once in the order of a copy, a file is carried over byte for byte
         carry(&new, &again, &[]);

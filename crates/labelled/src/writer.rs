@@ -29,13 +29,13 @@ pub struct LabelledWriter {
     // Before `place`: the file is closed before it is removed.
     file: File,
     place: AtomicFile,
-    axes: BTreeMap<String, Axis>,
+    pub(super) axes: BTreeMap<String, Axis>,
     links: BTreeSet<String>,
     /// Arrays that lie in chunks.
     chunks: Vec<String>,
 }
 
-struct Axis {
+pub(super) struct Axis {
     length: usize,
     reference: ObjectReference1,
     uses: Vec<ScaleUse>,

@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn the_shorter_component_goes_on_without_acceleration() {
+    fn the_shorter_component_is_padded_with_zeros() {
         // The first keeps its velocity of 2 m/s while the second comes to 3 m/s.
         let unequal = pair([1.0; 2], vec![2.0, 2.0], vec![0.0, 0.0, 2.0, 2.0]);
         let peaks = Combination::RotD100.peaks_of(&unequal).unwrap();

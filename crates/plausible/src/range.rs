@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn the_key_is_told_to_correct() {
+    fn the_message_names_the_key_to_correct() {
         for (name, key) in [("width_m", "width_m"), ("the largest of strengths.values", "strengths.values")] {
             let told = RANGE.unlikely(name, 0.1).map(|found| found.what_to_do());
             assert_eq!(told, Some(format!("correct {key}, or leave it if it is meant")));
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_refused_is_said_with_range_value_unit_and_hint() {
+    fn a_refusal_has_range_value_unit_and_hint() {
         let refused = Implausible { name: "width_m", value: 1e-9, range: RANGE };
         assert_eq!(refused.to_string(), "width_m is 1e-9 m: it must be from 0.5 to 2e7 m (millimetres?)");
     }

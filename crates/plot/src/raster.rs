@@ -42,9 +42,20 @@ pub fn png(svg: &str, dots_per_inch: f32) -> Result<Vec<u8>, RasterError> {
     let tree = usvg::Tree::from_str(svg, &options).map_err(|error| RasterError(error.to_string()))?;
     let zoom = dots_per_inch / 96.0;
     let size = tree.size().to_int_size().scale_by(zoom).ok_or_else(|| RasterError("it has no size".to_owned()))?;
+    require_memory(size)?;
     let mut pixels =
         tiny_skia::Pixmap::new(size.width(), size.height()).ok_or_else(|| RasterError("it is too large".to_owned()))?;
     resvg::render(&tree, tiny_skia::Transform::from_scale(zoom, zoom), &mut pixels.as_mut());
     let image = pixels.encode_png().map_err(|error| RasterError(error.to_string()))?;
     Ok(with_resolution(&image, dots_per_inch))
+}
+
+/// Refuses an image for which the system gives no memory: the library would end the program. It has the pixels, four
+/// bytes each, and copies of them while it packs them.
+fn require_memory(size: tiny_skia::IntSize) -> Result<(), RasterError> {
+    let bytes = u64::from(size.width()) * u64::from(size.height()) * 4 * 4;
+    if usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok()) {
+        return Ok(());
+    }
+    Err(RasterError(format!("it needs {} MB of memory: lower --dpi, or write SVG", bytes / 1_000_000)))
 }

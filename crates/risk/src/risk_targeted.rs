@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_target_is_said() {
+    fn an_invalid_target_is_refused() {
         let curve = HazardCurve::new("PGV", "cm/s", "", vec![1.0, 10.0], vec![0.1, 1e-3]).unwrap();
         let found = |target, probability, beta| risk_targeted_level(&curve, target, probability, beta).unwrap_err();
         assert_eq!(found(0.1, 0.1, 0.6), RiskError::AboveHazard { target: 0.1, most: 0.1 });

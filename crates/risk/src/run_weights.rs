@@ -44,6 +44,18 @@ impl RunWeights {
         Ok(Self { stripes: stripes.clone(), record_count, shares: shares.to_vec(), units, scale })
     }
 
+    /// The weights where only the stripes at these `places` are analysed; the shares of their records stay.
+    ///
+    /// # Errors
+    /// As [`StripeWeights::at_levels`].
+    pub fn at_levels(&self, places: &[usize]) -> Result<Self, RiskError> {
+        let rows = self.shares.chunks(self.record_count);
+        let rows: Vec<&[f64]> = rows.collect();
+        let shares: Vec<f64> =
+            places.iter().filter_map(|&place| rows.get(place)).flat_map(|row| row.to_vec()).collect();
+        Self::new(&self.stripes.at_levels(places)?, &shares)
+    }
+
     /// Number of records.
     pub fn record_count(&self) -> usize {
         self.record_count

@@ -77,6 +77,16 @@ impl StripeWeights {
         Self::new(&rates, has_lower_tail.then_some(foot.maf))
     }
 
+    /// The weights where only the stripes at these `places` are analysed: an interval between two of them has the rates
+    /// of all that lie in it.
+    ///
+    /// # Errors
+    /// No place, or places that do not ascend.
+    pub fn at_levels(&self, places: &[usize]) -> Result<Self, RiskError> {
+        let rates: Vec<f64> = places.iter().filter_map(|&place| self.rates.get(place).copied()).collect();
+        Self::new(&rates, Some(self.first_abscissa_rate))
+    }
+
     /// Number of stripe levels.
     pub fn level_count(&self) -> usize {
         self.rates.len()
@@ -155,6 +165,15 @@ pub fn mean_annual_frequency(stripes: &Stripes, weights: &StripeWeights, thresho
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+
+    #[test]
+    fn fewer_stripes_keep_the_rates_between_them() {
+        // without the middle one: w₁ = ½(0.5 − 0.125) + ½(1 − 0.5), w₃ = ½(0.5 − 0.125) + 0.125
+        let weights = StripeWeights::new(&[0.5, 0.25, 0.125], Some(1.0)).unwrap().at_levels(&[0, 2]).unwrap();
+        assert_eq!(weights.per_year(), [0.4375, 0.3125]);
+        assert_eq!(weights.at_levels(&[0, 1]).unwrap(), weights);
+        assert!(weights.at_levels(&[]).is_err() && weights.at_levels(&[1, 0]).is_err());
+    }
 
     #[test]
     fn weights_of_three_stripes_by_hand() {

@@ -125,7 +125,7 @@ fn mistakes_between_quantities_are_said_too() {
 }
 
 #[test]
-fn a_stiff_tendon_is_said_aloud() {
+fn a_stiff_tendon_raises_a_warning() {
     let stiff = resolved(&BRIDGE.replace("3.0e6", "3.0e8"));
     assert!(stiff.warnings()[0].to_string().contains("positive"), "{:?}", stiff.warnings());
 }

@@ -220,7 +220,7 @@ fn impossible_structures_are_refused() {
 }
 
 #[test]
-fn a_stocky_body_is_said_to_be_one() {
+fn a_stocky_body_raises_a_warning() {
     // α = 0.5: (0.546302 − 0.5)/0.546302 = 8.48 %; α = 0.3: (0.309336 − 0.3)/0.309336 = 3.02 %
     let warnings = |slenderness| {
         let geometry = Geometry::from_slenderness_and_size(slenderness, 5.0).unwrap();

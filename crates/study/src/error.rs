@@ -75,13 +75,13 @@ pub enum Unreadable {
     #[error(transparent)]
     System(#[from] std::io::Error),
     /// There is none.
-    #[error("there is no such file: name one as it is seen from the current folder, e.g. {example}")]
+    #[error("there is no such file: give its path from the current folder, e.g. {example}")]
     Missing {
         /// A file of the kind that is wanted.
         example: &'static str,
     },
     /// It is a file of another kind.
-    #[error("it is {found}, and {wanted} is wanted: {advice}")]
+    #[error("it is {found}, not {wanted}: {advice}")]
     Other {
         /// What it is.
         found: &'static str,

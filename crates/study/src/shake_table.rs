@@ -25,6 +25,7 @@ use crate::warning::Warning;
 
 pub use levels::LevelPlan;
 pub use model::FrameModel;
+pub(crate) use model::REST;
 pub use spectra::{DesignSpectrumPlan, SpectraPlan};
 
 /// Prototype over model: as `uplift-frame` takes it.

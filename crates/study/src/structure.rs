@@ -23,6 +23,7 @@ use crate::reading::other_file::Wanted;
 use crate::reading::text::{parse_table, read_text};
 use crate::reading::{Finding, Findings, Origin, Rule, Section, Table, Value};
 use crate::sections::uncertainty::{self, Described, Doubt, Uncertainty};
+use crate::shake_table::REST;
 use crate::warning::Warning;
 use restrainer::ReadRestrainer;
 pub use restrainer::RestrainerFile;
@@ -57,6 +58,7 @@ pub(crate) const KEYS: [SectionKeys; 6] = [
             &RESTITUTION,
             &COLUMN_SHAPE,
             &F_CD_PA,
+            &REST_AMPLITUDE_RAD,
         ],
     ),
     restrainer::KEYS,
@@ -126,6 +128,9 @@ const COLUMN_SHAPE: Key<Choice<ColumnShape>> =
 const F_CD_PA: Key<Number> = number("f_cd_pa", "Pa", Rule::Within(CONCRETE_STRENGTH))
     .without_default("none")
     .meaning("design strength of the columns' concrete, Pa");
+const REST_AMPLITUDE_RAD: Key<Number> = number("rest_amplitude_rad", "rad", REST)
+    .without_default("1e-5")
+    .meaning("tilt whose energy is that of a wobbling frame at rest, rad");
 
 /// A number that the description judges.
 const fn judged(name: &'static str, unit: &'static str) -> Key<Judged> {
@@ -165,6 +170,8 @@ pub struct Structure {
     pub column_shape: ColumnShape,
     /// Design strength of the columns' concrete, Pa.
     pub f_cd_pa: Option<f64>,
+    /// Tilt whose energy is that of a wobbling frame at rest, rad; that of the model where none is given.
+    pub rest_amplitude_rad: Option<f64>,
     /// What of the equivalent oscillator is not known exactly; none where all of it is.
     pub uncertainty: Option<Uncertainty>,
     /// What is allowed but probably not meant.
@@ -273,6 +280,7 @@ struct ReadStructure {
     restrainer: Option<ReadRestrainer>,
     column_shape: ColumnShape,
     f_cd_pa: Option<f64>,
+    rest_amplitude_rad: Option<f64>,
 }
 
 impl ReadStructure {
@@ -327,6 +335,7 @@ impl ReadStructure {
             columns,
             column_shape: self.column_shape,
             f_cd_pa: self.f_cd_pa,
+            rest_amplitude_rad: self.rest_amplitude_rad,
             uncertainty: None,
         })
     }
@@ -421,10 +430,11 @@ fn read(mut root: Section<'_>) -> Option<ReadStructure> {
     let restrainer = restrainer::read(&mut root, &description);
     let column_shape = root.read(&COLUMN_SHAPE).unwrap_or_default();
     let f_cd_pa = root.optional(&F_CD_PA).flatten();
+    let rest_amplitude_rad = root.optional(&REST_AMPLITUDE_RAD).flatten();
     // it is read when the structure is known, whose values are its means
     root.section("uncertainty");
     root.finish();
-    kind.map(|_| ReadStructure { description, restrainer, column_shape, f_cd_pa })
+    kind.map(|_| ReadStructure { description, restrainer, column_shape, f_cd_pa, rest_amplitude_rad })
 }
 
 /// Reads `[uncertainty]`, what is wrong with it, and what is doubtful; the means that are not given are those of the

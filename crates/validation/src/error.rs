@@ -24,6 +24,9 @@ pub enum ValidationError {
         /// Computed values.
         computed: usize,
     },
+    /// The caller stopped it.
+    #[error("stopped before it was done")]
+    Stopped,
     /// A number is out of range.
     #[error("{name} is {value}: it must be {requirement}")]
     OutOfRange {

@@ -3,7 +3,8 @@
 //! Its p is offered by three rules, since programs differ:
 //!
 //! * exact: of all orders of the pooled values, as many as have a distance of `D` or more, by counting lattice paths.
-//!   With ties it is conservative: the distance is over distinct values, the paths are those of values without ties;
+//!   With ties it is conservative: the distance is over distinct values, the paths are those of values without ties.
+//!   Beyond 10⁷ pairs of values it is Kolmogorov's, to which it tends;
 //! * Kolmogorov's: that of one sample of `n₁n₂/(n₁ + n₂)` values (rounded) against a continuous distribution;
 //! * that of MATLAB's `kstest2`: the limit for many values with `λ = (√n + 0.12 + 0.11/√n) D`, `n = n₁n₂/(n₁ + n₂)`,
 //!   `p = 2 Σ (−1)^(j−1) exp(−2 j² λ²)`, which Table 6.2 prints.
@@ -21,13 +22,20 @@ use crate::sample::{Sample, distinct};
 /// Size above which Kolmogorov's distribution is that of the limit.
 const MANY: usize = 2000;
 
+/// Pairs of values beyond which no paths are counted: a tenth of a second.
+const MOST_PAIRS: usize = 10_000_000;
+/// `n d²` beyond which both sides of a distance are not so large together: p is below 1e-15.
+const FAR: f64 = 18.0;
+
 /// Distance and p.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct KolmogorovSmirnov {
     /// `D`.
     pub distance: f64,
-    /// p, exact.
+    /// p, exact where `is_exact` says so, else Kolmogorov's.
     pub p_exact: f64,
+    /// Whether `p_exact` is.
+    pub is_exact: bool,
     /// p by Kolmogorov's distribution.
     pub p_kolmogorov: f64,
     /// p by the formula of `kstest2`.
@@ -42,11 +50,11 @@ impl KolmogorovSmirnov {
         let (n, m) = (one.len(), other.len());
         let (steps, has_ties) = largest_distance(one, other);
         let distance = steps as f64 / (n * m) as f64;
-        let size = (n * m) as f64 / (n + m) as f64;
         Self {
             distance,
-            p_exact: exact_p(n, m, steps),
-            p_kolmogorov: kolmogorov_p(size.round_ties_even(), distance),
+            p_exact: best_p(n, m, steps),
+            is_exact: is_exact(n, m),
+            p_kolmogorov: two_sample_kolmogorov_p(n, m, distance),
             p_kstest2: kstest2_p(n, m, distance),
             has_ties,
         }
@@ -60,12 +68,12 @@ impl KolmogorovSmirnov {
     /// The least distance whose exact p is at most `level` for samples of `n` and `m` values; +∞ where even 1 is not.
     pub fn critical_distance(n: usize, m: usize, level: f64) -> f64 {
         let (mut low, mut high) = (0, n * m);
-        if exact_p(n, m, high) > level {
+        if best_p(n, m, high) > level {
             return f64::INFINITY;
         }
         while high - low > 1 {
             let middle = low + (high - low) / 2;
-            if exact_p(n, m, middle) > level { low = middle } else { high = middle }
+            if best_p(n, m, middle) > level { low = middle } else { high = middle }
         }
         high as f64 / (n * m) as f64
     }
@@ -107,6 +115,25 @@ fn limit_p(lambda: f64) -> f64 {
         }
     }
     (2.0 * sum).clamp(0.0, 1.0)
+}
+
+/// Whether the orders of so many values are few enough to count.
+fn is_exact(n: usize, m: usize) -> bool {
+    n.saturating_mul(m) <= MOST_PAIRS
+}
+
+/// p of a distance of `steps/(n m)`: exact, or Kolmogorov's where that would take long.
+fn best_p(n: usize, m: usize, steps: usize) -> f64 {
+    if is_exact(n, m) {
+        exact_p(n, m, steps)
+    } else {
+        two_sample_kolmogorov_p(n, m, steps as f64 / (n as f64 * m as f64))
+    }
+}
+
+/// p of a distance by Kolmogorov's distribution of `n m/(n + m)` values.
+fn two_sample_kolmogorov_p(n: usize, m: usize, distance: f64) -> f64 {
+    kolmogorov_p(((n * m) as f64 / (n + m) as f64).round_ties_even(), distance)
 }
 
 /// Probability that the path of a random order of `n` and `m` values is somewhere `steps` or more from the diagonal, in
@@ -154,7 +181,7 @@ fn kolmogorov_p(n: f64, d: f64) -> f64 {
     if count > MANY {
         return limit_p(n.sqrt() * d);
     }
-    if d >= 0.5 { 2.0 * one_sided_p(count, d) } else { 1.0 - kolmogorov_cdf(count, d) }
+    if d >= 0.5 || n * d * d > FAR { 2.0 * one_sided_p(count, d) } else { 1.0 - kolmogorov_cdf(count, d) }
 }
 
 /// P(D⁺ ≥ d) (Smirnov); where d ≥ ½, D⁺ and D⁻ are not both so large.
@@ -278,5 +305,38 @@ impl Evidence {
             Self::MediumWeak => "medium to weak",
             Self::SmallOrNone => "small or none",
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// Where paths are no longer counted, p goes on as it was, to 3 %.
+    #[test]
+    fn many_values_have_the_p_of_the_limit() {
+        for (n, m) in [(3000, 3000), (100_000, 99)] {
+            for lambda in [0.6, 0.9, 1.2, 1.6, 2.0] {
+                let size = (n * m) as f64 / (n + m) as f64;
+                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a count
+                let steps = (lambda / size.sqrt() * (n * m) as f64) as usize;
+                let (exact, kolmogorov) =
+                    (exact_p(n, m, steps), two_sample_kolmogorov_p(n, m, steps as f64 / (n * m) as f64));
+                assert!((kolmogorov / exact - 1.0).abs() < 0.03, "{n} {m} {lambda}: {kolmogorov} beside {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn many_values_take_no_longer() {
+        let values = |shift: f64| Sample::new((0..200_000).map(|i| f64::from(i) + shift).collect()).unwrap();
+        let begin = std::time::Instant::now();
+        let found = KolmogorovSmirnov::of(&values(0.0), &values(800.5));
+        assert!(!found.is_exact && (found.distance - 0.004_005).abs() < 1e-12, "{found:?}");
+        assert!((found.p_exact / found.p_kstest2 - 1.0).abs() < 0.02, "{found:?}");
+        let critical = KolmogorovSmirnov::critical_distance(200_000, 2000, 0.1);
+        assert!((critical / (1.2238 / (2000.0_f64 / 1.01).sqrt()) - 1.0).abs() < 0.02, "{critical}");
+        assert!(begin.elapsed().as_secs() < 30);
     }
 }

@@ -48,6 +48,6 @@ pub use holm::holm_adjusted;
 pub use kolmogorov_smirnov::{Evidence, KolmogorovSmirnov, kstest2_p};
 pub use mann_whitney::MannWhitney;
 pub use pairs::{Collapses, Pairs};
-pub use power::detectable_factor;
+pub use power::{MOST_DRAWN, detectable_factor};
 pub use resampling::{Bands, Quantiles, Resampling, bands, median_ratio_band, permutation_p};
 pub use sample::Sample;

@@ -121,11 +121,13 @@ fn correlation(one: &[f64], other: &[f64]) -> Option<f64> {
 }
 
 fn midranks(values: &[f64]) -> Vec<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
     values
         .iter()
         .map(|value| {
-            let below = values.iter().filter(|other| *other < value).count();
-            let equal = values.iter().filter(|other| *other == value).count();
+            let below = sorted.partition_point(|other| other < value);
+            let equal = sorted.partition_point(|other| other <= value) - below;
             below as f64 + 0.5 * (equal + 1) as f64
         })
         .collect()

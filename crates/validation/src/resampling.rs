@@ -10,25 +10,51 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use crate::error::ValidationError;
 use crate::kolmogorov_smirnov::KolmogorovSmirnov;
 use crate::pairs::{check, log_ratios, mean_and_deviation};
-use crate::sample::{Sample, median_of_sorted};
+use crate::sample::Sample;
 
 /// Fills the seed behind the 8 bytes of the user's number.
 const MOTIONS: &[u8; 24] = b"uplift validate  motions";
 /// The same for swaps within pairs.
 const SWAPS: &[u8; 24] = b"uplift validate    swaps";
 
+/// Values of a sample beyond which the replicates are fewer.
+const MANY: usize = 20_000;
+/// Values that are drawn of samples so large.
+const MOST_DRAWN: usize = 200_000_000;
+/// Replicates that even the largest samples have: their standard error of a quantile of 5 % is then 2 %.
+const FEWEST: u32 = 100;
+
 /// How to resample.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Resampling {
-    /// Replicates.
+#[derive(Clone, Copy)]
+pub struct Resampling<'a> {
+    /// Replicates, fewer of very large samples ([`Resampling::of_values`]).
     pub replicates: u32,
     /// Seed.
     pub seed: u64,
+    /// Whether to stop, asked before each replicate.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl Default for Resampling {
+impl Default for Resampling<'_> {
     fn default() -> Self {
-        Self { replicates: 10_000, seed: 1 }
+        Self { replicates: 10_000, seed: 1, stop: &|| false }
+    }
+}
+
+impl Resampling<'_> {
+    /// The replicates of a sample of so many values: beyond 20 000 values as many as draw 2·10⁸ together, but 100.
+    pub fn of_values(&self, values: usize) -> u32 {
+        if values <= MANY {
+            return self.replicates;
+        }
+        let bound = u32::try_from(MOST_DRAWN / values).unwrap_or(u32::MAX);
+        self.replicates.min(bound.max(FEWEST))
+    }
+
+    /// # Errors
+    /// [`ValidationError::Stopped`] if the caller wants it.
+    pub(crate) fn go_on(&self) -> Result<(), ValidationError> {
+        if (self.stop)() { Err(ValidationError::Stopped) } else { Ok(()) }
     }
 }
 
@@ -63,7 +89,9 @@ pub struct Bands {
 pub fn bands(measured: &[f64], computed: &[f64], resampling: Resampling) -> Result<Bands, ValidationError> {
     check(measured, computed)?;
     let mut found = [Vec::new(), Vec::new(), Vec::new()];
-    for replicate in 0..resampling.replicates {
+    let replicates = resampling.of_values(measured.len());
+    for replicate in 0..replicates {
+        resampling.go_on()?;
         let mut stream = Stream::new(MOTIONS, resampling.seed, replicate);
         let drawn: Vec<usize> = measured.iter().map(|_| stream.below(measured.len())).collect();
         let [m, c] = [measured, computed].map(|values| drawn.iter().map(|index| values[*index]).collect::<Vec<f64>>());
@@ -72,14 +100,23 @@ pub fn bands(measured: &[f64], computed: &[f64], resampling: Resampling) -> Resu
         found[1].extend(mean);
         found[2].extend(deviation);
     }
-    let [median_ratio, log_bias, log_dispersion] = found.map(|values| quantiles(values, resampling.replicates));
+    let [median_ratio, log_bias, log_dispersion] = found.map(|values| quantiles(values, replicates));
     Ok(Bands { median_ratio, log_bias, log_dispersion })
 }
 
 /// Band of the median's signed error `u50,computed/u50,measured − 1` of samples that are not paired.
-pub fn median_ratio_band(measured: &Sample, computed: &Sample, resampling: Resampling) -> Option<Quantiles> {
+///
+/// # Errors
+/// [`ValidationError::Stopped`].
+pub fn median_ratio_band(
+    measured: &Sample,
+    computed: &Sample,
+    resampling: Resampling,
+) -> Result<Option<Quantiles>, ValidationError> {
     let mut found = Vec::new();
-    for replicate in 0..resampling.replicates {
+    let replicates = resampling.of_values(measured.len().max(computed.len()));
+    for replicate in 0..replicates {
+        resampling.go_on()?;
         let mut stream = Stream::new(MOTIONS, resampling.seed, replicate);
         let mut draw = |sample: &Sample| -> Vec<f64> {
             (0..sample.len()).map(|_| sample.sorted()[stream.below(sample.len())]).collect()
@@ -87,7 +124,7 @@ pub fn median_ratio_band(measured: &Sample, computed: &Sample, resampling: Resam
         let (m, c) = (draw(measured), draw(computed));
         found.extend(median_error(m, c));
     }
-    quantiles(found, resampling.replicates)
+    Ok(quantiles(found, replicates))
 }
 
 /// p of the Kolmogorov–Smirnov distance of pairs that are exchangeable within themselves: the part of swaps, of each
@@ -104,21 +141,30 @@ pub fn permutation_p(measured: &[f64], computed: &[f64], resampling: Resampling)
     };
     let observed = distance(measured.to_vec(), computed.to_vec())?;
     let mut as_large = 1_u32;
-    for replicate in 0..resampling.replicates {
+    let replicates = resampling.of_values(measured.len());
+    for replicate in 0..replicates {
+        resampling.go_on()?;
         let mut stream = Stream::new(SWAPS, resampling.seed, replicate);
         let swap = |(m, c): (&f64, &f64)| if stream.below(2) == 0 { (*m, *c) } else { (*c, *m) };
         let (m, c): (Vec<f64>, Vec<f64>) = measured.iter().zip(computed).map(swap).unzip();
         as_large += u32::from(distance(m, c)? >= observed - 1e-12);
     }
-    Ok(f64::from(as_large) / (f64::from(resampling.replicates) + 1.0))
+    Ok(f64::from(as_large) / (f64::from(replicates) + 1.0))
 }
 
 /// The error of the median; none where it is ∞/∞.
-fn median_error(mut measured: Vec<f64>, mut computed: Vec<f64>) -> Option<f64> {
-    measured.sort_by(f64::total_cmp);
-    computed.sort_by(f64::total_cmp);
-    let error = median_of_sorted(&computed) / median_of_sorted(&measured) - 1.0;
+fn median_error(measured: Vec<f64>, computed: Vec<f64>) -> Option<f64> {
+    let error = median_of_unsorted(computed) / median_of_unsorted(measured) - 1.0;
     (!error.is_nan()).then_some(error)
+}
+
+/// As that of the sorted values, without sorting them.
+fn median_of_unsorted(mut values: Vec<f64>) -> f64 {
+    let half = values.len() / 2;
+    let is_odd = values.len() % 2 == 1;
+    let (below, upper, _) = values.select_nth_unstable_by(half, f64::total_cmp);
+    let lower = below.iter().copied().max_by(f64::total_cmp).filter(|_| !is_odd);
+    lower.map_or(*upper, |lower| 0.5 * (lower + *upper))
 }
 
 fn quantiles(mut values: Vec<f64>, replicates: u32) -> Option<Quantiles> {
@@ -169,7 +215,34 @@ impl Stream {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
+
+    #[test]
+    fn a_median_needs_no_order() {
+        let mut stream = Stream::new(MOTIONS, 1, 0);
+        for size in 1..40 {
+            let values: Vec<f64> = (0..size).map(|_| (9.0 * stream.uniform()).floor()).collect();
+            let sorted = Sample::new(values.clone()).unwrap();
+            assert_eq!(median_of_unsorted(values), sorted.median());
+        }
+    }
+
+    #[test]
+    fn very_large_samples_have_fewer_replicates() {
+        let usual = Resampling::default();
+        let of = [10, 20_000, 200_000, 1_000_000_000].map(|values| usual.of_values(values));
+        assert_eq!(of, [10_000, 10_000, 1000, 100]);
+    }
+
+    #[test]
+    fn who_stops_it_waits_for_one_replicate() {
+        let resampling = Resampling { stop: &|| true, ..Resampling::default() };
+        let sample = Sample::new(vec![1.0, 2.0]).unwrap();
+        assert_eq!(bands(&[1.0, 2.0], &[1.0, 3.0], resampling), Err(ValidationError::Stopped));
+        assert_eq!(permutation_p(&[1.0, 2.0], &[1.0, 3.0], resampling), Err(ValidationError::Stopped));
+        assert_eq!(median_ratio_band(&sample, &sample, resampling), Err(ValidationError::Stopped));
+    }
 
     #[test]
     fn quantiles_among_infinite_values_are_values() {

@@ -80,8 +80,8 @@ pub(crate) fn distinct(one: &Sample, other: &Sample) -> Vec<(f64, usize, usize)>
             (None, None) => break,
         };
         let (from_i, from_j) = (i, j);
-        i = one.count_up_to(next);
-        j = other.count_up_to(next);
+        i += a[i..].iter().take_while(|value| **value <= next).count();
+        j += b[j..].iter().take_while(|value| **value <= next).count();
         found.push((next, i - from_i, j - from_j));
     }
     found

@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn the_unit_that_explains_it_is_told() {
+    fn the_warning_names_the_unit_that_explains_it() {
         for (units, biases, words) in [
             (["cm/s", "g"], [Some(0.09), Some(14.0)], ["12.5 times too high", "numbers of its PGA in m/s2"]),
             (

@@ -112,8 +112,8 @@ fn few_at_level(sets: &Sets) -> Option<Alarm> {
             "few-records",
             &place,
             format!(
-                "its {count} count as {effective:.1}, the fewest of all levels; below about {FEW_RECORDS} spectra \
-                 depend strongly on which"
+                "its {count} count as {effective:.1}, the fewest of all levels; below about {FEW_RECORDS} each record \
+                 changes the spectra"
             ),
             "Select more for this level: records.at_level",
         )
@@ -128,7 +128,7 @@ pub fn few(records: usize, pairs: usize) -> Option<Alarm> {
             "few-records",
             "Few records",
             format!(
-                "{are}; below about {FEW_RECORDS} spectra depend strongly on which",
+                "{are}; below about {FEW_RECORDS} each record changes the spectra",
                 are = if pairs < records { format!("{pairs} pairs ({records} records)") } else { records.to_string() }
             ),
             "Add records: records.manifest or records.first",

@@ -71,7 +71,7 @@ pub fn below_first_case(
         badness: most,
         subject: name.to_owned(),
         what: format!(
-            "{count} of {} {} too large: up to {} of their risk lies below the first level, {first} {}",
+            "{count} of {} {} too large: up to {} of the risk is below {first} {}",
             shares.len(),
             counted.ordinates(),
             share(most),
@@ -139,7 +139,7 @@ impl UpperEnd<'_> {
         let Some(&last) = plan.levels.last() else { return Ok(None) };
         // what is known of the hazard ends with the curve, though levels go on
         let (known_to, per_year) = if end.im < last {
-            (format!("the end of the hazard curve, {} {unit},", end.im), end.maf)
+            (format!("the hazard curve's end, {} {unit},", end.im), end.maf)
         } else {
             let per_year = curve.rate_at_extrapolated(last, self.extrapolate)?;
             (format!("the last level, {last} {unit},"), per_year)
@@ -151,7 +151,7 @@ impl UpperEnd<'_> {
         let counted = match count {
             0 => "ordinates may be too small".to_owned(),
             _ => format!(
-                "{count} of {} {} may be too small, up to {} of their risk lies above the last level",
+                "{count} of {} {} may be too small, with up to {} of the risk above the last level",
                 shares.len(),
                 counted.ordinates(),
                 share(most)
@@ -162,7 +162,7 @@ impl UpperEnd<'_> {
             badness: most.max(beyond),
             subject: name.to_owned(),
             what: format!(
-                "{counted}: {known_to} is exceeded {per_year:.1e} times a year, {} the target rate",
+                "{counted}: {known_to} has {} the target rate",
                 if beyond > 1.0 { format!("{beyond:.1} times") } else { format!("{} of", share(beyond)) }
             ),
             what_to_do: if end.im > last {

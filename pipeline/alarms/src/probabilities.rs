@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_that_saturates_below_one_is_told_from_rates() {
+    fn a_curve_that_saturates_below_one_is_recognised_as_probabilities() {
         let rate = |level: f64| 0.2 / level;
         assert!(look_like_probabilities(&curve(|level| -(-50.0 * rate(level)).exp_m1())));
         assert!(!look_like_probabilities(&curve(rate)));

@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn a_safety_factor_of_forty_is_asked_about() {
+    fn a_safety_factor_of_forty_raises_a_warning() {
         assert_eq!(safety_factor_alarm(2.5), None);
         assert!(safety_factor_alarm(40.0).is_some_and(|alarm| alarm.what.starts_with("--safety-factor is 40")));
     }

@@ -1,9 +1,12 @@
 //! How sure the numbers of a structure are, as so many records tell them (docs/method.md, section 9).
 
 use serde::Serialize;
-use uplift_bootstrap::{inferred_limits, inferred_limits_over_curves, inferred_rate, inferred_rate_over_curves};
+use uplift_bootstrap::{
+    inferred_limits, inferred_limits_over_curves, inferred_rate, inferred_rate_over_curves, repaired_limits,
+    repaired_rate,
+};
 use uplift_result::ResultFile;
-use uplift_risk::PooledDemand;
+use uplift_risk::{PooledDemand, RunWeights};
 use uplift_uniform_risk::consistency::Question;
 
 use super::hazard::Hazard;
@@ -102,50 +105,60 @@ pub struct DemandBands {
     pub overturning_per_year: Option<Bands>,
 }
 
-/// The bands of the rate of exceeding `threshold_m`; none where there is nothing to tell it from.
+/// The bands of the rate of exceeding `threshold_m`; none where there is nothing to tell it from. With `repaired`
+/// weights they are of the mean hazard curve alone.
 pub(super) fn rate_bands(
     demand: &PooledDemand,
-    hazard: &Hazard<'_>,
+    (hazard, repaired): (&Hazard<'_>, Option<&RunWeights>),
     scatter: &Scatter,
     threshold_m: f64,
 ) -> Result<Option<Bands>, DesignError> {
-    let of = |units: &Vec<Vec<usize>>| inferred_rate(demand, hazard.mean, units, (threshold_m, CONFIDENCE));
+    let of = |units: &Vec<Vec<usize>>| match repaired {
+        None => inferred_rate(demand, hazard.mean, units, (threshold_m, CONFIDENCE)),
+        Some(weights) => repaired_rate(demand, weights, units, (threshold_m, CONFIDENCE)),
+    };
     let by_record = of(&scatter.pairs)?;
     // NaN of a single record
     let is_told = |band: &[f64; 2]| !band[1].is_nan();
     let by_earthquake = scatter.earthquakes.as_ref().map(of).transpose()?.filter(is_told);
     // NaN of no curves too
     let asked = (threshold_m, CONFIDENCE);
-    let with_hazard = inferred_rate_over_curves(demand, &hazard.branches, scatter.coarsest(), asked)?;
+    let branches = if repaired.is_some() { &[] } else { &hazard.branches[..] };
+    let with_hazard = inferred_rate_over_curves(demand, branches, scatter.coarsest(), asked)?;
     let with_hazard = Some(with_hazard).filter(is_told);
     Ok((by_record[1] > 0.0).then_some(Bands { by_record, by_earthquake, with_hazard }))
 }
 
 /// The bands of the demand of `target_per_year` on a structure, `factor` times that on its oscillator, and of its
-/// risks; none of a single record.
+/// risks; none of a single record. With `repaired` weights they are of the mean hazard curve alone.
 pub(super) fn demand_bands(
     demand: &PooledDemand,
-    hazard: &Hazard<'_>,
+    (hazard, repaired): (&Hazard<'_>, Option<&RunWeights>),
     scatter: &Scatter,
     (target_per_year, factor, capacity_m): (f64, f64, Option<f64>),
 ) -> Result<Option<DemandBands>, DesignError> {
     let told = |limits_m: [f64; 2]| (!limits_m[1].is_nan()).then_some(limits_m.map(|limit_m| factor * limit_m));
     let of = |units: &Vec<Vec<usize>>| -> Result<Option<[f64; 2]>, DesignError> {
-        let found = inferred_limits(demand, hazard.mean, units, &[target_per_year], (&[units.len()], CONFIDENCE))?;
+        let (sizes, targets) = ([units.len()], [target_per_year]);
+        let found = match repaired {
+            None => inferred_limits(demand, hazard.mean, units, &targets, (&sizes, CONFIDENCE))?,
+            Some(weights) => repaired_limits(demand, weights, units, &targets, (&sizes, CONFIDENCE))?,
+        };
         Ok(found.first().and_then(|own| told(own.truth_m)))
     };
     let Some(by_record) = of(&scatter.pairs)? else { return Ok(None) };
     let asked = (target_per_year, CONFIDENCE);
-    let with_hazard = inferred_limits_over_curves(demand, &hazard.branches, scatter.coarsest(), asked)?;
+    let branches = if repaired.is_some() { &[] } else { &hazard.branches[..] };
+    let with_hazard = inferred_limits_over_curves(demand, branches, scatter.coarsest(), asked)?;
     let by_earthquake = scatter.earthquakes.as_ref().map(of).transpose()?.flatten();
     let demand_m = Bands { by_record, by_earthquake, with_hazard: told(with_hazard) };
     // what is left of the capacity is least where the demand is largest
     let left = |capacity_m: f64| demand_m.map(|[lower_m, upper_m]| [upper_m, lower_m].map(|m| factor * capacity_m - m));
-    let rate = |threshold_m: f64| rate_bands(demand, hazard, scatter, threshold_m);
+    let rate = |threshold_m: f64| rate_bands(demand, (hazard, repaired), scatter, threshold_m);
     Ok(Some(DemandBands {
         records: scatter.pairs.len(),
         earthquakes: scatter.earthquakes.as_ref().map(Vec::len),
-        hazard_curves: (!hazard.branches.is_empty()).then_some(hazard.branches.len()),
+        hazard_curves: (!branches.is_empty()).then_some(branches.len()),
         demand_m,
         capacity_less_demand_m: capacity_m.map(left),
         beyond_capacity_per_year: capacity_m.map(rate).transpose()?.flatten(),

@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn a_structure_that_stands_has_no_risk_seen_and_no_fit() {
+    fn a_structure_that_never_overturns_has_no_fit() {
         let weights = StripeWeights::new(&[1.0, 0.5], None).unwrap();
         let found = collapse(&[1.0, 2.0], (&[0.1, 0.2, 0.3, 1e9], &alone()), &[(&weights, None)], 50.0, true).unwrap();
         assert_eq!(found.fit, Err(FragilityError::NoExceedance));

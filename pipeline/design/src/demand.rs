@@ -41,7 +41,7 @@ pub struct ExactDemand {
     pub beyond_capacity: Option<EventRisk>,
     /// It overturns.
     pub overturning: EventRisk,
-    /// How sure these are, as the records tell them; none with repaired weights, and of a single record.
+    /// How sure these are, as the records tell them; none of a single record.
     pub bands: Option<DemandBands>,
     /// What a small change of the strength makes of it.
     #[serde(rename = "within_one_percent_of_strength")]
@@ -185,10 +185,11 @@ pub(super) fn exact_demand(
         Some(RuleRanges { equal_displacement, equal_energy })
     };
     let demand = ordinate(OWN)?;
-    let bands = match weights {
-        SiteWeights::Alike(_) => demand_bands(&own, hazard, scatter, (target_per_year, factor, capacity_m))?,
-        SiteWeights::Repaired(_) => None,
+    let repaired = match weights {
+        SiteWeights::Alike(_) => None,
+        SiteWeights::Repaired(weights) => Some(*weights),
     };
+    let bands = demand_bands(&own, (hazard, repaired), scatter, (target_per_year, factor, capacity_m))?;
     Ok(ExactDemand {
         bands,
         analyses: stripes.analyses,

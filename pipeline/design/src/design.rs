@@ -30,7 +30,8 @@ use uplift_uniform_risk::{AskedRisk, EventRisk, SpectraOfResult, StudyOfResult, 
 
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
-use super::opening::{Place, choose_measure, job_name, records, restitution};
+use super::opening::{Place, job_name, records_and_pairs, restitution};
+use super::own_frame::{FrameReport, OF_FRAME, OwnFrame, STOPPED};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::rules::{RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
@@ -57,6 +58,8 @@ pub struct DesignOptions {
     pub safety_factor: f64,
     /// Read the spectrum and apply the rules, without analysing the structure itself.
     pub spectrum_only: bool,
+    /// Leave the frame itself out: the verdict is that of its proxy.
+    pub proxy: bool,
     /// Every shard of the structure's own analysis, as [`design_shard`] wrote them; none to compute it here.
     pub shards: Vec<PathBuf>,
 }
@@ -72,6 +75,7 @@ impl Default for DesignOptions {
             repaired: false,
             safety_factor: 2.5,
             spectrum_only: false,
+            proxy: false,
             shards: Vec::new(),
         }
     }
@@ -103,6 +107,11 @@ pub struct DesignReport {
     pub spectrum: Option<SpectrumDemand>,
     /// What the structure's own analysis says; none where there is none.
     pub exact: Option<ExactDemand>,
+    /// Whether the structure describes a frame that can wobble.
+    pub wobbles: bool,
+    /// What the frame itself says; none of a structure that cannot wobble, by its proxy, and without an analysis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame: Option<FrameReport>,
     /// The structure where its quantities are not known exactly; none where its file says that they are, and without
     /// an analysis of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -116,6 +125,22 @@ pub struct DesignReport {
 }
 
 impl DesignReport {
+    /// How many times as far as its proxy, the equivalent oscillator, the wobbling frame goes; none without a frame, or
+    /// where either overturns more often than the target.
+    pub fn frame_over_proxy(&self) -> Option<f64> {
+        let ratio = self.frame.as_ref()?.wobbling().demand_m / self.exact.as_ref()?.demand_m;
+        Some(ratio).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
+    }
+
+    /// Whether the verdict on the wobbling frame is another than that of a rule on its proxy; none without a verdict on
+    /// each.
+    pub fn verdicts_differ(&self) -> Option<bool> {
+        let own = self.frame.as_ref()?.wobbling().check?;
+        let mut checks = self.rules.iter().filter_map(RuleOutcome::check).peekable();
+        checks.peek()?;
+        Some(checks.any(|check| check.satisfied != own.satisfied))
+    }
+
     /// By which spectrum, in words: `PGV`, or `PGV, repaired`.
     pub fn spectrum_words(&self) -> String {
         spectrum_words(self.im, self.repaired)
@@ -147,12 +172,7 @@ pub fn design(
     let target_per_year = source.target_per_year(poe)?;
     let repaired_m = repaired_spectrum(&file, measure, [site, poe])?;
     let repaired_weights = options.repaired.then(|| RepairedWeights::from_file(&file)).transpose()?;
-    let weights = match &repaired_weights {
-        None => SiteWeights::Alike(&measure.weights[site]),
-        Some(repaired) => {
-            SiteWeights::Repaired(repaired.at(measure, site).ok_or_else(|| not_repaired(&source, place))?)
-        }
-    };
+    let weights = site_weights(repaired_weights.as_ref(), place, &source)?;
     let restitution = restitution(structure, &source.study);
     let mut notes = differences(structure, &source, restitution);
 
@@ -165,9 +185,11 @@ pub fn design(
     if spectrum.is_none() {
         notes.push(beyond_spectrum(structure, &source));
     }
+    let [wobbles, is_shaken] = [OwnFrame::is_described(structure), OwnFrame::can_be_shaken(structure)];
+    notes.extend((wobbles && !is_shaken).then(|| STOPPED.to_owned()));
     let mut own = None;
     if !options.spectrum_only {
-        match records(&source, options.manifest.as_deref())? {
+        match records_and_pairs(&source, options.manifest.as_deref(), is_shaken && !options.proxy)? {
             Ok(records) => {
                 let question = Question { place, weights: &weights, target_per_year };
                 let analysed = (options, records);
@@ -178,10 +200,13 @@ pub fn design(
             )),
         }
     }
-    let (exact, uncertainty, checkpoint) = match own {
-        Some(OwnAnalysis { exact, uncertainty, checkpoint }) => (Some(exact), uncertainty, Some(checkpoint)),
-        None => (None, None, None),
+    let (exact, uncertainty, frame, checkpoint) = match own {
+        Some(OwnAnalysis { exact, uncertainty, frame, checkpoint }) => {
+            (Some(exact), uncertainty, frame, Some(checkpoint))
+        }
+        None => (None, None, None, None),
     };
+    notes.extend(frame.as_ref().map(|_| OF_FRAME.to_owned()));
     if structure.uncertainty.is_some() && uncertainty.is_none() {
         notes.push(without_uncertainty(options, &source));
     }
@@ -207,8 +232,10 @@ pub fn design(
     alarms.extend(structure_alarms(structure));
     alarms.extend(safety_factor_alarm(safety_factor));
     if let Some(exact) = &exact {
-        let pairs = Scatter::from_file(&file)?.pairs;
-        alarms.extend(own_risk_alarms(&own_risks(exact, place, (&pairs, &weights))));
+        let scatter = Scatter::from_file(&file)?;
+        let mut risks = own_risks(exact, place, (&scatter.pairs, &weights));
+        risks.extend(frame.iter().flat_map(|frame| frame.own_risks(place, &scatter)));
+        alarms.extend(own_risk_alarms(&risks));
         let satisfied = rules.iter().any(|rule| rule.check().is_some_and(|check| check.satisfied));
         alarms.extend(own_demand_alarm(exact.demand_m, told.capacity_m, safety_factor, satisfied));
     }
@@ -228,6 +255,8 @@ pub fn design(
         required_safety_factor: safety_factor,
         spectrum,
         exact,
+        wobbles,
+        frame,
         uncertainty,
         rules,
         notes,
@@ -246,13 +275,35 @@ pub fn design_shard(
     shard: Shard,
     events: &dyn Events,
 ) -> Result<ShardReport, DesignError> {
-    let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
+    let file = at(ResultFile::open(result)?, &options.risk)?;
+    let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
-    let measure = choose_measure(&source, options.measure)?;
-    let records = records(&source, options.manifest.as_deref())?.map_err(JobError::input)?;
+    let target_per_year = source.target_per_year(source.only_risk(&options.risk)?)?;
+    let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
+    // the levels of a frame are those of a site; oscillators are the same at all of them
+    let any_site = source.sites.first().filter(|_| !with_pairs);
+    let place = Place::choose(&source, options.site.as_ref().or(any_site).map(String::as_str), options.measure)?;
+    let records = records_and_pairs(&source, options.manifest.as_deref(), with_pairs)?.map_err(JobError::input)?;
     let analysis = DesignAnalysis::from_structure(structure, &source, records, options)?;
     let name = job_name("design", structure);
-    Ok(ResultJob { result, name: &name }.shard(analysis.work(&source, measure, &name)?, shard, events)?)
+    Ok(ResultJob { result, name: &name }.shard(
+        analysis.work(&source, (place, target_per_year), &name)?,
+        shard,
+        events,
+    )?)
+}
+
+/// What runs weigh at a place: as a repair says where there is one.
+fn site_weights<'a>(
+    repaired: Option<&'a RepairedWeights>,
+    place: Place<'a>,
+    source: &StudyOfResult,
+) -> Result<SiteWeights<'a>, DesignError> {
+    let Place { site, measure, .. } = place;
+    Ok(match repaired {
+        None => SiteWeights::Alike(&measure.weights[site]),
+        Some(repaired) => SiteWeights::Repaired(repaired.at(measure, site).ok_or_else(|| not_repaired(source, place))?),
+    })
 }
 
 /// Why the structures that it may be are not analysed.

@@ -14,6 +14,7 @@ use super::demand::ExactDemand;
 use super::design::DesignReport;
 use super::frame_risk::{FrameRiskReport, ModelDemand};
 use super::overturning::{CollapseReport, OverturningOptions, OverturningReport};
+use super::own_frame::FrameModel;
 use super::target::{TargetOptions, TargetReport};
 use super::uncertain::{AleatoryResult, EpistemicResult, UncertainFinding, UncertaintyReport};
 use crate::error::DesignError;
@@ -147,9 +148,23 @@ impl DesignReport {
             rows.extend(exact.beyond_capacity.iter().flat_map(|risk| rate("exceeding the capacity", risk, beyond, at)));
             rows.extend(rate("overturning", &exact.overturning, overturning, at));
         }
+        rows.extend(self.frame.iter().flat_map(|frame| &frame.models).flat_map(|model| frame_rows(model, at)));
         rows.extend(uncertain(self.uncertainty.as_ref()));
         rows
     }
+}
+
+/// Demand, required capacity and risks of a frame by one of its models.
+fn frame_rows(of: &FrameModel, at: [&str; 2]) -> Vec<FindingRow> {
+    let row = |what: &str, value: f64| FindingRow::new(format!("{what}, {}", of.model), value, "m").at(at[0], at[1]);
+    let mut rows = banded(&row("demand", of.demand_m), of.bands.map(|bands| bands.demand_m));
+    rows.extend(of.check.map(|check| row("required capacity", check.required_capacity_m)));
+    let what = |event: &str| format!("{event}, {}", of.model);
+    let beyond = of.bands.and_then(|bands| bands.beyond_capacity_per_year);
+    rows.extend(of.beyond_capacity.iter().flat_map(|risk| rate(&what("exceeding the capacity"), risk, beyond, at)));
+    let overturning = of.bands.and_then(|bands| bands.overturning_per_year);
+    rows.extend(rate(&what("overturning"), &of.overturning, overturning, at));
+    rows
 }
 
 /// The demand on the structure itself, and what is left of its capacity.

@@ -267,7 +267,7 @@ fn draws(file: &ResultFile, source: &StudyOfResult, analysis: &FrameAnalysis) ->
     let drawn_together = match settings.unit {
         Unit::Event => Some(consistency::Question::from_motions(file)?.event_of()),
         // all records of a pair are one wobbling run
-        Unit::Record | Unit::Pair if analysis.pairs.len() < records && analysis.pairs.len() > 1 => {
+        Unit::Record | Unit::Pair if analysis.pairs.all.len() < records && analysis.pairs.all.len() > 1 => {
             Some(analysis.pair_of())
         }
         Unit::Record | Unit::Pair => None,
@@ -341,11 +341,11 @@ fn notes(
             notes.push(format!(
                 "{} of {} pairs have the same motion as both components, and move the frame along one line: {}",
                 alone.len(),
-                analysis.pairs.len(),
+                analysis.pairs.all.len(),
                 alone.join(", ")
             ));
         }
-        let apart: Vec<&str> = (analysis.pairs.iter())
+        let apart: Vec<&str> = (analysis.pairs.all.iter())
             .filter(|pair| pair.metadata.contains_key(uplift_inputs::pairs::START_APART))
             .map(|pair| pair.id.as_str())
             .collect();

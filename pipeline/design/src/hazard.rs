@@ -36,6 +36,12 @@ impl<'a> Hazard<'a> {
         sites.iter().map(of_site).collect()
     }
 
+    /// The same where only the stripes at these `places` are analysed, whose weights by the mean curve are `mean`.
+    pub(super) fn at_levels<'b>(&self, mean: &'b StripeWeights, places: &[usize]) -> Result<Hazard<'b>, DesignError> {
+        let of_branch = |(weight, stripes): &(f64, StripeWeights)| Ok((*weight, stripes.at_levels(places)?));
+        Ok(Hazard { mean, branches: self.branches.iter().map(of_branch).collect::<Result<_, DesignError>>()? })
+    }
+
     /// The branch that a `number` between 0 and 1 chooses; the mean where there are no branches.
     pub(super) fn at(&self, number: f64) -> &StripeWeights {
         let total: f64 = self.branches.iter().map(|(weight, _)| weight).sum();

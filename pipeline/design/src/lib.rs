@@ -12,6 +12,7 @@ mod hazard;
 mod models;
 mod opening;
 mod overturning;
+mod own_frame;
 mod report;
 mod risk;
 mod rules;
@@ -34,6 +35,7 @@ pub use frame_risk::{
 pub use overturning::{
     CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning, overturning_shard,
 };
+pub use own_frame::{FrameCheck, FrameModel, FrameReport};
 pub use report::{ReportSource, StructureReport};
 pub use rules::{RuleCheck, RuleOutcome};
 pub use spectrum::SpectrumDemand;

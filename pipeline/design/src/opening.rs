@@ -12,6 +12,7 @@ use uplift_result::ResultFile;
 use uplift_study::{AnyStudy, Structure, UniformRiskStudy};
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult};
 
+use super::own_frame::Pairs;
 use crate::error::DesignError;
 
 /// The study of `file`, for a job that needs the same records at every level; `reason` says what for.
@@ -102,6 +103,22 @@ pub(super) fn records(
     match source.records() {
         Err(reason) if manifest.is_some() => Err(JobError::input(reason).into()),
         other => Ok(other.map(ShakenRecords::from_set)),
+    }
+}
+
+/// The same with the pairs that they are of, where a structure is `with_pairs`.
+pub(super) fn records_and_pairs(
+    source: &StudyOfResult,
+    manifest: Option<&Path>,
+    with_pairs: bool,
+) -> Result<Result<(ShakenRecords, Option<Pairs>), String>, DesignError> {
+    if !with_pairs {
+        return Ok(records(source, manifest)?.map(|records| (records, None)));
+    }
+    let per_pair = source.study.records.component.records_per_pair();
+    match source.records_and_pairs() {
+        Err(reason) if manifest.is_some() => Err(JobError::input(reason).into()),
+        other => Ok(other.map(|(set, pairs)| (ShakenRecords::from_set(set), Some(Pairs::new(pairs, per_pair))))),
     }
 }
 

@@ -25,8 +25,10 @@ use super::collapse::{Collapse, collapse};
 use super::hazard::Hazard;
 use super::models::models;
 use super::opening::{
-    ShakenRecords, check_tables, choose_measure, job_name, required_records, site_index, study_with_common_records,
+    ShakenRecords, check_tables, choose_measure, job_name, records_and_pairs, required, site_index,
+    study_with_common_records,
 };
+use super::own_frame::{FramePeaks, OF_FRAME, OwnFrame, STOPPED};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{OVERTURNING_M, own_risk};
 use super::tables::{risk_path, write_tables};
@@ -46,6 +48,8 @@ pub struct OverturningOptions {
     /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
     /// of angular momentum (block).
     pub restitution: Option<f64>,
+    /// Leave the frame itself out.
+    pub proxy: bool,
     /// CSV file of the collapse fragility to write; the risk goes to one that ends in .risk.csv beside it.
     pub table: Option<PathBuf>,
     /// Every shard of the analyses, as [`overturning_shard`] wrote them; none to compute them here.
@@ -83,7 +87,7 @@ pub struct OverturningReport {
 /// A model of a structure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModelReport {
-    /// `oscillator` or `block`.
+    /// `oscillator`, `block`, `wobbling frame` or `planar frame`.
     pub model: &'static str,
     /// Coefficient of restitution.
     pub restitution: f64,
@@ -102,7 +106,7 @@ pub struct CollapseReport {
     pub im: &'static str,
     /// Unit of the levels.
     pub unit: &'static str,
-    /// `oscillator` or `block`.
+    /// `oscillator`, `block`, `wobbling frame` or `planar frame`.
     pub model: &'static str,
     /// Levels of the stripes, ascending.
     pub levels: Vec<f64>,
@@ -144,6 +148,9 @@ pub struct SiteRisk {
     /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repaired: Option<EventRisk>,
+    /// How sure that is; none where there is none, and where no run shows it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repaired_bands: Option<Bands>,
     /// Frequency with the lognormal fragility in place of the counts, 1/yr; none without a fit.
     pub lognormal_per_year: Option<f64>,
     /// The frequency from the counts with its range over scale factors up to 4e-15 smaller and larger, 1/yr.
@@ -189,7 +196,7 @@ pub fn overturning(
     let name = job_name("overturning", structure);
     let job = ResultJob { result, name: &name };
     let (analysed, checkpoint) = job.results(analysis.work(&name)?, &options.shards, events)?;
-    let OverturningAnalysis { study, records, measures, models, uncertain } = &analysis;
+    let OverturningAnalysis { study, records, measures, models, uncertain, .. } = &analysis;
     let repaired = RepairedWeights::from_file(&file)?;
     let scatter = Scatter::from_file(&file)?;
     let mut analysed = analysed.into_iter();
@@ -214,14 +221,22 @@ pub fn overturning(
             };
             let rounded = (1..=NUDGES).map(at_nudge).collect::<Result<_, _>>()?;
             let demand = PooledDemand::new(&Stripe::new(levels, &peaks_m_at(0))?)?;
-            let of_site = |hazard: &Hazard<'_>| rate_bands(&demand, hazard, &scatter, OVERTURNING_M);
+            let of_site = |hazard: &Hazard<'_>| rate_bands(&demand, (hazard, None), &scatter, OVERTURNING_M);
             let bands = hazard.iter().map(of_site).collect::<Result<_, _>>()?;
-            Ok::<_, DesignError>(Collapses { own: at_nudge(0)?, rounded, bands })
+            let of_repaired = |(hazard, (_, repaired)): (&Hazard<'_>, &(&StripeWeights, Option<&RunWeights>))| {
+                let of = |own| rate_bands(&demand, (hazard, Some(own)), &scatter, OVERTURNING_M);
+                Ok::<_, DesignError>(repaired.map(of).transpose()?.flatten())
+            };
+            let repaired_bands = hazard.iter().zip(&weights).map(of_repaired).collect::<Result<_, _>>()?;
+            Ok::<_, DesignError>(Collapses { own: at_nudge(0)?, rounded, bands, repaired_bands })
         });
         found.push((measure, of_models.collect::<Result<_, _>>()?));
         hazards.push(hazard);
     }
+    let asked = FrameSites { sites: &sites, repaired: &repaired, scatter: &scatter, years: study.risk.years };
+    let of_frame = analysis.frame_collapses(&mut analysed, &hazards, &asked)?;
     notes.extend(notes_on(models, &found));
+    notes.extend(analysis.frame.as_ref().map(|_| OF_FRAME.to_owned()));
     let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
     let uncertainty = match uncertain {
         Some(uncertain) => {
@@ -237,17 +252,11 @@ pub fn overturning(
     let counts = (records.count(), scatter.pairs.len());
     alarms.extend(own_risk_alarms(&own_risks(models, &found, &names, counts)));
     let records = u32::try_from(records.count()).unwrap_or(u32::MAX);
-    let of_measure = |(measure, found): &(&SpectraOfResult, Vec<Collapses>)| -> Vec<CollapseReport> {
-        let report = |(found, (model, _)): (&Collapses, &(System, _))| {
-            CollapseReport::from_collapse(found, measure.measure(), model.kind(), records, &names)
-        };
-        found.iter().zip(models).map(report).collect()
-    };
     let mut report = OverturningReport {
         structure: StructureReport::from_structure(structure, None),
         years: study.risk.years,
-        models: models.iter().map(|(model, origin)| ModelReport::from_model(model, origin)).collect(),
-        overturning: found.iter().flat_map(of_measure).collect(),
+        models: analysis.models().map(|(model, origin)| ModelReport::from_model(model, origin)).collect(),
+        overturning: reports((&found, &of_frame), models, records, &names),
         uncertainty,
         notes,
         alarms: ranked(alarms),
@@ -298,6 +307,8 @@ struct OverturningAnalysis<'a> {
     measures: Vec<&'a SpectraOfResult>,
     /// Each with the origin of its restitution.
     models: Vec<(System, &'static str)>,
+    /// The frame itself, with the positions of its levels, `[measure]`; none of a structure that cannot wobble.
+    frame: Option<(OwnFrame, Vec<Vec<usize>>)>,
     /// The structures that it may be; none where all of it is known.
     uncertain: Option<Uncertain<'a>>,
 }
@@ -312,16 +323,50 @@ impl<'a> OverturningAnalysis<'a> {
     ) -> Result<Self, DesignError> {
         let measures = measures(source, options.measure)?;
         let models = models(structure, source, options.restitution, notes)?;
-        let records = required_records(source, options.manifest.as_deref(), "overturning")?;
+        let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
+        if OwnFrame::is_described(structure) && !OwnFrame::can_be_shaken(structure) {
+            notes.push(STOPPED.to_owned());
+        }
+        let found = records_and_pairs(source, options.manifest.as_deref(), with_pairs)?;
+        let (records, pairs) = required(found, "overturning")?;
+        let frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
+        let frame = frame.map(|frame| {
+            let levels = measures.iter().map(|of| frame.levels_that_uplift(&records.set, of)).collect();
+            (frame, levels)
+        });
         let mut study = source.study.clone();
         // what is lost when a record ends has overturned, whoever looks
         study.oscillator.free_vibration = true;
         let uncertain = uncertain_structures(structure, options.restitution, (&models[OSCILLATOR].0, records.count()))?;
-        Ok(Self { study, records, measures, models, uncertain })
+        Ok(Self { study, records, measures, models, frame, uncertain })
+    }
+
+    /// Oscillator and block, then the models of the frame, each with the origin of its restitution.
+    fn models(&self) -> impl Iterator<Item = (&System, &'static str)> {
+        let of_frame = self.frame.iter().flat_map(|(frame, _)| frame.models());
+        self.models.iter().map(|(model, origin)| (model, *origin)).chain(of_frame)
+    }
+
+    /// What the frame comes to by each measure: its stripes are the next of those `analysed`.
+    fn frame_collapses(
+        &self,
+        analysed: &mut impl Iterator<Item = Analysed>,
+        hazards: &[Vec<Hazard<'_>>],
+        asked: &FrameSites<'_>,
+    ) -> Result<Vec<FrameCollapses>, DesignError> {
+        let Some((frame, places)) = &self.frame else { return Ok(Vec::new()) };
+        let mut of_measures = Vec::new();
+        for ((&measure, places), hazard) in self.measures.iter().zip(places).zip(hazards) {
+            let (Some(wobbling), Some(planar)) = (analysed.next(), analysed.next()) else { break };
+            let peaks = frame.peaks([&wobbling, &planar]);
+            of_measures.push(asked.collapses((measure, places), hazard, &peaks)?);
+        }
+        Ok(of_measures)
     }
 
     /// The stripes of each model by each measure, the models running fastest; those of the scale factors themselves,
-    /// then those of their neighbours. After all of them those of the structures that it may be, one a measure.
+    /// then those of their neighbours. After all of them those of the frame, two a measure, and those of the structures
+    /// that it may be, one a measure.
     fn work(&self, title: &str) -> Result<Work<'_>, DesignError> {
         let mut plans = Vec::new();
         let factors: Vec<f64> = [1.0].into_iter().chain(nudges()).collect();
@@ -333,6 +378,13 @@ impl<'a> OverturningAnalysis<'a> {
                 let label = format!("{}, {}", measure.measure().label(), model.kind());
                 plans.push(LabelledPlan { label, remark: None, plan, motions, known: None });
             }
+        }
+        for (place, measure) in self.measures.iter().enumerate() {
+            let Some((frame, places)) = self.frame.as_ref().map(|(frame, places)| (frame, &places[place])) else {
+                break;
+            };
+            let levels: Vec<f64> = places.iter().map(|&place| measure.plan.levels[place]).collect();
+            plans.extend(frame.plans(&self.records, (measure.measure(), &levels))?);
         }
         if let Some(uncertain) = &self.uncertain {
             for measure in &self.measures {
@@ -391,9 +443,73 @@ fn uncertainty_report(
 /// Overturning at the scale factors themselves, and at their neighbours some roundings away.
 struct Collapses {
     own: Collapse,
+    /// None of a frame, whose neighbours are not analysed.
     rounded: Vec<Collapse>,
     /// How sure its risks are, `[site]`.
     bands: Vec<Option<Bands>>,
+    /// The same of those with repaired weights.
+    repaired_bands: Vec<Option<Bands>>,
+}
+
+/// Overturning of a frame by each of its models.
+type FrameCollapses = Vec<(&'static str, Collapses)>;
+
+/// The rows of a report: by each measure the models, those of the frame last.
+fn reports(
+    (found, of_frame): (&[(&SpectraOfResult, Vec<Collapses>)], &[FrameCollapses]),
+    models: &[(System, &'static str)],
+    records: u32,
+    sites: &[&str],
+) -> Vec<CollapseReport> {
+    let of_measure = |(place, (measure, found)): (usize, &(&SpectraOfResult, Vec<Collapses>))| {
+        let own = found.iter().zip(models).map(|(found, (model, _))| (found, model.kind()));
+        let of_frame = of_frame.get(place).into_iter().flatten().map(|(model, found)| (found, *model));
+        let report = |(found, model)| CollapseReport::from_collapse(found, measure.measure(), model, records, sites);
+        own.chain(of_frame).map(report).collect::<Vec<_>>()
+    };
+    found.iter().enumerate().flat_map(of_measure).collect()
+}
+
+/// By what the peaks of a frame are weighed.
+struct FrameSites<'a> {
+    /// Positions of the sites.
+    sites: &'a [usize],
+    repaired: &'a RepairedWeights,
+    scatter: &'a Scatter,
+    years: f64,
+}
+
+impl FrameSites<'_> {
+    /// Overturning at the levels of these positions among those of a measure, whose hazard is that of each site.
+    fn collapses(
+        &self,
+        (measure, places): (&SpectraOfResult, &[usize]),
+        hazard: &[Hazard<'_>],
+        peaks: &FramePeaks,
+    ) -> Result<FrameCollapses, DesignError> {
+        let levels: Vec<f64> = places.iter().map(|&place| measure.plan.levels[place]).collect();
+        let means = hazard.iter().map(|of| of.mean.at_levels(places)).collect::<Result<Vec<_>, _>>()?;
+        let of_site = |(hazard, mean): (&Hazard<'_>, _)| hazard.at_levels(mean, places);
+        let hazard = hazard.iter().zip(&means).map(of_site).collect::<Result<Vec<_>, _>>()?;
+        let repaired = self.sites.iter().map(|&site| self.repaired.at(measure, site));
+        let repaired = repaired.map(|runs| runs.map(|runs| runs.at_levels(places)).transpose());
+        let repaired = repaired.collect::<Result<Vec<_>, _>>()?;
+        let weights: Vec<_> = means.iter().zip(repaired.iter().map(Option::as_ref)).collect();
+        let of_model = |(model, peaks_m): (&'static str, &[f64])| {
+            let own = collapse(&levels, (peaks_m, &self.scatter.pairs), &weights, self.years, true)?;
+            let demand = PooledDemand::new(&Stripe::new(&levels, peaks_m)?)?;
+            let of = |hazard: &Hazard<'_>, runs: Option<&RunWeights>| {
+                rate_bands(&demand, (hazard, runs), self.scatter, OVERTURNING_M)
+            };
+            let bands = hazard.iter().map(|hazard| of(hazard, None)).collect::<Result<_, _>>()?;
+            let of_repaired = |(hazard, runs): (&Hazard<'_>, &Option<RunWeights>)| {
+                runs.as_ref().map_or(Ok(None), |runs| of(hazard, Some(runs)))
+            };
+            let repaired_bands = hazard.iter().zip(&repaired).map(of_repaired).collect::<Result<_, _>>()?;
+            Ok((model, Collapses { own, rounded: Vec::new(), bands, repaired_bands }))
+        };
+        peaks.each().map(of_model).collect()
+    }
 }
 
 /// What the numbers rest on.
@@ -456,7 +572,7 @@ impl ModelReport {
 
 impl CollapseReport {
     fn from_collapse(
-        Collapses { own, rounded, bands }: &Collapses,
+        Collapses { own, rounded, bands, repaired_bands }: &Collapses,
         measure: IntensityMeasure,
         model: &'static str,
         records: u32,
@@ -472,6 +588,7 @@ impl CollapseReport {
             risk: own.risks[index],
             bands: bands[index],
             repaired: own.repaired[index],
+            repaired_bands: repaired_bands[index],
             lognormal_per_year: own.fitted.as_ref().map(|fitted| fitted[index].per_year),
             per_year_rounding: around(&|found| found.risks[index].per_year),
             lognormal_per_year_rounding: own

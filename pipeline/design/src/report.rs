@@ -94,7 +94,7 @@ impl ReportSource {
 }
 
 /// The displacement capacity, m; none for a structure that has none.
-fn capacity_m(system: &EquivalentSystem) -> Option<f64> {
+pub(super) fn capacity_m(system: &EquivalentSystem) -> Option<f64> {
     match system.post_uplift() {
         PostUpliftForce::Negative { capacity_m } => Some(capacity_m),
         PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,

@@ -28,6 +28,7 @@ pub use search::Crossing;
 use super::certainty::Scatter;
 use super::hazard::Hazard;
 use super::opening::{Place, check_tables, study_with_common_records};
+use super::own_frame::OwnFrame;
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::uncertain::Spread;
@@ -258,6 +259,10 @@ pub fn target(
         ));
     }
     notes.extend(assumptions(structure, &file, trials.restitution()));
+    notes.extend(OwnFrame::is_described(structure).then(|| {
+        "the value is that of the proxy, the equivalent oscillator: uplift design has the wobbling frame of that value"
+            .to_owned()
+    }));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
     let counts = (trials.record_count(), trials.pairs().len());

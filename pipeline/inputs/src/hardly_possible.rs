@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_site_has_is_told_and_what_some_have_is_not() {
+    fn impossible_hazard_raises_a_warning_and_strong_hazard_does_not() {
         let short = IntensityMeasure::Sa(Period::from_s(0.3).unwrap());
         let long = IntensityMeasure::Sa(Period::from_s(2.0).unwrap());
         // beside the San Andreas fault, and in the Baltic

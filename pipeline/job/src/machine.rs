@@ -160,6 +160,22 @@ impl Needs {
     }
 }
 
+/// Refuses what the system gives no memory for: asked for it, it says so, where a job would be ended.
+///
+/// # Errors
+/// [`JobError::Room`], unless [`LIMITS_VARIABLE`] says `warn`; another word in it.
+pub fn require_memory(memory_bytes: u64, what: &str) -> Result<(), JobError> {
+    let is_given = usize::try_from(memory_bytes).is_ok_and(|size| Vec::<u8>::new().try_reserve_exact(size).is_ok());
+    let fits = is_given && memory().most.is_none_or(|most| memory_bytes <= most.bytes);
+    if fits || only_warns()? {
+        return Ok(());
+    }
+    let needed = bytes(memory_bytes);
+    Err(JobError::Room(vec![format!(
+        "{needed} of memory are needed for {what}: raise the limit (`ulimit -v`), or give less"
+    )]))
+}
+
 impl Room {
     /// Refuses what cannot fit.
     ///
@@ -202,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_fit_is_told_apart_from_what_is_tight() {
+    fn a_job_that_cannot_fit_differs_from_a_tight_one() {
         let fits = room(GB, GB);
         assert!(fits.cannot.is_empty() && fits.tight.is_empty(), "{fits:?}");
         let tight = room(3 * GB, 2 * GB);

@@ -92,13 +92,10 @@ pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), JobError> {
 }
 
 /// `text` as a cell that a spreadsheet shows and does not compute: an apostrophe goes before what it would take for a
-/// formula. A number stays a number.
+/// formula, and what a terminal obeys is spelt out. A number stays a number.
 pub fn neutral(text: &str) -> Cow<'_, str> {
-    if begins_formula(text) && text.trim().parse::<f64>().is_err() {
-        Cow::Owned(format!("'{text}"))
-    } else {
-        Cow::Borrowed(text)
-    }
+    let text = one_line(text);
+    if begins_formula(&text) && text.trim().parse::<f64>().is_err() { Cow::Owned(format!("'{text}")) } else { text }
 }
 
 /// The text of a cell that [`neutral`] made.
@@ -114,7 +111,7 @@ fn begins_formula(text: &str) -> bool {
 fn neutral_column(mut column: Column) -> Column {
     if *column.dtype() == DataType::String
         && let Ok(texts) = column.str()
-        && texts.iter().flatten().any(begins_formula)
+        && texts.iter().flatten().any(|text| matches!(neutral(text), Cow::Owned(_)))
     {
         let texts: StringChunked = texts.iter().map(|text| text.map(neutral)).collect();
         column = texts.with_name(column.name().clone()).into_column();
@@ -126,14 +123,22 @@ fn neutral_column(mut column: Column) -> Column {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
+
+    #[test]
+    fn no_cell_commands_a_terminal() {
+        let columns = vec![Column::new("a\u{202e}b".into(), ["c\u{9b}2J\u{2066}", "=\u{1b}[2J", "d, \"e\""])];
+        let text = String::from_utf8(table_text(Path::new("t.csv"), "", columns).unwrap()).unwrap();
+        assert_eq!(text, "a\\u{202e}b\nc\\u{9b}2J\\u{2066}\n'=\\u{1b}[2J\n\"d, \"\"e\"\"\"\n");
+    }
 
     #[test]
     fn formulas_are_texts_and_come_back() {
         for text in ["=HYPERLINK(\"x\")", "+1+1", "-2-3", "@SUM(A1)", "\tx", "\rx", "'=1", "-", "a=b", "'quoted", ""] {
             let cell = neutral(text);
             assert!(!cell.starts_with(['=', '+', '-', '@', '\t', '\r']), "{text:?}: {cell:?}");
-            assert_eq!(plain(&cell), if text == "'=1" { "=1" } else { text });
+            assert_eq!(plain(&cell), if text == "'=1" { "=1".into() } else { one_line(text) });
         }
         for number in ["-1.5e3", "+2", "-inf", "0.1"] {
             assert_eq!(neutral(number), number);

@@ -113,6 +113,8 @@ pub struct StoredRepairedBands {
     pub bands: StoredSpectraBands,
     /// Share of the samples whose weights do not bring the site's hazard `[site, size]`.
     pub failed: Array<2>,
+    /// Those of the repaired spectra of all records there could be, and of another set; none in results of before.
+    pub inferred: Option<InferredBands>,
 }
 
 /// The joint bands of one site, as those of all have them, without the axis of sites.
@@ -339,17 +341,23 @@ impl ResultFile {
                 BANDS.read(self, &names, &lengths, &mut bands)?;
                 Ok::<_, ResultError>(bands)
             };
+            let inferred = |of_repaired| {
+                let names = band_names(measure, &limits, of_repaired);
+                let mut found = InferredBands { truth_m: [nan(), nan()], prediction_m: [nan(), nan()] };
+                let is_there = INFERRED_BANDS.is_in(self, &names);
+                if is_there {
+                    INFERRED_BANDS.read(self, &names, &lengths, &mut found)?;
+                }
+                Ok::<_, ResultError>(is_there.then_some(found))
+            };
             let (plain, names) = (bands("")?, band_names(measure, &limits, ""));
             let mut repaired = None;
             if FAILED_SAMPLES.is_in(self, &names) {
                 let failed = FAILED_SAMPLES.read_array(self, &names, [lengths[0], lengths[2]])?;
-                repaired = Some(StoredRepairedBands { bands: bands(REPAIRED_BANDS)?, failed });
+                let (bands, inferred) = (bands(REPAIRED_BANDS)?, inferred(REPAIRED_BANDS)?);
+                repaired = Some(StoredRepairedBands { bands, failed, inferred });
             }
-            let mut inferred = None;
-            if INFERRED_BANDS.is_in(self, &names) {
-                let found = InferredBands { truth_m: [nan(), nan()], prediction_m: [nan(), nan()] };
-                INFERRED_BANDS.read(self, &names, &lengths, inferred.insert(found))?;
-            }
+            let inferred = inferred("")?;
             measures.push(MeasureBands { measure, plain, inferred, repaired });
         }
         Ok(Some(StoredBands { sizes, unit: self.drawn_unit()?, confidence, measures }))

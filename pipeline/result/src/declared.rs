@@ -382,6 +382,29 @@ impl<T> Group<T> {
         })
     }
 
+    /// Whether every array holds exactly the values of `rows`, one a row.
+    pub(super) fn holds(&self, file: &ResultFile, names: Names<'_>, rows: &[T]) -> Result<bool, ResultError> {
+        for quantity in self.quantities {
+            let path = self.path(quantity, names);
+            let (reader, row) = (&file.reader, rows.iter());
+            let same = match quantity.field {
+                Field::F64(Place { get, .. }) => {
+                    let kept = reader.array_f64(&path)?.values;
+                    kept.iter().map(|value| value.to_bits()).eq(row.map(|row| get(row, 0).to_bits()))
+                }
+                Field::U32(Place { get, .. }) => reader.array_u32(&path)?.values.iter().eq(row.map(|row| get(row, 0))),
+                Field::Text(Place { get, .. }) => {
+                    reader.array_text(&path)?.values.iter().eq(row.map(|row| get(row, 0)))
+                }
+                Field::Bool(_) | Field::Flag(_) | Field::Made(_) => false,
+            };
+            if !same {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     /// Its rows of the table of arrays in `docs/hdf5-layout.md`.
     #[cfg(test)]
     pub(super) fn rows(&self) -> String {

@@ -374,6 +374,14 @@ impl ResultFile {
         })
     }
 
+    /// Whether the motions of the set `name` are exactly these.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub fn holds_motions(&self, name: &str, motions: &[StoredMotion]) -> Result<bool, ResultError> {
+        MOTIONS.holds(self, &[("<set>", name)], motions)
+    }
+
     fn structures(&self) -> Result<StoredStructures, ResultError> {
         let reader = &self.reader;
         Ok(if reader.attribute_text("/", "structure")? == "block" {

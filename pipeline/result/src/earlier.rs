@@ -9,6 +9,7 @@ use uplift_job::events::Events;
 use uplift_job::outputs::{beside, digest_said, is_of_digest, is_of_result, provide_folder};
 use uplift_labelled::LabelledReader;
 
+use super::additions::Additions;
 use super::file::ResultFile;
 use super::head::Overview;
 use super::layout::LAYOUT;
@@ -36,21 +37,22 @@ pub struct Earlier {
 
 impl Earlier {
     /// Keeps the earlier result at `result`, which another with the numbers of `digest` is about to replace, where it
-    /// holds what a run does not write again (bands, influence, measures), or other files were made of it. It is in its
-    /// place still.
+    /// holds additions (bands, influence, measures) that are not among those `carried_over`, or other files were made
+    /// of it. It is in its place still.
     ///
     /// # Errors
     /// A folder that cannot be written.
-    pub fn keep(result: &Path, digest: &str) -> Result<Self, ResultError> {
+    pub fn keep(result: &Path, digest: &str, carried_over: Option<&Additions>) -> Result<Self, ResultError> {
         let opened = ResultFile::open(result).and_then(|file| Ok((file.head()?.study_digest(), file.overview()?)));
         let own_digest = opened.as_ref().ok().map(|(of, _)| of.clone());
         let name = match opened {
             _ if !result.exists() => None,
             Ok((of, overview)) => {
-                let added = matches!(overview, Overview::UniformRisk { added, .. } if !added.is_empty());
+                let is_lost = |name: &&str| !carried_over.is_some_and(|additions| additions.has(name));
+                let lost = matches!(overview, Overview::UniformRisk { added, .. } if added.iter().any(is_lost));
                 // what an interrupted run left of a result before that one is none of its own
                 let own = |file: &PathBuf| digest_said(file).is_none_or(|said| said == of);
-                (added || made_of(result, digest).iter().any(own)).then_some(of)
+                (lost || made_of(result, digest).iter().any(own)).then_some(of)
             }
             // what of it is sound is nobody's to throw away; one of another layout is sound as a whole
             Err(_) => Some(match other_layout(result) {

@@ -185,7 +185,7 @@ impl ResultFile {
         }
         Err(self.fail(match self.kind {
             Kind::Displacement => {
-                "holds displacement spectra of record sets, and this command wants uniform risk spectra: `uplift \
+                "holds displacement spectra of record sets, not uniform risk spectra: `uplift \
                  table`, `plot`, `report`, `status` and `verify` take it, tables lie beside it as CSV, and \
                  docs/exports.md says how other programs read it"
             }
@@ -194,9 +194,9 @@ impl ResultFile {
                  `verify` take it, and its tests lie beside it as CSV"
             }
             Kind::UniformRisk if wanted == Kind::ShakeTable => {
-                "holds uniform risk spectra, and the tests of a shaking table are wanted"
+                "holds uniform risk spectra, not tests of a shaking table"
             }
-            Kind::UniformRisk => "holds uniform risk spectra, and displacement spectra of record sets are wanted",
+            Kind::UniformRisk => "holds uniform risk spectra, not displacement spectra of record sets",
         }))
     }
 

@@ -6,10 +6,11 @@ use serde::Serialize;
 use uplift_labelled::LabelledReader;
 use uplift_study::Kind;
 
+use super::additions::added;
 use super::digest::UNSAID_NUMERICS;
 use super::file::ResultFile;
-use super::layout::{axis, structures};
-use super::{BANDS, EFFICIENCY, INFLUENCE, MOTIONS, PEAKS, RESTRAINED_DESIGN, SPECTRA, TABLE_EXCITATIONS};
+use super::layout::axis;
+use super::{MOTIONS, PEAKS, RESTRAINED_DESIGN, SPECTRA, TABLE_EXCITATIONS};
 use crate::error::ResultError;
 
 /// Where the numbers of a result come from: what results of every kind say at their root.
@@ -168,16 +169,10 @@ impl ResultFile {
             analyses.push((measure.label(), reader.attribute_u64(&PEAKS.of_measure(measure), "analyses")?));
         }
         let sites = reader.exists(&axis::path(axis::SITE)).then(|| reader.axis_text(axis::SITE)).transpose()?;
-        let added = [
-            (BANDS.root(), "bootstrap"),
-            (INFLUENCE.root(), "influence"),
-            (EFFICIENCY.root(), "measures"),
-            (structures::ROOT, "structures"),
-        ];
         Ok(Overview::UniformRisk {
             analyses,
             sites: sites.unwrap_or_default(),
-            added: added.into_iter().filter(|(group, _)| reader.exists(group)).map(|(_, name)| name).collect(),
+            added: added().into_iter().filter(|(group, _)| reader.exists(group)).map(|(_, name)| name).collect(),
         })
     }
 }

@@ -3,6 +3,7 @@
 //! [`ResultFile`] opens a result and reads it part by part; arrays are [`declared`] beside the values that they hold,
 //! and [`layout`] names the axes.
 
+mod additions;
 mod asked_spectra;
 mod bands;
 mod consistency;
@@ -30,6 +31,7 @@ mod spread;
 mod study;
 mod target;
 
+pub use additions::Additions;
 pub use asked_spectra::AskedSpectra;
 pub use bands::{
     BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, REPAIRED_BANDS, SIMULTANEOUS_BANDS,

@@ -19,14 +19,14 @@ pub(super) fn no_result(path: &Path, error: LabelledError) -> ResultError {
             Some("there is no such file: `uplift run STUDY.toml` writes results, results/STUDY.h5 by default")
         }
         LabelledError::NotHdf5 { .. } if ends("toml") => Some(if Structure::load(path).is_ok() {
-            "is a structure, and a result is wanted: `uplift design` and `overturning` take it, with --urs RESULT"
+            "is a structure, not a result: `uplift design` and `overturning` take it, with --urs RESULT"
         } else if Study::read(path).is_ok() {
-            "is a study, and a result is wanted: `uplift run` makes one of it, and `uplift status` says where it lies"
+            "is a study, not a result: `uplift run` computes its result, and `uplift status` shows where"
         } else {
-            "is a text file, and a result is wanted: the .h5 that `uplift run` wrote"
+            "is a text file, not a result: give the .h5 file that `uplift run` wrote"
         }),
         LabelledError::NotHdf5 { .. } if ends("csv") => {
-            Some("is a table, and a result is wanted: the .h5 that `uplift run` wrote, beside which its tables lie")
+            Some("is a table, not a result: give the .h5 file beside it, which `uplift run` wrote")
         }
         _ => None,
     };

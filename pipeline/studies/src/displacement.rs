@@ -16,7 +16,7 @@ pub use design_example::{Designs, Doubted, carry_out_designs, design_analyses, s
 pub use plan::{Plan, needs, plan};
 pub use report::{RunReport, SetReport, SpectraReport};
 pub use rounding::printed;
-pub use run::run;
+pub use run::{is_of_records, run};
 pub use spectra::{set_spectra, structures};
 pub use uplift_result::{DesignRow, RULES};
 pub use work::{Inputs, KeyedMotions, run_shard};

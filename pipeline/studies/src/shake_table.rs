@@ -14,7 +14,7 @@ pub use csv::{COLUMN as TESTS_COLUMN, columns, shake_table_csv_path, tables, wri
 pub use inputs::Inputs;
 pub use plan::{Plan, plan};
 pub use report::RunReport;
-pub use run::run;
+pub use run::{is_of_inputs, run};
 pub use tests_of_table::carry_out;
 pub use uplift_result::{Excitation, ShakeTable, TableLevel, TableSpectra, TableTest};
 pub use write::{ShakeTableOutcome, write_shake_table};

@@ -12,7 +12,7 @@ mod write;
 mod write_hazard;
 
 pub use csv::{csv_paths, spectra_table, tables, write_csv};
-pub use earlier::EarlierStripes;
+pub use earlier::{EarlierStripes, is_of_records};
 pub use levels::{LevelCheck, LevelProposal};
 pub use plan::{Plan, needs, plan};
 pub use report::{BranchReport, CoefficientsReport, MeasureReport, RunReport};

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use serde::Serialize;
-use uplift_bootstrap::{inferred_limits, units};
+use uplift_bootstrap::{inferred_limits, repaired_limits, units};
 use uplift_hazard::rate_from_probability;
 use uplift_job::table::{ColumnsOf, table_text};
 use uplift_job::text::nearest;
@@ -14,7 +14,7 @@ use uplift_result::{MeasureSpectra, ResultFile};
 use uplift_structure::{Capacity, Demand, Rule};
 
 use crate::asked::{AskedRisk, RiskTargets};
-use crate::consistency::Question;
+use crate::consistency::{Question, Reweighing};
 use crate::error::UniformRiskError;
 use crate::stored_stripes::{StoredMeasure, poe_index, stored_measure};
 
@@ -38,7 +38,7 @@ pub struct DisplacementOptions {
     pub measure: Option<IntensityMeasure>,
     /// Displacement capacity of an oscillator of negative stiffness, m; without it the stiffness after uplift is zero.
     pub capacity_m: Option<f64>,
-    /// Whether the spectra of repaired weights are read, which have no band here.
+    /// Whether the spectra of repaired weights are read.
     pub repaired: bool,
 }
 
@@ -110,15 +110,13 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
     let mut looked_at: Vec<usize> = places.iter().flat_map(|place| [place.left, place.right]).collect();
     looked_at.sort_unstable();
     looked_at.dedup();
-    // [strength][site][poe]; none with repaired weights
-    let bands_m = if asked.repaired {
-        None
-    } else {
-        let stripes = stored_measure(file, &axes, &[], measure, study.risk.extrapolate)?;
-        let pairs = units(&Question::from_result(file)?.pair_of());
-        let of_strength = |&strength: &usize| bands(&stripes, &pairs, &targets_per_year, strength, &sites);
-        Some(looked_at.par_iter().map(of_strength).collect::<Result<Vec<_>, _>>()?)
-    };
+    let stripes = stored_measure(file, &axes, &[], measure, study.risk.extrapolate)?;
+    let pairs = units(&Question::from_result(file)?.pair_of());
+    let reweighing = if asked.repaired { Reweighing::from_result(file)? } else { None };
+    let of_strength =
+        |&strength: &usize| bands(&stripes, (&pairs, reweighing.as_ref()), &targets_per_year, strength, &sites);
+    // [strength][site][poe]
+    let bands_m = looked_at.par_iter().map(of_strength).collect::<Result<Vec<_>, _>>()?;
     let row = |strength: usize| looked_at.partition_point(|&own| own < strength);
 
     let mut displacements = Vec::new();
@@ -126,10 +124,9 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
         for (of_poe, &poe) in poes.iter().enumerate() {
             for place in &places {
                 let [left_m, right_m] = [place.left, place.right].map(|strength| u_m[[site, poe, strength]]);
-                let band_m = bands_m.as_ref().map(|bands_m| {
-                    let [left_m, right_m] = [place.left, place.right].map(|at| bands_m[row(at)][of_site][of_poe]);
-                    [0, 1].map(|limit| rule(place.between(left_m[limit], right_m[limit])))
-                });
+                let [left_limits_m, right_limits_m] =
+                    [place.left, place.right].map(|at| bands_m[row(at)][of_site][of_poe]);
+                let band_m = [0, 1].map(|limit| rule(place.between(left_limits_m[limit], right_limits_m[limit])));
                 displacements.push(Displacement {
                     site: spectra.sites[site].clone(),
                     im: measure.label(),
@@ -139,7 +136,7 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
                     return_period_years: 1.0 / targets_per_year[of_poe],
                     u_m: rule(place.between(left_m, right_m)),
                     // a single record has none
-                    band_m: band_m.filter(|[_, upper_m]| !upper_m.is_nan()),
+                    band_m: Some(band_m).filter(|[_, upper_m]| !upper_m.is_nan()),
                 });
             }
         }
@@ -177,12 +174,14 @@ impl DisplacementReport {
     }
 }
 
-/// Limits of the bands at a strength of the result, `[site][target]`, m; NaN of a single record.
+/// Limits of the bands at a strength of the result, `[site][target]`, m; NaN of a single record, and of a site without
+/// repair where repaired spectra are asked for.
 ///
 /// - `pairs`: the records of each pair: two components of one are not independent.
+/// - `reweighing`: what has the weights of repaired spectra.
 fn bands(
     stripes: &StoredMeasure,
-    pairs: &[Vec<usize>],
+    (pairs, reweighing): (&[Vec<usize>], Option<&Reweighing>),
     targets_per_year: &[f64],
     strength: usize,
     sites: &[usize],
@@ -190,7 +189,11 @@ fn bands(
     let demand = stripes.demand(strength)?;
     let of_site = |&site: &usize| {
         let asked = (&[pairs.len()][..], CONFIDENCE);
-        let limits = inferred_limits(&demand, &stripes.weights[site], pairs, targets_per_year, asked)?;
+        let limits = match reweighing.map(|own| own.weights(stripes.measure, site)) {
+            None => inferred_limits(&demand, &stripes.weights[site], pairs, targets_per_year, asked)?,
+            Some(Some(weights)) => repaired_limits(&demand, weights, pairs, targets_per_year, asked)?,
+            Some(None) => return Ok(vec![[f64::NAN; 2]; targets_per_year.len()]),
+        };
         Ok(limits.iter().map(|limits| limits.truth_m).collect())
     };
     sites.iter().map(of_site).collect()

@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn the_sentence_says_what_is_known() {
+    fn the_sentence_has_every_known_number() {
         let mut precision = Precision {
             im: "PGV",
             poe: 0.02,

@@ -4,19 +4,20 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use uplift_alarms::alarms;
-use uplift_engine::checkpoint::oscillator_key;
-use uplift_inputs::{Record, input_checksums, motion_keys, read_hazard, read_other_hazard, read_records};
+use uplift_ida::NUMERICS;
+use uplift_inputs::{input_checksums, read_hazard, read_other_hazard, read_records};
 use uplift_job::JobError;
 use uplift_job::events::{Events, Silent};
 use uplift_job::study_run::{RunHead, RunOptions};
 use uplift_labelled::verify as verify_file;
 use uplift_motion::IntensityMeasure;
 use uplift_result::{Kind, Overview, Provenance, ResultFile, replaces_another, what_counts};
-use uplift_studies::uniform_risk::{self, MeasureReport};
+use uplift_studies::uniform_risk::MeasureReport;
+use uplift_studies::{displacement, shake_table, uniform_risk};
 use uplift_study::{AnyStudy, Repair, UniformRiskStudy};
 
 use crate::error::UpliftError;
-use crate::run::run;
+use crate::run::{RunReport, run, tables};
 
 /// The result file of `study`; a study without one is run.
 ///
@@ -48,30 +49,24 @@ pub fn result_of(study: &UniformRiskStudy, options: &RunOptions, events: &dyn Ev
 /// # Errors
 /// A result that changes while it is read.
 pub(crate) fn finished(
-    study: &UniformRiskStudy,
+    study: &AnyStudy,
     options: &RunOptions,
     start: Instant,
     events: &dyn Events,
-) -> Result<Option<uniform_risk::RunReport>, UpliftError> {
-    let path = options.result_file(&study.output.file);
-    let tables: Vec<PathBuf> = uniform_risk::tables(study, path).iter().map(|table| table.path().to_owned()).collect();
+) -> Result<Option<RunReport>, UpliftError> {
+    let path = options.result_file(&study.output().file);
+    let tables: Vec<PathBuf> = tables(study, path).iter().map(|table| table.path().to_owned()).collect();
     // a run tells what is wrong with its inputs; every byte of the file is read only where it is the one
-    let is_own = path.is_file() && is_result_of(study, path).unwrap_or(false);
+    let is_own = path.is_file() && is_result_of_any(study, path).unwrap_or(false);
     if !is_own || !verify_file(path).is_ok_and(|verdict| verdict.is_sound()) {
         return Ok(None);
     }
     let file = ResultFile::open(path)?;
-    let kept = file.stored_study()?;
-    let lacks_repair = study.consistency.repair == Repair::Weights && !file.has_repair();
-    // what a bootstrap of the result is asked for by default is kept in it
-    if study.bootstrap != kept.bootstrap
-        || !study.consistency.differing_keys(&kept.consistency).is_empty()
-        || lacks_repair
-    {
+    if !answers(&file, study)? {
         return Ok(None);
     }
     let (stored, alarms) = (file.head()?, alarms(&file)?);
-    if study.title != kept.title {
+    if study.title() != stored.title {
         events.note("the result keeps the title that it was run with; --again takes that of the study");
     }
     let (tables, missing): (Vec<_>, Vec<_>) = tables.into_iter().partition(|table| table.is_file());
@@ -83,11 +78,45 @@ pub(crate) fn finished(
     let (records, seconds) = ((stored.record_set.as_str(), stored.synthetic), start.elapsed().as_secs_f64());
     let head = Provenance::new(options, stored.input_checksums).head(&stored.title, records, alarms, files, seconds);
     let head = RunHead { done_already: true, ..head };
-    let Overview::UniformRisk { analyses, .. } = file.overview()? else { return Ok(None) };
-    let of_measure = |im: &str| analyses.iter().find(|(own, _)| *own == im).map_or(0, |(_, count)| *count);
-    let labels = file.measures().into_iter().map(IntensityMeasure::label);
-    let measures = labels.map(|im| MeasureReport::stored(im, of_measure(im))).collect();
-    Ok(Some(uniform_risk::RunReport::read(&file, head, measures, None)?))
+    Ok(match study {
+        AnyStudy::UniformRisk(_) => {
+            let Overview::UniformRisk { analyses, .. } = file.overview()? else { return Ok(None) };
+            let of_measure = |im: &str| analyses.iter().find(|(own, _)| *own == im).map_or(0, |(_, count)| *count);
+            let labels = file.measures().into_iter().map(IntensityMeasure::label);
+            let measures = labels.map(|im| MeasureReport::stored(im, of_measure(im))).collect();
+            Some(RunReport::UniformRisk(Box::new(uniform_risk::RunReport::read(&file, head, measures, None)?)))
+        }
+        AnyStudy::Displacement(study) => {
+            displacement::RunReport::read(&file, study, head)?.map(RunReport::Displacement)
+        }
+        AnyStudy::ShakeTable(_) => Some(RunReport::ShakeTable(shake_table::RunReport::read(&file, head)?)),
+    })
+}
+
+/// Whether the file at `path` holds the numbers of `study`, computed from the same inputs by the same solver.
+fn is_result_of_any(study: &AnyStudy, path: &Path) -> Result<bool, UpliftError> {
+    if let AnyStudy::UniformRisk(study) = study {
+        return is_result_of(study, path);
+    }
+    let file = ResultFile::open(path)?;
+    let head = file.head()?;
+    let is_same = head.numerics == NUMERICS && what_counts(&study.to_toml()?) == what_counts(&head.study_toml);
+    Ok(is_same
+        && match study {
+            AnyStudy::Displacement(study) => displacement::is_of_records(&file, study)?,
+            AnyStudy::ShakeTable(study) => shake_table::is_of_inputs(&file, study)?,
+            AnyStudy::UniformRisk(_) => false,
+        })
+}
+
+/// Whether the result in `file`, of the same numbers, holds all that `study` asks of a run: the defaults of a bootstrap
+/// of the result are kept in it.
+fn answers(file: &ResultFile, study: &AnyStudy) -> Result<bool, UpliftError> {
+    let AnyStudy::UniformRisk(study) = study else { return Ok(true) };
+    let kept = file.stored_study()?;
+    let lacks_repair = study.consistency.repair == Repair::Weights && !file.has_repair();
+    let same_question = study.consistency.differing_keys(&kept.consistency).is_empty();
+    Ok(study.bootstrap == kept.bootstrap && same_question && !lacks_repair)
 }
 
 /// Whether the file at `path` holds the stripes and spectra of `study`, made of the same records and hazard curves.
@@ -109,7 +138,7 @@ fn is_result_of(study: &UniformRiskStudy, path: &Path) -> Result<bool, UpliftErr
     if head.input_checksums != provenance.input_checksums {
         return Ok(false);
     }
-    Ok(is_of_records(&file, study, &records.records).unwrap_or(false))
+    Ok(uniform_risk::is_of_records(&file, study, &records.records).unwrap_or(false))
 }
 
 /// What the study asks of the consistency is in the result as it was run, and bands and repaired spectra are made of
@@ -127,23 +156,4 @@ fn refuse_other_question(study: &UniformRiskStudy, path: &Path) -> Result<(), Up
         differing.join(", consistency.")
     ))
     .into())
-}
-
-/// What a manifest says of its files counts too: the motions themselves, what they are scaled by, what is known of
-/// them.
-fn is_of_records(file: &ResultFile, study: &UniformRiskStudy, records: &[Record]) -> Result<bool, UpliftError> {
-    let kept = file.records()?;
-    let same = |kept: &[f64], own: &dyn Fn(&Record) -> f64| {
-        kept.iter().map(|value| value.to_bits()).eq(records.iter().map(|record| own(record).to_bits()))
-    };
-    let mut is_same = kept.motion_sha256 == motion_keys(records)
-        && same(&kept.pga_g, &|record| record.pga_g)
-        && same(&kept.pgv_cm_s, &|record| record.pgv_cm_s)
-        && same(&kept.magnitude, &|record| record.number("magnitude"))
-        && same(&kept.rrup_km, &|record| record.number("rrup_km"))
-        && same(&kept.vs30, &|record| record.number("vs30"));
-    for plan in &study.measures {
-        is_same &= file.oscillator_key(plan.measure)? == oscillator_key(study);
-    }
-    Ok(is_same)
 }

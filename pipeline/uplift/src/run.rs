@@ -11,6 +11,7 @@ use serde::Serialize;
 use uplift_engine::checkpoint::FinishedRows;
 use uplift_inputs::manifest;
 use uplift_job::events::Events;
+use uplift_job::outputs::Output;
 use uplift_job::study_run::Place;
 use uplift_job::{JobError, outputs};
 use uplift_study::AnyStudy;
@@ -48,8 +49,7 @@ impl RunReport {
 /// Carries out a study: records and hazard are read and checked, everything that is not known from before is computed,
 /// and the result file and its tables are written.
 ///
-/// A study of uniform risk whose result is there and whole is done already, unless it is run
-/// [`again`](RunOptions::again).
+/// A study whose result is there and whole is done already, unless it is run [`again`](RunOptions::again).
 ///
 /// Finished rows of the analysis outlive whatever stops the run, in a checkpoint beside the result; an earlier result
 /// stays until the new one is complete.
@@ -58,22 +58,27 @@ impl RunReport {
 /// Inputs that cannot be used; a result that cannot be written; [`JobError::Paused`] or [`JobError::Interrupted`]
 /// where `events` say so.
 pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Result<RunReport, UpliftError> {
-    if let (AnyStudy::UniformRisk(study), false) = (study, options.again)
+    if !options.again
         && let Some(report) = finished(study, options, Instant::now(), events)?
     {
-        return Ok(RunReport::UniformRisk(Box::new(report)));
+        return Ok(report);
     }
     run_with(study, options, FinishedRows::default(), events)
+}
+
+/// The tables that a run of `study` writes beside its result at `path`.
+pub(crate) fn tables(study: &AnyStudy, path: &Path) -> Vec<Output> {
+    match study {
+        AnyStudy::UniformRisk(study) => uniform_risk::tables(study, path),
+        AnyStudy::Displacement(study) => displacement::tables(study, path),
+        AnyStudy::ShakeTable(study) => shake_table::tables(study, path),
+    }
 }
 
 /// Refuses a run whose result or tables would replace something else, see [`outputs`].
 pub(crate) fn check_outputs(study: &AnyStudy, options: &RunOptions) -> Result<(), UpliftError> {
     let path = options.result_file(&study.output().file);
-    let tables = match study {
-        AnyStudy::UniformRisk(study) => uniform_risk::tables(study, path),
-        AnyStudy::Displacement(study) => displacement::tables(study, path),
-        AnyStudy::ShakeTable(study) => shake_table::tables(study, path),
-    };
+    let tables = tables(study, path);
     let mut inputs = vec![options.study_file.clone()];
     inputs.extend(study.inputs().into_iter().map(Path::to_owned));
     if options.force {

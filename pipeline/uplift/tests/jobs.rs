@@ -192,7 +192,7 @@ fn a_bootstrap_reports_what_it_writes() {
 }
 
 #[test]
-fn a_stopped_bootstrap_goes_on() {
+fn an_interrupted_bootstrap_resumes() {
     let folder = Folder::new();
     let options = BootstrapOptions { sizes: Some(vec![4]), replicates: Some(20), ..BootstrapOptions::default() };
     let stopped = bootstrap(&folder.result(), &options, &Recorder::stopping_after(1));

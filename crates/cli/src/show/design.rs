@@ -4,9 +4,10 @@ use std::io::Write;
 
 use uplift::alarms::Severity;
 use uplift::structure::{
-    Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome, StructureReport,
+    Bands, DemandBands, DemandRounding, DesignReport, EventRisk, ExactDemand, FrameReport, RuleCheck, RuleOutcome,
+    StructureReport,
 };
-use uplift::text::{Table, metres_with_band, risk_in_words, short};
+use uplift::text::{Table, cell_with_band, metres_with_band, risk_in_words, short};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
@@ -44,18 +45,118 @@ pub(crate) fn print_design(report: &DesignReport, terminal: &Terminal) -> Result
 
 /// What an engineer asks first.
 fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
+    match &report.frame {
+        Some(frame) => print_verdicts(out, report, frame)?,
+        None => print_verdict(out, report)?,
+    }
+    if let Some(uncertainty) = &report.uncertainty {
+        print_uncertain_answers(out, uncertainty)?;
+    }
+    let risk = risk_in_words(report.poe, report.years);
+    writeln!(out, "At        {} by {}, {risk}; {}", report.site, report.spectrum_words(), report.source.record_set)?;
+    Ok(())
+}
+
+/// The verdicts of a wobbling frame and of its proxy, with demand and risk of each.
+fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameReport) -> Result<(), CommandError> {
+    let name = &report.structure.name;
+    let wobbling = frame.wobbling();
+    let how_far = match report.frame_over_proxy() {
+        Some(ratio) => format!("the wobbling frame moves {ratio:.1} times as far as its proxy"),
+        None if wobbling.demand_m.is_infinite() => "the wobbling frame overturns more often than the target".to_owned(),
+        None => "its proxy has no demand to compare with".to_owned(),
+    };
+    match (report.verdicts_differ(), wobbling.check) {
+        (Some(true), _) => writeln!(out, "Verdict   {name}: the verdicts differ; {how_far}")?,
+        (Some(false), Some(check)) => {
+            writeln!(out, "Verdict   {name}: {} by frame and proxy; {how_far}", verdict_word(check.satisfied))?;
+        }
+        _ => writeln!(out, "Verdict   {name}: no capacity, the force does not fall; {how_far}")?,
+    }
+    if let Some(capacity_m) = report.structure.capacity_m {
+        let factor = report.required_safety_factor;
+        writeln!(out, "Capacity  {capacity_m:.2} m, with a safety factor of {factor} (Eq. 3.15)")?;
+    }
+    let dash = || "-".to_owned();
+    let risk = |risk: &EventRisk, band: Option<Bands>| {
+        let band = band.map_or_else(String::new, |band| {
+            let [lower, upper] = band.by_record.map(|per_year| format!("{per_year:.1e}"));
+            format!(" ({lower}–{upper})")
+        });
+        if risk.per_year > 0.0 { format!("{:.1e}{band}", risk.per_year) } else { risk_cells(risk)[0].clone() }
+    };
+    let demand = |demand_m: f64, bands: Option<&DemandBands>| {
+        if demand_m.is_infinite() {
+            metres(demand_m)
+        } else {
+            cell_with_band(demand_m, bands.map(|of| of.demand_m.by_record))
+        }
+    };
+    let mut rows: Vec<[String; 5]> = Vec::new();
+    for of in &frame.models {
+        let bands = of.bands.as_ref();
+        rows.push([
+            of.model.to_owned(),
+            demand(of.demand_m, bands),
+            of.check.map_or_else(dash, |check| required(check.required_capacity_m)),
+            of.check.map_or_else(dash, |check| verdict_word(check.satisfied).to_owned()),
+            risk(&of.overturning, bands.and_then(|bands| bands.overturning_per_year)),
+        ]);
+    }
+    if let Some(exact) = &report.exact {
+        let bands = exact.bands.as_ref();
+        let overturning = bands.and_then(|bands| bands.overturning_per_year);
+        rows.push([
+            "proxy, oscillator".to_owned(),
+            demand(exact.demand_m, bands),
+            dash(),
+            dash(),
+            risk(&exact.overturning, overturning),
+        ]);
+    }
+    for (rule, check) in report.rules.iter().filter_map(|outcome| Some((outcome.rule, outcome.check()?))) {
+        rows.push([
+            format!("proxy, {}", rule.words()),
+            demand(check.demand_m, None),
+            required(check.required_capacity_m),
+            verdict_word(check.satisfied).to_owned(),
+            dash(),
+        ]);
+    }
+    let table = Table::of(&rows)
+        .left("model", |row| &row[0])
+        .right("demand, m", |row| &row[1])
+        .right("requires, m", |row| &row[2])
+        .left("verdict", |row| &row[3])
+        .right("overturns, 1/yr", |row| &row[4]);
+    writeln!(out, "{table}")?;
+    Ok(())
+}
+
+fn verdict_word(satisfied: bool) -> &'static str {
+    if satisfied { "satisfied" } else { "NOT satisfied" }
+}
+
+/// A capacity that is required, m.
+fn required(capacity_m: f64) -> String {
+    if capacity_m.is_finite() { format!("{capacity_m:.2}") } else { "infinite".to_owned() }
+}
+
+/// The verdict of the rules, with the demand on the structure's oscillator and its risks.
+fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
     let StructureReport { name, capacity_m, .. } = &report.structure;
     let checks: Vec<_> = report.rules.iter().filter_map(|rule| Some((rule.rule, rule.check()?))).collect();
     let verdict = |(rule, check): &(Rule, &RuleCheck)| {
-        let word = if check.satisfied { "satisfied" } else { "NOT satisfied" };
-        format!("{word} by {} (requires {:.2} m)", rule.words(), check.required_capacity_m)
+        format!("{} by {} (requires {:.2} m)", verdict_word(check.satisfied), rule.words(), check.required_capacity_m)
     };
     let has =
         capacity_m.map_or_else(|| "no capacity: the force does not fall".to_owned(), |m| format!("capacity {m:.2} m"));
+    // of a frame that can wobble it is the proxy that is judged
+    let whose = if report.wobbles { ", by its proxy alone" } else { "" };
     let verdicts: Vec<String> = checks.iter().map(verdict).collect();
     writeln!(
         out,
-        "Verdict   {name}, {has}: {}",
+        "Verdict   {name}{whose}, {has}: {}",
         if verdicts.is_empty() { "no rule applies".to_owned() } else { verdicts.join(", ") }
     )?;
     if !checks.is_empty() {
@@ -64,7 +165,12 @@ fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();
         let band_m = bands.map(|bands| bands.demand_m.by_record);
-        writeln!(out, "Demand    {} on the structure itself", metres_with_band(exact.demand_m, band_m))?;
+        writeln!(
+            out,
+            "Demand    {} on {}",
+            metres_with_band(exact.demand_m, band_m),
+            if report.wobbles { "the equivalent oscillator" } else { "the structure itself" }
+        )?;
         if let Some(risk) = &exact.beyond_capacity {
             let band = |band: Option<Bands>| {
                 band.map_or_else(String::new, |of| {
@@ -88,11 +194,6 @@ fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         let demand = metres_with_band(spectrum.zero_stiffness_demand_m, None);
         writeln!(out, "Demand    {demand} by the spectrum at strength {:.4}", spectrum.strength)?;
     }
-    if let Some(uncertainty) = &report.uncertainty {
-        print_uncertain_answers(out, uncertainty)?;
-    }
-    let risk = risk_in_words(report.poe, report.years);
-    writeln!(out, "At        {} by {}, {risk}; {}", report.site, report.spectrum_words(), report.source.record_set)?;
     Ok(())
 }
 

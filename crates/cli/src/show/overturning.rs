@@ -26,11 +26,22 @@ pub(crate) fn print_overturning(report: &OverturningReport, terminal: &Terminal)
 
 /// The rate of every site by measure and model, with its band.
 fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
-    writeln!(out, "{} overturns so often a year (90 % confidence band)", report.structure.name)?;
+    let has_frame = report.overturning.iter().any(|found| found.model == WOBBLING);
+    let name = &report.structure.name;
+    match frame_over_oscillator(report) {
+        Some(times) => writeln!(
+            out,
+            "{name}: the wobbling frame overturns {times} times as often as its oscillator; rates a year (90 % \
+             confidence band)"
+        )?,
+        None => writeln!(out, "{name} overturns so often a year (90 % confidence band)")?,
+    }
     let sites = report.overturning.first().map_or(&[][..], |found| &found.sites[..]);
     let cell = |of: &SiteRisk| {
         let [per_year, ..] = risk_cells(&of.risk);
-        let band = of.bands.map_or_else(String::new, |bands| {
+        // a frame has twice as many rows: at many sites the bands are left to the details
+        let shown_bands = of.bands.filter(|_| !has_frame || sites.len() < 3);
+        let band = shown_bands.map_or_else(String::new, |bands| {
             let [lower, upper] = bands.by_record.map(|per_year| format!("{per_year:.1e}"));
             format!(" ({lower}–{upper})")
         });
@@ -38,12 +49,23 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
         let per_year = if of.risk.per_year > 0.0 { of.per_year_rounding.marked(short) } else { per_year };
         format!("{per_year}{band}")
     };
-    let table = Table::of(sites.iter().enumerate())
-        .left("site", |(_, of)| &of.site)
-        .each(&report.overturning, |table, found| {
-            table.right(format!("{}, {}", found.model, found.im), |(site, _)| cell(&found.sites[site]))
-        });
-    let table = table.to_string();
+    let table = if has_frame {
+        // a row a site and model, a column a measure
+        let of_measures: Vec<&[CollapseReport]> = report.overturning.chunks(report.models.len()).collect();
+        let models = report.models.len();
+        Table::of((0..sites.len()).flat_map(|site| (0..models).map(move |model| (site, model))))
+            .left("site", |(site, model)| if model == 0 { &sites[site].site } else { "" })
+            .left("model", |(_, model)| report.models[model].model)
+            .each(of_measures, |table, found| table.right(found[0].im, |(site, model)| cell(&found[model].sites[site])))
+            .to_string()
+    } else {
+        Table::of(sites.iter().enumerate())
+            .left("site", |(_, of)| &of.site)
+            .each(&report.overturning, |table, found| {
+                table.right(format!("{}, {}", found.model, found.im), |(site, _)| cell(&found.sites[site]))
+            })
+            .to_string()
+    };
     writeln!(out, "{table}")?;
     if table.contains('*') {
         writeln!(out, "* rounding decides it: --details")?;
@@ -52,6 +74,24 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
         print_uncertain_answers(out, uncertainty)?;
     }
     Ok(writeln!(out, "{}", report.source.record_set)?)
+}
+
+/// The model of a frame that is held against the oscillator.
+const WOBBLING: &str = "wobbling frame";
+
+/// How many times as often as its oscillator the wobbling frame overturns, over sites and measures; none where one of
+/// them is never seen to.
+fn frame_over_oscillator(report: &OverturningReport) -> Option<String> {
+    let of = |model: &'static str| report.overturning.iter().filter(move |found| found.model == model);
+    let sites = of(WOBBLING).zip(of("oscillator")).flat_map(|(own, proxy)| own.sites.iter().zip(&proxy.sites));
+    let ratio = |(own, proxy): (&SiteRisk, &SiteRisk)| own.risk.per_year / proxy.risk.per_year;
+    let [least, most] =
+        sites.map(ratio).fold([f64::INFINITY, 0.0], |[least, most], ratio| [least.min(ratio), most.max(ratio)]);
+    // without a frame there is no ratio at all
+    (least > 0.0 && least <= most && most.is_finite()).then(|| {
+        let [least, most] = [least, most].map(|ratio| format!("{ratio:.1}"));
+        if least == most { most } else { format!("{least} to {most}") }
+    })
 }
 
 fn print_details(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
@@ -67,7 +107,7 @@ fn print_details(out: &mut impl Write, report: &OverturningReport) -> Result<(),
                 "block      rotates as a block of R = {size_m:.4} m and slenderness {slenderness_rad:.4} rad; \
                  restitution {restitution:.4} ({origin})"
             )?,
-            _ => writeln!(out, "oscillator restitution {restitution} ({origin})")?,
+            _ => writeln!(out, "{:<10} restitution {restitution:.4} ({origin})", model.model)?,
         }
     }
     writeln!(out, "records    {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;

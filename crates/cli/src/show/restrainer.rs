@@ -70,7 +70,9 @@ pub(crate) fn print_restrainer_design(report: &RestrainerDesign, terminal: &Term
 /// The best stack, and the next two.
 fn print_best(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), CommandError> {
     match report.stacks.first() {
-        Some(best) => writeln!(out, "Stack     {} for {}", stack_name(best), report.name)?,
+        Some(best) => {
+            writeln!(out, "Stack     {} for {}{}", stack_name(best), report.name, frame_words(report))?;
+        }
         None => writeln!(out, "Stack     none meets the target and limits")?,
     }
     writeln!(out, "Target    {}", report.target.words)?;
@@ -88,6 +90,21 @@ fn print_best(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), Com
         .right("of stroke, %", |stack| format!("{:.0}", 100.0 * stack.stroke_share))
         .right("u_cap, m", |stack| metres_or("none", stack.capacity_m));
     if table.is_empty() { Ok(()) } else { Ok(writeln!(out, "\n{table}")?) }
+}
+
+/// What the frame that wobbles says of the best stack.
+fn frame_words(report: &RestrainerDesign) -> String {
+    let Some(frame) = &report.frame else {
+        return if report.proxy { ", by its proxy alone".to_owned() } else { String::new() };
+    };
+    let wobbling = frame.wobbling();
+    let Some(check) = wobbling.check else { return String::new() };
+    let verdict = if check.satisfied { "satisfied" } else { "NOT satisfied" };
+    if check.required_capacity_m.is_infinite() {
+        return format!("; {verdict} by the wobbling frame, which overturns more often than the target");
+    }
+    let [demand_m, required_m] = [wobbling.demand_m, check.required_capacity_m];
+    format!("; {verdict} by the wobbling frame, which moves {demand_m:.2} m and requires {required_m:.2} m")
 }
 
 fn print_details(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), CommandError> {

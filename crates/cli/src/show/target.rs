@@ -35,7 +35,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let years = 1.0 / target_per_year;
     writeln!(out, "Target    {event} at most {target_per_year:.3e} per year (once in {years:.0} years)")?;
     let [per_year, ..] = risk_cells(&report.risk);
-    writeln!(out, "There     {per_year} per year; missed at {}", unit(short(report.missed_at)))?;
+    writeln!(out, "Risk      {per_year} per year; the target is missed at {}", unit(short(report.missed_at)))?;
     writeln!(out, "At        {site} by {im}; {}", report.source.record_set)?;
     Ok(())
 }

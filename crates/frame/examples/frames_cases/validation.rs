@@ -128,7 +128,7 @@ fn median_ratio(
         let found = bands(measured, computed, resampling).map_err(|error| error.to_string())?;
         return Ok(found.median_ratio);
     }
-    Ok(median_ratio_band(one, other, resampling))
+    median_ratio_band(one, other, resampling).map_err(|error| error.to_string())
 }
 
 /// Quantiles of a bootstrap: other random numbers than those that were expected of.

@@ -107,7 +107,7 @@ fn what_other_programs_write_is_read_as_far_as_it_goes() {
 
 #[cfg(unix)]
 #[test]
-fn a_file_open_elsewhere_is_said_to_be() {
+fn a_file_open_elsewhere_is_reported_as_locked() {
     let folder = tempfile::tempdir().unwrap();
     let path = small_file(folder.path());
     let elsewhere = fs::File::open(&path).unwrap();

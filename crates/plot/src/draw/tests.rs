@@ -144,7 +144,7 @@ fn rings_are_hollow() {
 }
 
 #[test]
-fn a_title_stands_in_a_figure_only_where_it_is_wanted() {
+fn a_figure_has_a_title_only_on_request() {
     let [with, without] = [true, false].map(|title| svg(&figure(), Look { title, ..LOOK }).unwrap());
     assert!(with.svg.contains("A test") && !without.svg.contains("A test"));
     assert!(without.size.1 < with.size.1, "and no gap is left for it");

@@ -63,6 +63,21 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
             say(format!("By {} it overturns.", rule.words()), Some("no"));
         }
     }
+    if let Some(frame) = &report.frame {
+        let own = frame.wobbling();
+        let demand =
+            if_finite(own.demand_m, "no displacement that meets the target", |m| format!("{} m", two_digits(m)));
+        let times =
+            report.frame_over_proxy().map_or_else(String::new, |ratio| format!(", {ratio:.1} times that of its proxy"));
+        let verdict = own.check.map_or_else(String::new, |check| {
+            let required = if_finite(check.required_capacity_m, "any capacity", |m| format!("{} m", two_digits(m)));
+            let differ = if report.verdicts_differ() == Some(true) { "; the verdicts differ" } else { "" };
+            let verdict = if check.satisfied { "satisfied" } else { "NOT satisfied" };
+            format!("; it requires {required}: {verdict}{differ}")
+        });
+        let class = own.check.map(|check| if check.satisfied { "yes" } else { "no" });
+        say(format!("The wobbling frame itself has a demand of {demand}{times}{verdict}."), class);
+    }
     if let Some(exact) = &report.exact {
         let overturns = in_words("It overturns", &exact.overturning, &exact.rounding.overturning_per_year, years);
         let band = exact.bands.and_then(|bands| bands.overturning_per_year).map_or_else(String::new, |bands| {
@@ -168,7 +183,7 @@ pub(crate) fn facts(structure: &Structure, of: &StructureReport) -> Vec<(&'stati
 
 /// Demands, rules, risk, and what of them is noise.
 pub(super) fn tables(report: &DesignReport) -> Vec<TitledTable> {
-    [demands(report), rules(report), risk(report), noise(report)].into_iter().flatten().collect()
+    [demands(report), frame(report), rules(report), risk(report), noise(report)].into_iter().flatten().collect()
 }
 
 fn demands(report: &DesignReport) -> Option<TitledTable> {
@@ -192,6 +207,31 @@ fn demands(report: &DesignReport) -> Option<TitledTable> {
     );
     let table = Table::new(["demand on", "displacement, m"], rows);
     TitledTable::new("demand", "Demand", note, table).unless_empty()
+}
+
+/// The frame that wobbles, by both models.
+fn frame(report: &DesignReport) -> Option<TitledTable> {
+    let frame = report.frame.as_ref()?;
+    let per_year = |risk: &EventRisk| match risk.at_most_per_year {
+        Some(most) => format!("< {}", scientific(most)),
+        None => scientific(risk.per_year),
+    };
+    let dash = || "–".to_owned();
+    let table = Table::of(&frame.models)
+        .left("model", |of| of.model)
+        .right("demand, m", |of| metres(of.demand_m))
+        .right("required capacity, m", |of| of.check.map_or_else(dash, |check| metres(check.required_capacity_m)))
+        .left("verdict", |of| {
+            of.check.map_or_else(dash, |check| if check.satisfied { "satisfied" } else { "NOT satisfied" }.to_owned())
+        })
+        .right("beyond its capacity a year", |of| of.beyond_capacity.as_ref().map_or_else(dash, per_year))
+        .right("overturning a year", |of| per_year(&of.overturning));
+    let note = format!(
+        "At {} levels. The wobbling model loses no energy; the planar one is shaken by one component alone, which is \
+         known to be unconservative (Section 6.2.3).",
+        frame.levels.len()
+    );
+    TitledTable::new("frame", "The frame itself", note, table).unless_empty()
 }
 
 fn rules(report: &DesignReport) -> Option<TitledTable> {

@@ -13,7 +13,8 @@ const START_ROTATION_RAD: Key<Number> = number("start_rotation_rad", "rad", STAR
     .with_default(1e-12)
     .meaning("tilt with which the frame leaves the ground, rad: the motion converges as it goes to zero");
 
-const REST: Rule = Rule::From(1e-9, 1e-2, "from 1e-9 to 0.01 rad");
+/// How large the tilt of a frame at rest may be.
+pub(crate) const REST: Rule = Rule::From(1e-9, 1e-2, "from 1e-9 to 0.01 rad");
 const START: Rule = Rule::From(1e-15, 1e-6, "from 1e-15 to 1e-6 rad");
 
 /// What the wobbling frame leaves to choose.

@@ -204,7 +204,7 @@ fn study_files_that_cannot_be_read() {
     fs::write(folder.path("latin.toml"), b"[pgv]\ntitle = \"Foc\xbaani\"").unwrap();
     fs::write(folder.path("large.toml"), vec![b'#'; (4 << 20) + 1]).unwrap();
     for (name, expected) in [
-        ("missing.toml", "missing.toml: there is no such file: name one as it is seen"),
+        ("missing.toml", "missing.toml: there is no such file: give its path"),
         (".", "it is not a file"),
         ("latin.toml", "line 2 is not UTF-8 text; save it as UTF-8"),
         ("large.toml", "it has more than 4194304 bytes; is it a study file?"),
@@ -233,12 +233,12 @@ fn files_of_another_kind_are_named() {
         fs::write(folder.path(name), content).unwrap();
     }
     for (name, expected) in [
-        ("r.h5", "it is a result, and a study is wanted: `uplift status`"),
-        ("named.toml", "it is a result, and a study is wanted"),
-        ("z.zip", "it is a zip archive, and a study is wanted: `uplift records import`"),
-        ("a.AT2", "it is a record, and a study is wanted: `uplift response`"),
-        ("t.csv", "it is a table, and a study is wanted"),
-        ("pier.toml", "it is a structure, and a study is wanted: `uplift design`"),
+        ("r.h5", "it is a result, not a study: `uplift status`"),
+        ("named.toml", "it is a result, not a study"),
+        ("z.zip", "it is a zip archive, not a study: `uplift records import`"),
+        ("a.AT2", "it is a record, not a study: `uplift response`"),
+        ("t.csv", "it is a table, not a study"),
+        ("pier.toml", "it is a structure, not a study: `uplift design`"),
         ("wide.toml", "it is UTF-16 text"),
     ] {
         let error = Study::load_any(&folder.path(name), &[]).unwrap_err();
@@ -247,9 +247,9 @@ fn files_of_another_kind_are_named() {
     fs::write(folder.path("study.toml"), "[pgv]\n[[sites]]\nname = 'A'\n").unwrap();
     fs::write(folder.path("chapter.toml"), "kind = \"displacement spectra\"\n").unwrap();
     for (name, expected) in [
-        ("r.h5", "it is a result, and a structure is wanted: the structure comes first, and the result after --urs"),
-        ("study.toml", "it is a study, and a structure is wanted: `uplift run`"),
-        ("chapter.toml", "it is a study, and a structure is wanted"),
+        ("r.h5", "it is a result, not a structure: the structure comes first, and the result after --urs"),
+        ("study.toml", "it is a study, not a structure: `uplift run`"),
+        ("chapter.toml", "it is a study, not a structure"),
     ] {
         let error = crate::Structure::load(&folder.path(name)).unwrap_err();
         assert!(error.to_string().contains(expected), "{error}");

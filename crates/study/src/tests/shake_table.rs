@@ -71,7 +71,7 @@ fn a_complete_study_is_read_and_written_as_it_is() {
 
 /// 21 m/s is no table's: 21 cm/s were meant.
 #[test]
-fn a_level_in_another_unit_is_told() {
+fn a_level_in_another_unit_raises_a_warning() {
     let warnings = |text: &str| load(&Folder::new(text)).unwrap().warnings;
     assert_eq!(warnings(COMPLETE), []);
     let told: Vec<String> = warnings(&COMPLETE.replace("0.335", "21")).iter().map(ToString::to_string).collect();

@@ -43,7 +43,7 @@ fn the_example() {
 }
 
 #[test]
-fn a_key_of_the_other_kind_is_told() {
+fn a_key_of_the_other_kind_is_refused() {
     for (kind, key) in [("epistemic", "draws"), ("aleatory", "samples")] {
         let found = mistakes(&format!(
             "[uncertainty]\nkind = \"{kind}\"\n{key} = 9\n[uncertainty.strength]\ndistribution = \"normal\"\n\
@@ -54,7 +54,7 @@ fn a_key_of_the_other_kind_is_told() {
 }
 
 #[test]
-fn a_structure_without_the_table_is_known() {
+fn a_structure_without_the_table_is_certain() {
     assert_eq!(load(BLOCK).unwrap().uncertainty, None);
 }
 
@@ -176,7 +176,7 @@ fn likely_slips_are_asked_about() {
 /// A mean far from what the structure has is asked about; where the file does not say what it has, there is nothing to
 /// be far from.
 #[test]
-fn a_mean_far_from_the_structure_is_asked_about() {
+fn a_mean_far_from_the_structure_raises_a_warning() {
     let warnings = |text: &str| -> Vec<String> {
         load(text).unwrap().warnings.iter().map(|warning| warning.what.clone()).collect()
     };

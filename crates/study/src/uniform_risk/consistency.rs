@@ -13,7 +13,7 @@ pub(super) const KEYS: SectionKeys =
     SectionKeys::new("consistency", &[&REPAIR, &AGAINST, &SMOOTHNESS, &LEAST_EFFECTIVE, &SCALE_FACTORS]);
 const REPAIR: Key<Choice<Repair>> = choice("repair", &Repair::ALL, Repair::key).with_default(Repair::None).meaning(
     "`\"weights\"`: spectra with weights of the records by which the set has both hazard curves of a site, beside the \
-     plain ones; `\"none\"`: the question is asked, and nothing done about it",
+     plain ones; `\"none\"`: the consistency is checked and not repaired",
 );
 const AGAINST: Key<Special> = special("against", || json!({ "type": "string", "minLength": 1 }))
     .without_default("PGV, for records scaled to it PGA; where no site has a curve of it, the first measure with one")

@@ -7,7 +7,7 @@ use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_result::ResultFile;
 use uplift_study::Structure;
-use uplift_uniform_risk::{SpectraOfResult, Stripes, StudyOfResult, plan_stripes};
+use uplift_uniform_risk::{Stripes, StudyOfResult, plan_stripes};
 
 use super::DesignOptions;
 use crate::certainty::Scatter;
@@ -15,6 +15,8 @@ use crate::demand::{ExactDemand, exact_demand};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::{Place, ShakenRecords, job_name, restitution};
+use crate::own_frame::{FrameQuestion, FrameReport, OwnFrame, Pairs, levels_for};
+use crate::report::capacity_m;
 use crate::sweep::Sweep;
 use crate::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
 use crate::weights::SiteWeights;
@@ -32,6 +34,8 @@ pub(super) struct OwnAnalysis {
     pub(super) exact: ExactDemand,
     /// None where all of it is known, and with repaired weights.
     pub(super) uncertainty: Option<UncertaintyReport>,
+    /// The frame itself; none of a structure that cannot wobble.
+    pub(super) frame: Option<FrameReport>,
     /// To be removed when the answer is given.
     pub(super) checkpoint: Checkpoint,
 }
@@ -42,7 +46,7 @@ impl OwnAnalysis {
         structure: &Structure,
         (file, source): (&ResultFile, &StudyOfResult),
         question: &Question<'_>,
-        (options, records): (&DesignOptions, ShakenRecords),
+        (options, records): (&DesignOptions, (ShakenRecords, Option<Pairs>)),
         events: &dyn Events,
     ) -> Result<Self, DesignError> {
         let Question { place, weights, target_per_year } = *question;
@@ -50,10 +54,13 @@ impl OwnAnalysis {
         let analysis = DesignAnalysis::from_structure(structure, source, records, options)?;
         let name = job_name("design", structure);
         let job = ResultJob { result: &source.path, name: &name };
-        let (analysed, checkpoint) = job.results(analysis.work(source, measure, &name)?, &options.shards, events)?;
+        let (analysed, checkpoint) =
+            job.results(analysis.work(source, (place, target_per_year), &name)?, &options.shards, events)?;
         let set = &analysis.records.set;
-        let mut stripes = analysed.into_iter().map(|analysed| Stripes::new(&measure.plan, set, analysed));
-        let (own, of_uncertain) = (stripes.next().ok_or(JobError::Interrupted)?, stripes.next());
+        let mut analysed = analysed.into_iter();
+        let own = Stripes::new(&measure.plan, set, analysed.next().ok_or(JobError::Interrupted)?);
+        let of_frame = analysis.frame.as_ref().map(|_| [analysed.next(), analysed.next()]);
+        let of_uncertain = analysed.next().map(|analysed| Stripes::new(&measure.plan, set, analysed));
         let scatter = Scatter::from_file(file)?;
         let rate = (target_per_year, source.study.risk.years);
         let hazard = Hazard::from_file(file, (place.name, place.site), (measure, &source.study))?;
@@ -67,13 +74,32 @@ impl OwnAnalysis {
             }
             _ => None,
         };
-        Ok(Self { exact, uncertainty, checkpoint })
+        let frame = match (&analysis.frame, of_frame) {
+            (Some(frame), Some([Some(wobbling), Some(planar)])) => {
+                let question = FrameQuestion {
+                    places: &levels_for(measure, place.site, target_per_year),
+                    place,
+                    weights,
+                    hazard: &hazard,
+                    scatter: &scatter,
+                    target_per_year,
+                    years: source.study.risk.years,
+                    capacity_m: capacity_m(&structure.system),
+                    safety_factor: options.safety_factor,
+                };
+                Some(question.answer(&frame.peaks([&wobbling, &planar]))?)
+            }
+            _ => None,
+        };
+        Ok(Self { exact, uncertainty, frame, checkpoint })
     }
 }
 
 /// The oscillators of a structure, and the records that shake them.
 pub(super) struct DesignAnalysis<'a> {
     records: ShakenRecords,
+    /// The frame itself; none of a structure that cannot wobble, and of a proxy.
+    frame: Option<OwnFrame>,
     sweep: Sweep,
     systems: Vec<System>,
     /// The structures that it may be; none where all of it is known, and with repaired weights.
@@ -84,7 +110,7 @@ impl<'a> DesignAnalysis<'a> {
     pub(super) fn from_structure(
         structure: &'a Structure,
         source: &StudyOfResult,
-        records: ShakenRecords,
+        (records, pairs): (ShakenRecords, Option<Pairs>),
         options: &DesignOptions,
     ) -> Result<Self, DesignError> {
         let sweep = Sweep::from_structure(structure, &source.study)?;
@@ -92,19 +118,28 @@ impl<'a> DesignAnalysis<'a> {
         let restitution = restitution(structure, &source.study);
         let uncertain =
             if is_asked { Uncertain::from_structure(structure, restitution, records.count())? } else { None };
-        Ok(Self { systems: sweep.systems(), sweep, uncertain, records })
+        let frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
+        Ok(Self { systems: sweep.systems(), sweep, uncertain, frame, records })
     }
 
-    /// Their stripes of one measure, then those of the structures that it may be.
+    /// Their stripes by one measure, then those of the frame for a demand of the rate `target_per_year`, then those of
+    /// the structures that it may be.
     pub(super) fn work(
         &self,
         source: &StudyOfResult,
-        measure: &SpectraOfResult,
+        (place, target_per_year): (Place<'_>, f64),
         title: &str,
     ) -> Result<Work<'_>, DesignError> {
+        let measure = place.measure;
         let plan = plan_stripes(&source.study, &measure.plan, &self.records.set, &self.systems)?;
         let label = measure.measure().label().to_owned();
         let mut plans = vec![LabelledPlan { label, remark: None, plan, motions: &self.records.motions, known: None }];
+        if let Some(frame) = &self.frame {
+            let of_study = &measure.plan.levels;
+            let places = levels_for(measure, place.site, target_per_year);
+            let levels: Vec<f64> = places.iter().map(|&place| of_study[place]).collect();
+            plans.extend(frame.plans(&self.records, (measure.measure(), &levels))?);
+        }
         if let Some(uncertain) = &self.uncertain {
             let study = (measure.measure().label(), &source.study);
             plans.push(uncertain.plan(study, &measure.plan, &self.records)?);

@@ -2,15 +2,16 @@
 
 use uplift_engine::analysis::{Analysed, LabelledPlan, Work};
 use uplift_frame::{ColumnShape, FrameError, Model, RockingFrame};
-use uplift_ida::{Peaks, ShakenFrame, StripeRecord, System};
-use uplift_inputs::{Record, rocking_frame};
+use uplift_ida::{Peaks, StripeRecord, System};
+use uplift_inputs::rocking_frame;
 use uplift_job::checksum::motion_key;
 use uplift_job::text::thousands;
-use uplift_motion::{Accelerogram, Component, Direction, Horizontal, RecordPair};
+use uplift_motion::{Component, Direction, Horizontal, RecordPair};
 use uplift_study::{Structure, UniformRiskStudy};
-use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_stripes, seen, shaken_upwards, stripes_of};
+use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_stripes, shaken_upwards, stripes_of};
 
 use super::super::opening::{ShakenRecords, required};
+use super::super::own_frame::{Pairs, in_the_plane_of_records, modelled};
 use super::super::sweep::{OF_STUDY, OWN, Sweep};
 use crate::error::DesignError;
 
@@ -20,15 +21,15 @@ pub(super) struct FrameAnalysis {
     /// Velocity after over before an impact of the planar model, and where that comes from.
     pub(super) restitution: (f64, &'static str),
     pub(super) records: ShakenRecords,
-    pub(super) pairs: Vec<RecordPair>,
+    pub(super) pairs: Pairs,
     study: UniformRiskStudy,
     /// The wobbling frame; none where it is not computed.
     wobbling: Vec<System>,
     planar: Vec<System>,
     /// The study's oscillator of zero stiffness at the structure's strength, and the structure's own.
     oscillators: Vec<System>,
-    /// Keys of the motions of pairs and of their components.
-    keys: [Vec<String>; 2],
+    /// Keys of the components of the pairs.
+    component_keys: Vec<String>,
 }
 
 /// Peaks of every model, m, `[record, level]`.
@@ -53,9 +54,7 @@ impl FrameAnalysis {
         let frame = rocking_frame(structure)?;
         let own = structure.description.restitution;
         let restitution = own.map_or((frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
-        let of = |model: Model, restitution: f64| {
-            System::Frame(Box::new(ShakenFrame { frame: frame.clone(), model, restitution }))
-        };
+        let of = |model: Model, restitution: f64| modelled(&frame, (model, restitution), structure.rest_amplitude_rad);
         let wobbling = match (wanted, frame.shape()) {
             (Some(Model::Wobbling), ColumnShape::Rectangle) => return Err(FrameError::RectangleWobbles.into()),
             (Some(Model::Planar), _) | (None, ColumnShape::Rectangle) => vec![],
@@ -65,15 +64,14 @@ impl FrameAnalysis {
         let oscillators =
             [OF_STUDY, OWN].map(|place| System::Oscillator(sweep.oscillators[place].clone())).into_iter().collect();
         let both = |pair: &RecordPair| [&pair.h1, &pair.h2].map(motion_key);
-        let components: Vec<String> = pairs.iter().flat_map(both).collect();
-        let joint = components.chunks(2).map(|pair| pair.join(" and ")).collect();
+        let component_keys = pairs.iter().flat_map(both).collect();
         Ok(Self {
             planar: vec![of(Model::Planar, restitution.0)],
             frame,
             restitution,
-            keys: [joint, components],
+            component_keys,
             records: ShakenRecords::from_set(set),
-            pairs,
+            pairs: Pairs::new(pairs, source.study.records.component.records_per_pair()),
             study: source.study.clone(),
             wobbling,
             oscillators,
@@ -85,22 +83,17 @@ impl FrameAnalysis {
     pub(super) fn once_a_run(&self, demands: &Demands) -> Vec<f64> {
         let Some(wobbling_m) = &demands.wobbling_m else { return demands.planar_m.clone() };
         let levels = wobbling_m.len() / self.records.count().max(1);
-        wobbling_m.chunks_exact(levels.max(1)).step_by(self.per_pair()).flatten().copied().collect()
+        wobbling_m.chunks_exact(levels.max(1)).step_by(self.pairs.per_pair).flatten().copied().collect()
     }
 
     /// Pairs that move along one line, so that a second component is missing.
     pub(super) fn without_second(&self) -> Vec<&str> {
-        self.pairs.iter().filter(|pair| pair.h1 == pair.h2).map(|pair| pair.id.as_str()).collect()
-    }
-
-    /// Records of a pair.
-    fn per_pair(&self) -> usize {
-        self.study.records.component.records_per_pair()
+        self.pairs.all.iter().filter(|pair| pair.h1 == pair.h2).map(|pair| pair.id.as_str()).collect()
     }
 
     /// The pair of every record.
     pub(super) fn pair_of(&self) -> Vec<usize> {
-        (0..self.records.count()).map(|record| record / self.per_pair()).collect()
+        (0..self.records.count()).map(|record| record / self.pairs.per_pair).collect()
     }
 
     /// Whether the records of the study are no components of pairs, but pairs seen from azimuths.
@@ -108,47 +101,25 @@ impl FrameAnalysis {
         matches!(self.study.records.component, Component::Rotated(_))
     }
 
-    /// The vertical component of every pair, each so `many` times; none where the study does not ask for it.
-    fn verticals(&self, many: usize) -> Vec<&Accelerogram> {
-        let of_pair =
-            self.records.set.records.iter().step_by(self.per_pair()).filter_map(|record| record.vertical.as_ref());
-        of_pair.flat_map(|vertical| std::iter::repeat_n(&vertical.accelerogram, many)).collect()
-    }
-
     /// The stripes of every model by one measure.
     pub(super) fn work<'a>(&'a self, measure: &SpectraOfResult, title: &str) -> Result<Work<'a>, DesignError> {
         let plan = &measure.plan;
-        // both records of a pair have the intensity of the pair
-        let intensity = |pair: usize| self.records.set.records[pair * self.per_pair()].intensity(plan.measure);
-        let amplitude = |pair: usize| plan.measure.amplitude(intensity(pair));
+        let (set, at) = (&self.records.set, (plan.measure, &plan.levels[..]));
         let mut plans = Vec::new();
         if !self.wobbling.is_empty() {
-            let record = |(index, pair): (usize, &'a RecordPair)| StripeRecord {
-                id: &pair.id,
-                accelerogram: &pair.h1,
-                intensity: amplitude(index),
-            };
-            let records = self.pairs.iter().enumerate().map(record).collect();
-            let stripes = stripes_of((plan.measure, &plan.levels), records, &self.wobbling, true)?;
-            let stripes = stripes.across(self.pairs.iter().map(|pair| &pair.h2).collect())?;
-            plans.push(labelled(shaken_upwards(stripes, self.verticals(1))?, "pairs", &self.keys[0]));
+            plans.push(labelled(self.pairs.shaking(set, at, &self.wobbling)?, "pairs", &self.pairs.keys));
         }
         let of_pair = |(index, pair): (usize, &'a RecordPair)| {
-            let intensity = amplitude(index);
+            let intensity = self.pairs.amplitude(set, plan.measure, index);
             [&pair.h1, &pair.h2].map(|accelerogram| StripeRecord { id: &pair.id, accelerogram, intensity })
         };
-        let components = self.pairs.iter().enumerate().flat_map(of_pair).collect();
-        let stripes = stripes_of((plan.measure, &plan.levels), components, &self.planar, true)?;
-        plans.push(labelled(shaken_upwards(stripes, self.verticals(2))?, "components", &self.keys[1]));
+        let components = self.pairs.all.iter().enumerate().flat_map(of_pair).collect();
+        let stripes = stripes_of(at, components, &self.planar, true)?;
+        let stripes = shaken_upwards(stripes, self.pairs.verticals(set, 2))?;
+        plans.push(labelled(stripes, "components", &self.component_keys));
         if self.is_rotated() {
-            let record = |record: &'a Record| StripeRecord {
-                id: &record.id,
-                accelerogram: &record.accelerogram,
-                intensity: plan.measure.amplitude(record.intensity(plan.measure)),
-            };
-            let records = self.records.set.records.iter().map(record).collect();
-            let stripes = stripes_of((plan.measure, &plan.levels), records, &self.planar, true)?;
-            plans.push(labelled(seen(stripes, &self.records.set)?, "rotated records", &self.records.motions));
+            let stripes = in_the_plane_of_records(set, at, &self.planar)?;
+            plans.push(labelled(stripes, "rotated records", &self.records.motions));
         }
         let oscillators = plan_stripes(&self.study, plan, &self.records.set, &self.oscillators)?;
         plans.push(labelled(oscillators, "records", &self.records.motions));
@@ -170,7 +141,7 @@ impl FrameAnalysis {
                 .flat_map(|record| peaks.row_m(motion_of(record), system).iter().copied())
                 .collect()
         };
-        let pair = |record: usize| record / self.per_pair();
+        let pair = |record: usize| record / self.pairs.per_pair;
         let is_second =
             |record: usize| self.records.set.records[record].direction == Direction::Component(Horizontal::H2);
         let component = |record: usize| 2 * pair(record) + usize::from(is_second(record));
@@ -179,7 +150,7 @@ impl FrameAnalysis {
             [wobbling.at_m([pair, 0, level]), one.max(other)]
         };
         let directions_m = wobbling.as_ref().zip(planar.as_ref()).map(|(wobbling, planar)| {
-            let cells = (0..self.pairs.len()).flat_map(|pair| (0..levels).map(move |level| (pair, level)));
+            let cells = (0..self.pairs.all.len()).flat_map(|pair| (0..levels).map(move |level| (pair, level)));
             cells.map(|(pair, level)| direction(wobbling, planar, pair, level)).collect()
         });
         Demands {

@@ -59,7 +59,7 @@ pub(super) fn findings(
             .map(|(row_m, system)| (row_m, Event::BeyondCapacity.threshold_m(system).unwrap_or(f64::INFINITY))),
     )?;
     let rate = |site: &SiteQuestions<'_>, of: &PooledDemand, threshold_m: f64| -> Result<AleatoryResult, DesignError> {
-        let bands = rate_bands(of, site.hazard, &scatter, threshold_m)?;
+        let bands = rate_bands(of, (site.hazard, None), &scatter, threshold_m)?;
         Ok(AleatoryResult {
             value: RiskCurve::new(of, site.hazard.mean)?.mean_annual_frequency(threshold_m)?,
             at_most_per_year: None,
@@ -74,7 +74,7 @@ pub(super) fn findings(
         Event::Demand(target_per_year) => {
             let factor = uncertain.participation;
             let ordinate = RiskCurve::new(&demand, site.hazard.mean)?.exact_ordinate(target_per_year)?;
-            let bands = demand_bands(&demand, site.hazard, &scatter, (target_per_year, factor, None))?;
+            let bands = demand_bands(&demand, (site.hazard, None), &scatter, (target_per_year, factor, None))?;
             Ok(AleatoryResult {
                 value: factor * ordinate.displacement_m,
                 at_most_per_year: None,

@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn what_few_samples_make_of_a_share_is_said() {
+    fn a_share_outside_its_range_is_marked_as_of_few_samples() {
         assert_eq!(share(&of(0.4, 0.2, 0.1)), "capacity 50 ± 10 % (alone 40 ± 20 %)");
         assert_eq!(share(&of(1.1, 0.2, 0.1)), "capacity 50 ± 10 % (alone 110 ± 20 %) (few samples)");
         assert_eq!(share(&of(-0.04, 0.2, 0.1)), "capacity 50 ± 10 % (alone -4 ± 20 %) (few samples)");
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_run_shows_is_told_by_its_bound() {
+    fn zero_counts_are_reported_as_a_bound() {
         assert_eq!(shown(0.0, Some(1.23e-5), "1/yr"), "at most 1.2e-5 per year, for no run shows it");
         assert_eq!(shown(0.0, None, "1/yr"), "cannot happen");
         assert_eq!(shown(0.0, None, "m"), "0.0000 m");

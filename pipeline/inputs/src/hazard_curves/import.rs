@@ -23,7 +23,7 @@ use check::{check_weights, one_site, remarks};
 use text::{curve_text, file_stem, study_lines};
 
 /// Distance of a site from the place asked for that needs no word, km.
-const NEAR_KM: f64 = 10.0;
+pub(super) const NEAR_KM: f64 = 10.0;
 
 /// Which curves are taken, and where they go.
 #[derive(Debug, Clone, PartialEq)]

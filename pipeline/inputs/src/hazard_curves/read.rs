@@ -10,6 +10,7 @@ use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_motion::{IntensityMeasure, STANDARD_GRAVITY_M_S2};
 
+use super::import::NEAR_KM;
 use crate::error::InputsError;
 
 /// Which curves of a file are read, and what a table does not say.
@@ -61,7 +62,8 @@ pub(super) fn read_file(
     let export = match curves_of(path, &options.site, events) {
         Ok(curves) => {
             if let Some(far) = curves.iter().filter_map(|curve| curve.distance_km).reduce(f64::max) {
-                events.note(&format!("{}: the nearest site is {far:.1} km away", path.display()));
+                let order = if far > NEAR_KM { " (--near takes longitude, then latitude)" } else { "" };
+                events.note(&format!("{}: the nearest site is {far:.1} km away{order}", path.display()));
             }
             return Ok(curves.into_iter().map(|exported| named(path, exported)).collect());
         }

@@ -48,7 +48,7 @@ fn of_another_result() {
 }
 
 #[test]
-fn a_table_is_known_by_what_stands_beside_it() {
+fn a_table_is_recognised_by_the_metadata_beside_it() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.csv");
     let beside = metadata_path(&path);

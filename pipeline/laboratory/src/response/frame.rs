@@ -203,6 +203,9 @@ pub fn frame_response(
 ) -> Result<FrameResponseReport, LaboratoryError> {
     let frame = rocking_frame(structure)?;
     let model = model_of(&frame, options.model);
+    // rest of the planar model is proved
+    let own = structure.rest_amplitude_rad.filter(|_| model == Model::Wobbling);
+    let options = &FrameResponseOptions { rest_amplitude_rad: options.rest_amplitude_rad.or(own), ..options.clone() };
     if options.h1.is_none() && options.h2.is_none() {
         return Err(JobError::Usage(
             "nothing shakes the frame: give --h1 or --h2 or both, the horizontal components".to_owned(),

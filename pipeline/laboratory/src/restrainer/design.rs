@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_design::{DesignOptions, design as design_by_spectrum};
+use uplift_design::{DesignOptions, FrameReport, design as design_by_spectrum};
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
@@ -11,7 +11,7 @@ use uplift_job::table::{ColumnsOf, write_table};
 use uplift_statics::selection::{select, stopper_yield_force_n};
 use uplift_statics::{Candidate, Imperfections, Limits, Ranking, StaticsError, Target, TendonPath, Tolerance};
 use uplift_structure::{Kind, StructureDescription};
-use uplift_study::Structure;
+use uplift_study::{ColumnShape, Structure};
 
 use super::catalogue;
 use crate::error::LaboratoryError;
@@ -139,6 +139,12 @@ pub struct RestrainerDesign {
     pub stacks: Vec<Candidate>,
     /// Each of these at the demand; none where the target is no spectrum's.
     pub at_demand: Vec<AtDemand>,
+    /// The structure with the first of these as a frame that wobbles; none where it cannot, by its proxy, and where the
+    /// target is no spectrum's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame: Option<FrameReport>,
+    /// Whether the verdict is that of the proxy of a frame that can wobble.
+    pub proxy: bool,
     /// A stopper for each of these; none was asked for where there is none.
     pub stoppers: Vec<StopperReport>,
     /// The stack that the tolerances are of, as [`stack_name`] calls it.
@@ -220,6 +226,7 @@ pub fn design(
         None => Vec::new(),
         Some(demand_m) => stacks.iter().map(|stack| at_demand(&with(stack)?, demand_m)).collect::<Result<_, _>>()?,
     };
+    let frame = with_stack(structure, &with(&stacks[0])?, &stacks[0], options, events)?;
     let (duct_gap_m, tendon_length_m) = match limits.path {
         TendonPath::Shifted { duct_gap_m, tendon_length_m } => (duct_gap_m, tendon_length_m),
         TendonPath::Column | TendonPath::Foundation => {
@@ -251,6 +258,10 @@ pub fn design(
         found: all.len(),
         stacks,
         at_demand,
+        proxy: matches!(options.target, DesignTarget::Spectrum { .. })
+            && structure.column_shape == ColumnShape::Cylinder
+            && frame.is_none(),
+        frame,
         stoppers,
         tolerances_of,
         tolerances,
@@ -262,6 +273,29 @@ pub fn design(
 fn at_demand(held: &uplift_statics::RestrainedColumns, demand_m: f64) -> Result<AtDemand, LaboratoryError> {
     let state = held.at_displacement(demand_m)?;
     Ok(AtDemand { tendon_n: state.tendon_n, spring_m: state.spring_m.unwrap_or(0.0) })
+}
+
+/// What the frame itself says of a structure with a stack in its columns, which are `held` by it: its demand by the
+/// result of the target, and whether the stack's capacity is enough.
+fn with_stack(
+    structure: &Structure,
+    held: &uplift_statics::RestrainedColumns,
+    stack: &Candidate,
+    options: &RestrainerDesignOptions,
+    events: &dyn Events,
+) -> Result<Option<FrameReport>, LaboratoryError> {
+    let DesignTarget::Spectrum { result, options: design } = &options.target else { return Ok(None) };
+    let Some(capacity_m) = stack.capacity_m.filter(|_| !design.proxy) else { return Ok(None) };
+    if structure.column_shape != ColumnShape::Cylinder {
+        return Ok(None);
+    }
+    let description = StructureDescription {
+        tendon_stiffness_n_m: structure.description.tendon_stiffness_for_capacity_n_m(capacity_m)?,
+        ..structure.description
+    };
+    let stacked = resolved(structure, &description, Some(held.clone()))?;
+    let design = DesignOptions { spectrum_only: false, ..(**design).clone() };
+    Ok(design_by_spectrum(&stacked, result, &design, events)?.frame)
 }
 
 /// What a stack is called: packets in alternate sense, discs in each where there are several, the disc.
@@ -366,11 +400,20 @@ fn without_restrainers(structure: &Structure) -> Result<Structure, LaboratoryErr
         ..structure.description
     };
     // a description that was one of a restrained frame is one of a free frame
+    resolved(structure, &description, None)
+}
+
+/// The structure with another description, and columns.
+fn resolved(
+    structure: &Structure,
+    description: &StructureDescription,
+    columns: Option<uplift_statics::RestrainedColumns>,
+) -> Result<Structure, LaboratoryError> {
     let system = description.resolve().map_err(|mistakes| match mistakes.into_iter().next() {
         Some(mistake) => LaboratoryError::Structure(mistake),
         None => JobError::input(structure.name()).into(),
     })?;
-    Ok(Structure { description, system, columns: None, ..structure.clone() })
+    Ok(Structure { description: *description, system, columns, ..structure.clone() })
 }
 
 /// What to say where no stack meets the target: what comes nearest without the limits.

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 use uplift_validation::{
-    AndersonDarling, BandRule, Bands, CramerVonMises, Evidence, KolmogorovSmirnov, MannWhitney, Pairs, Quantiles,
-    Resampling, Sample, ValidationError, bands, detectable_factor, energy_distance, median_ratio_band, permutation_p,
-    wasserstein_distance,
+    AndersonDarling, BandRule, Bands, CramerVonMises, Evidence, KolmogorovSmirnov, MOST_DRAWN, MannWhitney, Pairs,
+    Quantiles, Resampling, Sample, ValidationError, bands, detectable_factor, energy_distance, median_ratio_band,
+    permutation_p, wasserstein_distance,
 };
 
 use super::join::Peers;
@@ -13,6 +13,12 @@ use super::run::{PRule, ValidateOptions};
 
 /// Replicates of the power: its standard error is then below 1 %.
 const POWER_REPLICATES: u32 = 2000;
+
+/// Memory of the statistics of a group of at most so many peaks of either kind, bytes: the draws of its power, and some
+/// twenty numbers a peak.
+pub(super) fn memory_of_group(peaks: usize) -> usize {
+    2 * 8 * (POWER_REPLICATES as usize * peaks.min(MOST_DRAWN) + 20 * peaks)
+}
 
 /// Peaks of which only a limit is known.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -36,6 +42,8 @@ pub struct GroupReport {
     pub measured: usize,
     /// Computed peaks.
     pub computed: usize,
+    /// Replicates of bands, and of swaps: fewer than asked for of very many peaks.
+    pub replicates: u32,
     /// Distance of the distributions, p by three rules.
     pub kolmogorov_smirnov: KolmogorovSmirnov,
     /// The p of the rule that was asked for.
@@ -103,11 +111,12 @@ impl GroupReport {
         peers: &Peers,
         are_pairs: bool,
         options: &ValidateOptions,
+        stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<Self, ValidationError> {
         let values = [&peers.measured, &peers.computed]
             .map(|peaks| peaks.iter().map(|peak| peak.ranked()).collect::<Vec<f64>>());
         let [measured, computed] = [Sample::new(values[0].clone())?, Sample::new(values[1].clone())?];
-        let resampling = Resampling { replicates: options.replicates, seed: options.seed };
+        let resampling = Resampling { replicates: options.replicates, seed: options.seed, stop };
         let test = KolmogorovSmirnov::of(&measured, &computed);
         let p = match options.p_rule {
             PRule::Exact => test.p_exact,
@@ -115,7 +124,7 @@ impl GroupReport {
             PRule::Kstest2 => test.p_kstest2,
         };
         let dispersion = dispersion(&values);
-        let power = Resampling { replicates: POWER_REPLICATES, seed: options.seed };
+        let power = Resampling { replicates: POWER_REPLICATES, seed: options.seed, stop };
         let detectable = dispersion
             .map(|wide| detectable_factor((measured.len(), computed.len()), wide, options.significance, power))
             .transpose()?
@@ -123,7 +132,7 @@ impl GroupReport {
         let pair_bands = are_pairs.then(|| bands(&values[0], &values[1], resampling)).transpose()?;
         let median_error_band = match pair_bands {
             Some(bands) => bands.median_ratio,
-            None => median_ratio_band(&measured, &computed, resampling),
+            None => median_ratio_band(&measured, &computed, resampling)?,
         };
         let pairs = are_pairs.then(|| pairs(peers, &values)).transpose()?;
         // of what is not defined there is no band
@@ -140,6 +149,7 @@ impl GroupReport {
         let at = distinct_finite(&measured);
         Ok(Self {
             of,
+            replicates: resampling.of_values(measured.len().max(computed.len())),
             measured: measured.len(),
             computed: computed.len(),
             p,
@@ -288,7 +298,7 @@ mod tests {
             measured: vec![Finite(0.1), Above(0.3), Overturned, Above(0.3)],
             computed: vec![Finite(0.12), Overturned, Overturned, Finite(0.31)],
         };
-        let report = GroupReport::from_peaks(Vec::new(), &peers, true, &ValidateOptions::default()).unwrap();
+        let report = GroupReport::from_peaks(Vec::new(), &peers, true, &ValidateOptions::default(), &|| false).unwrap();
         let pairs = report.pairs.unwrap();
         assert_eq!((pairs.collapses.both, pairs.collapses.computed_only, pairs.collapses.none), (1, 1, 2));
         assert_eq!((report.measured_collapses, report.computed_collapses), (1, 2));

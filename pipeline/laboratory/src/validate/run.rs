@@ -7,10 +7,11 @@ use serde::Serialize;
 use uplift_ida::Watch;
 use uplift_job::JobError;
 use uplift_job::events::{Events, Progress};
+use uplift_job::machine::require_memory;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_validation::{BandRule, ValidationError, holm_adjusted};
 
-use super::group::GroupReport;
+use super::group::{GroupReport, memory_of_group};
 use super::join::{Joined, Unmatched, as_samples, by_key};
 use super::peaks::{Peaks, unit_of};
 use super::write::{self, COLUMN};
@@ -19,6 +20,8 @@ use crate::error::LaboratoryError;
 /// Groups beyond which a column is not meant to be grouped by.
 const MOST_GROUPS: usize = 400;
 const MOST_REPLICATES: u32 = 10_000_000;
+/// Memory for each byte of the tables: rows, keys, pairs of them, and what the threads of their reader set apart.
+const MEMORY_OF_A_BYTE: u64 = 80;
 /// The column that the key stands in where none is named.
 const USUAL_KEY: &str = "exc_id";
 
@@ -140,12 +143,18 @@ impl ValidateReport {
 pub fn validate(options: &ValidateOptions, events: &dyn Events) -> Result<ValidateReport, LaboratoryError> {
     check(options)?;
     let keys = if options.key.is_empty() { vec![USUAL_KEY.to_owned()] } else { options.key.clone() };
+    let length = |file: &Path| std::fs::metadata(file).map_or(0, |data| data.len());
+    let input = length(&options.measured).saturating_add(length(&options.computed));
+    require_memory(input.saturating_mul(MEMORY_OF_A_BYTE), "the tables")?;
     let read = |what, file: &Path| Peaks::read(what, file, &options.value, &keys, &options.by);
     let (measured, computed) = (read("measured", &options.measured)?, read("computed", &options.computed)?);
     check_columns(options, &measured, &computed)?;
     let are_pairs = measured.missing_keys.is_empty() && computed.missing_keys.is_empty();
     let (joined, unmatched) = if are_pairs { by_key(&measured, &computed)? } else { as_samples(&measured, &computed)? };
     let wanted = groups(&joined, &options.by)?;
+    let at_once = wanted.len().min(rayon::current_num_threads());
+    let most = measured.rows.len().max(computed.rows.len());
+    require_memory((at_once * memory_of_group(most)) as u64, "the statistics")?;
     let progress = Progress::begin(events, "groups", "groups", wanted.len() as u64);
     let found: Vec<Option<Result<GroupReport, ValidationError>>> = wanted
         .into_par_iter()
@@ -154,7 +163,7 @@ pub fn validate(options: &ValidateOptions, events: &dyn Events) -> Result<Valida
             if progress.cancelled() || peers.measured.is_empty() || peers.computed.is_empty() {
                 return None;
             }
-            let group = GroupReport::from_peaks(of, &peers, are_pairs, options);
+            let group = GroupReport::from_peaks(of, &peers, are_pairs, options, &|| progress.cancelled());
             progress.finished(1);
             Some(group)
         })
@@ -245,6 +254,9 @@ fn groups(joined: &Joined, by: &[String]) -> Result<Vec<Vec<Option<String>>>, La
             if !values.contains(&&row[place]) {
                 values.push(&row[place]);
             }
+            if values.len() > MOST_GROUPS {
+                return Err(too_many_groups(by));
+            }
         }
         // of one value alone, all is that value: a group twice would count twice in Holm's p
         let all = (place == 0 && values.len() > 1).then_some(None);
@@ -260,14 +272,15 @@ fn groups(joined: &Joined, by: &[String]) -> Result<Vec<Vec<Option<String>>>, La
             })
             .collect();
         if combinations.len() > MOST_GROUPS {
-            return Err(JobError::Usage(format!(
-                "--by {} makes more than {MOST_GROUPS} groups: name columns with few values",
-                by.join(",")
-            ))
-            .into());
+            return Err(too_many_groups(by));
         }
     }
     Ok(combinations)
+}
+
+fn too_many_groups(by: &[String]) -> LaboratoryError {
+    JobError::Usage(format!("--by {} makes more than {MOST_GROUPS} groups: name columns with few values", by.join(",")))
+        .into()
 }
 
 fn is_of(of: &[Option<String>], cells: &[String]) -> bool {
@@ -296,6 +309,12 @@ fn notes(options: &ValidateOptions, groups: &[GroupReport], unmatched: &Unmatche
             options.significance * groups.len() as f64,
             options.significance
         ));
+    }
+    if options.p_rule == PRule::Exact && groups.iter().any(|group| !group.kolmogorov_smirnov.is_exact) {
+        notes.push("very many peaks: p is Kolmogorov's, to which the exact p tends".to_owned());
+    }
+    if let Some(fewest) = groups.iter().map(|group| group.replicates).min().filter(|few| *few < options.replicates) {
+        notes.push(format!("very many peaks: bands are of {fewest} replicates"));
     }
     if groups.iter().any(|group| group.kolmogorov_smirnov.has_ties) {
         notes.push("some peaks are equal: the exact p of their groups is too large rather than too small".to_owned());

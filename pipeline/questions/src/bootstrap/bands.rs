@@ -103,14 +103,17 @@ pub struct RepairedBands {
     pub bands: SpectraBands,
     /// Share of the samples whose weights do not bring the site's hazard `[site, size]`.
     pub failed: Array<2>,
+    /// Those of the repaired spectra of all records there could be, and of another set.
+    pub inferred: InferredBands,
 }
 
 impl Bands {
     /// The same as a result has them.
     pub(super) fn stored(&self) -> MeasureBands {
-        let repaired = |RepairedBands { bands, failed }: &RepairedBands| StoredRepairedBands {
+        let repaired = |RepairedBands { bands, failed, inferred }: &RepairedBands| StoredRepairedBands {
             bands: bands.stored(),
             failed: failed.clone(),
+            inferred: Some(inferred.clone()),
         };
         MeasureBands {
             measure: self.measure,

@@ -3,7 +3,9 @@
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
-use uplift_bootstrap::{InferredLimits, ResamplingPlan, Unit, inferred_limits, units, units_in_sample};
+use uplift_bootstrap::{
+    InferredLimits, ResamplingPlan, Unit, inferred_limits, repaired_limits, units, units_in_sample,
+};
 use uplift_ida::Watch;
 use uplift_job::events::{Events, Progress};
 use uplift_job::{Array, JobError, is_stopped};
@@ -66,19 +68,22 @@ pub(super) fn compute(
         let key = measure.measure.key();
         let own: Vec<&StrengthBands> =
             finished.strengths.range((key, 0)..=(key, usize::MAX)).map(|(_, bands)| bands).collect();
-        let inferred = inferred_bands(stored, measure, (plan, pair_of), settings.confidence)
-            .map_err(|error| uplift_job::in_file(error, &stored.path))?;
-        let mut bands = gather_bands(stored, measure, plan, settings, (&own, inferred));
-        bands.repaired = source.reweighing.map(|_| {
+        let inferred = |reweighing| {
+            inferred_bands(stored, (measure, reweighing), (plan, pair_of), settings.confidence)
+                .map_err(|error| uplift_job::in_file(error, &stored.path))
+        };
+        let mut bands = gather_bands(stored, measure, plan, settings, (&own, inferred(None)?));
+        if source.reweighing.is_some() {
             let (shape, first) = (source.site_shape(), settings.first_strength(&stored.strengths));
             let own: Vec<Option<&SiteBands>> =
                 (0..stored.sites.len()).map(|site| finished.sites.get(&(key, site))).collect();
             let joint: Vec<Option<&JointSiteBands>> =
                 (0..stored.sites.len()).map(|site| finished.joint.get(&(key, site))).collect();
-            let mut repaired = gather_repaired(&own, shape, first, settings.simultaneous);
+            let inferred = inferred(source.reweighing)?;
+            let mut repaired = gather_repaired((&own, inferred), shape, first, settings.simultaneous);
             repaired.bands.joint = gather_joint(&joint, shape, first);
-            repaired
-        });
+            bands.repaired = Some(repaired);
+        }
         Ok(bands)
     };
     stored.measures.iter().map(of_measure).collect()
@@ -273,12 +278,12 @@ fn finished_before(source: &Source<'_>, checkpoint: &Checkpoint) -> Finished {
 }
 
 /// The bands of the spectra of one measure, from all its records, pair by pair or earthquake by earthquake as `plan`
-/// has it.
+/// has it; with `reweighing` those of its repaired spectra, NaN at sites without repair.
 ///
 /// - `pair_of`: the pair of each record, `[record]`: two components of a pair are not independent, and scatter as one.
 pub(super) fn inferred_bands(
     stored: &StoredStripes,
-    measure: &StoredMeasure,
+    (measure, reweighing): (&StoredMeasure, Option<&Reweighing>),
     (plan, pair_of): (&ResamplingPlan, &[usize]),
     confidence: f64,
 ) -> Result<InferredBands, QuestionsError> {
@@ -292,8 +297,14 @@ pub(super) fn inferred_bands(
     // [strength][site][poe, size]
     let of_strength = |strength: usize| -> Result<Vec<Vec<InferredLimits>>, QuestionsError> {
         let demand = measure.demand(strength)?;
-        let of_site = |weights| inferred_limits(&demand, weights, &units, targets, (&sizes, confidence));
-        Ok(measure.weights.iter().map(of_site).collect::<Result<_, _>>()?)
+        let asked = (&sizes[..], confidence);
+        let none = InferredLimits { truth_m: [f64::NAN; 2], prediction_m: [f64::NAN; 2] };
+        let of_site = |(site, weights)| match reweighing.map(|own| own.weights(measure.measure, site)) {
+            None => inferred_limits(&demand, weights, &units, targets, asked),
+            Some(Some(weights)) => repaired_limits(&demand, weights, &units, targets, asked),
+            Some(None) => Ok(vec![none; targets.len() * sizes.len()]),
+        };
+        Ok(measure.weights.iter().enumerate().map(of_site).collect::<Result<_, _>>()?)
     };
     let strengths: Vec<Vec<Vec<InferredLimits>>> =
         (0..stored.strengths.len()).into_par_iter().map(of_strength).collect::<Result<_, QuestionsError>>()?;

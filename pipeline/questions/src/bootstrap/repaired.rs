@@ -6,6 +6,7 @@
 use rayon::prelude::*;
 use uplift_bootstrap::{Band, Interval, ResamplingPlan, simultaneous_bands};
 use uplift_job::Array;
+use uplift_result::InferredBands;
 use uplift_risk::{PooledDemand, RecordSample};
 use uplift_uniform_risk::consistency::{RepairedAnalysis, Reweighed};
 
@@ -132,9 +133,9 @@ pub(super) fn failed_shares<'a>(drawn: &'a Reweighed, plan: &ResamplingPlan) -> 
 }
 
 /// The bands of all sites, in order, as arrays; with the two figures of Table 4.1, from the strength at `first` on; and
-/// where `simultaneous` with those of whole spectra, whether a site has some or not.
+/// where `simultaneous` with those of whole spectra, whether a site has some or not; `inferred` are of all sites.
 pub(super) fn gather_repaired(
-    sites: &[Option<&SiteBands>],
+    (sites, inferred): (&[Option<&SiteBands>], InferredBands),
     shape: SiteShape,
     first: usize,
     simultaneous: bool,
@@ -157,7 +158,7 @@ pub(super) fn gather_repaired(
     }
     let failed =
         Array::from_fn([sites.len(), sizes], |[site, size]| sites[site].map_or(f64::NAN, |own| own.failed[size]));
-    RepairedBands { bands, failed }
+    RepairedBands { bands, failed, inferred }
 }
 
 #[cfg(test)]
@@ -179,11 +180,13 @@ mod tests {
         assert_eq!(SiteBands::from_numbers(&numbers, shape, true), Some(bands.clone()));
         assert_eq!(SiteBands::from_numbers(&numbers, shape, false), None);
         assert_eq!(SiteBands::from_numbers(&numbers[1..], shape, true), None);
-        let gathered = gather_repaired(&[None, Some(&bands)], shape, 0, true);
+        let none_m = || [0; 2].map(|_| Array::from_fn([2, 1, 2, 2], |_| f64::NAN));
+        let inferred = || InferredBands { truth_m: none_m(), prediction_m: none_m() };
+        let gathered = gather_repaired((&[None, Some(&bands)], inferred()), shape, 0, true);
         assert!(gathered.failed[[0, 1]].is_nan() && gathered.failed[[1, 1]] == 0.25);
         assert_eq!(gathered.bands.lower_m.block([1, 0]), [1.0, 2.0, 3.0, 4.0]);
         // a measure by which no site is repaired has the same columns
-        let none = gather_repaired(&[None, None], shape, 0, true);
+        let none = gather_repaired((&[None, None], inferred()), shape, 0, true);
         assert_eq!(none.bands.simultaneous_m.map(|[lower, _]| lower.shape()), Some([2, 1, 2, 2]));
         // |1.5 − 1|/1 and |2.5 − 2|/2 of the first size, Eq. 4.9 takes the largest
         assert!((gathered.bands.error_of_median[[1, 0, 0]].unwrap() - 0.5).abs() < 1e-12);

@@ -7,11 +7,11 @@ use uplift_bootstrap::ResamplingPlan;
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_result::declared::Names;
+use uplift_result::declared::{Names, Quantity};
 use uplift_result::layout::{axis, limit_names};
 use uplift_result::{
-    BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, LockedResult, REPAIRED_BANDS,
-    SIMULTANEOUS_BANDS, SiteJointBands, StoredDraws, band_lengths, band_names, sign,
+    BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, InferredBands, JOINT_BANDS, LockedResult,
+    REPAIRED_BANDS, SIMULTANEOUS_BANDS, SiteJointBands, StoredDraws, band_lengths, band_names, sign,
 };
 use uplift_uniform_risk::StoredStripes;
 
@@ -97,6 +97,7 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
         if let Some(repaired) = &bands.repaired {
             let names = names(REPAIRED_BANDS);
             add_spectra_bands(writer, &names, &repaired.bands, &stored.sites)?;
+            INFERRED_BANDS.write(writer, &names, &lengths, &repaired.inferred)?;
             FAILED_SAMPLES.write_array(writer, &names, repaired.failed.values())?;
         }
     }
@@ -141,10 +142,14 @@ fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
         .build();
     let plain: Vec<&SpectraBands> = file.bands.iter().map(|bands| &bands.plain).collect();
     columns.extend(limit_columns("", &plain, file.settings.confidence));
-    columns.extend(inferred_columns(file.bands));
+    let inferred: Vec<&InferredBands> = file.bands.iter().map(|bands| &bands.inferred).collect();
+    columns.extend(inferred_columns("", &inferred));
     let repaired: Vec<&SpectraBands> =
         file.bands.iter().filter_map(|bands| bands.repaired.as_ref().map(|repaired| &repaired.bands)).collect();
     columns.extend(limit_columns("_consistent", &repaired, file.settings.confidence));
+    let inferred: Vec<&InferredBands> =
+        file.bands.iter().filter_map(|bands| Some(&bands.repaired.as_ref()?.inferred)).collect();
+    columns.extend(inferred_columns("_consistent", &inferred));
     columns.extend(joint_columns("_joint", &plain, file.settings.confidence));
     columns.extend(joint_columns("_consistent_joint", &repaired, file.settings.confidence));
     columns
@@ -169,15 +174,17 @@ fn joint_columns(suffix: &str, bands: &[&SpectraBands], confidence: f64) -> Vec<
     limit_names(confidence).into_iter().enumerate().map(column).collect()
 }
 
-/// The limits beyond the set of all measures.
-fn inferred_columns(bands: &[Bands]) -> impl Iterator<Item = Column> {
-    INFERRED_BANDS.quantities.iter().map(|quantity| {
-        let of_measure = |of: &Bands| {
-            let places = 0..of.plain.lower_m.values().len();
-            places.filter_map(|at| quantity.number(&of.inferred, at)).collect::<Vec<f64>>()
+/// The limits beyond the set of all measures, their names with `suffix` before the unit; none of no bands.
+fn inferred_columns(suffix: &str, bands: &[&InferredBands]) -> Vec<Column> {
+    let column = |quantity: &Quantity<InferredBands>| {
+        let of_measure = |of: &&InferredBands| {
+            let places = 0..of.truth_m[0].values().len();
+            places.filter_map(|at| quantity.number(of, at)).collect::<Vec<f64>>()
         };
-        Column::new(quantity.name.into(), bands.iter().flat_map(of_measure).collect::<Vec<f64>>())
-    })
+        let name = format!("{}{suffix}_m", quantity.name.trim_end_matches("_m"));
+        Column::new(name.into(), bands.iter().flat_map(of_measure).collect::<Vec<f64>>())
+    };
+    if bands.is_empty() { Vec::new() } else { INFERRED_BANDS.quantities.iter().map(column).collect() }
 }
 
 /// The limits of all measures, their names with `suffix` before the unit; none of no bands.

@@ -20,9 +20,9 @@ pub fn displacement_csv_paths(result: &Path) -> [PathBuf; 2] {
 /// All files but the result that a run of `study` with the result at `result` writes.
 pub fn tables(study: &DisplacementStudy, result: &Path) -> Vec<Output> {
     let [spectra, design] = displacement_csv_paths(result);
-    let tables =
-        [Output::new(spectra, OutputKind::Table("overturned")), Output::new(design, OutputKind::Table("quantity"))];
-    if study.output.csv { tables.into() } else { Vec::new() }
+    let spectra = Output::new(spectra, OutputKind::Table("overturned"));
+    let design = study.design.is_some().then(|| Output::new(design, OutputKind::Table("quantity")));
+    if study.output.csv { std::iter::once(spectra).chain(design).collect() } else { Vec::new() }
 }
 
 /// Write the tables of `outcome` and its `design` beside the result file `result`, and beside each where it comes from;

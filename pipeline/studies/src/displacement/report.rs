@@ -6,11 +6,12 @@ use serde::Serialize;
 use uplift_inputs::NamedSet;
 use uplift_job::alarm::Alarm;
 use uplift_job::study_run::RunHead;
-use uplift_result::DesignRow;
+use uplift_result::{DesignRow, ResultFile, StoredSet};
 use uplift_spectra::{MotionSet, Noisy};
-use uplift_study::{Kind, Structures};
+use uplift_study::{DisplacementStudy, Kind, Structures};
 
 use super::{DisplacementOutcome, printed};
+use crate::error::StudiesError;
 
 /// What a run tells.
 #[derive(Debug, Clone, Serialize)]
@@ -81,6 +82,17 @@ impl SetReport {
             median_pgv_cm_s: motions.median_pgv_cm_s(),
         }
     }
+
+    fn from_stored(set: &StoredSet) -> Self {
+        let records = usize::try_from(set.records).unwrap_or(usize::MAX);
+        Self {
+            name: set.name.clone(),
+            records,
+            motions: records.saturating_mul(2),
+            median_pga_g: set.median_pga_g,
+            median_pgv_cm_s: set.median_pgv_cm_s,
+        }
+    }
 }
 
 impl RunReport {
@@ -105,6 +117,44 @@ impl RunReport {
             percentiles: study.percentiles.to_vec(),
             spectra: spectra(outcome),
         }
+    }
+}
+
+impl RunReport {
+    /// The report on the result of `study` in `file`, with a `head`; none where an earlier version wrote it, which did
+    /// not repeat ordinates at neighbouring scale factors.
+    ///
+    /// # Errors
+    /// A file that is damaged or of another kind.
+    pub fn read(file: &ResultFile, study: &DisplacementStudy, head: RunHead) -> Result<Option<Self>, StudiesError> {
+        let stored = file.displacements()?;
+        let Some(rounding) = &stored.rounding else { return Ok(None) };
+        let design = file.design()?;
+        let mut spectra = Vec::new();
+        for (set, of_set) in stored.sets.iter().enumerate() {
+            for (scaling, to) in stored.scalings.iter().enumerate() {
+                for (by, scaled_by) in study.scaling.by.iter().enumerate() {
+                    spectra.push(SpectraReport {
+                        record_set: of_set.name.clone(),
+                        scaling: to.clone(),
+                        scaled_by: scaled_by.key(),
+                        percentile_m: stored.percentile_m.block([set, scaling, by]).to_vec(),
+                        rounding: rounding.percentile_m.block([set, scaling, by]).to_vec(),
+                    });
+                }
+            }
+        }
+        Ok(Some(Self {
+            head,
+            kind: Kind::Displacement.key(),
+            sets: stored.sets.iter().map(SetReport::from_stored).collect(),
+            analyses: stored.analyses,
+            has_design: design.is_some(),
+            design: design.map_or_else(Vec::new, |design| design.rows),
+            structures: study.structures.clone(),
+            percentiles: stored.percentiles,
+            spectra,
+        }))
     }
 }
 

@@ -7,7 +7,7 @@ use uplift_alarms::alarms;
 use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use uplift_ida::Shard;
 use uplift_inputs::RecordSets;
-use uplift_job::events::Events;
+use uplift_job::events::{Events, Silent};
 use uplift_job::study_run::Place;
 use uplift_result::earlier::Earlier;
 use uplift_result::{Provenance, ResultFile};
@@ -16,6 +16,7 @@ use uplift_study::DisplacementStudy;
 
 use super::report::RunReport;
 use super::rounding::rounding;
+use super::write::stored_motions;
 use super::{
     DisplacementOutcome, Inputs, carry_out_designs, needs, set_spectra, write_displacement_csv, write_displacements,
 };
@@ -84,7 +85,7 @@ pub fn run(
         warnings: &warnings,
         provenance: &provenance,
     };
-    let earlier = Earlier::keep(path, &provenance.study_digest)?;
+    let earlier = Earlier::keep(path, &provenance.study_digest, None)?;
     write_displacements(path, &outcome)?;
     earlier.set_aside(events)?;
     checkpoint.remove();
@@ -96,6 +97,28 @@ pub fn run(
         files.extend(write_displacement_csv(path, &outcome, &rows)?);
     }
     Ok(RunReport::from_outcome(&outcome, (rows, alarms(&file)?), files, place.start.elapsed().as_secs_f64()))
+}
+
+/// Whether the result in `file` was computed from the records of `study` as its manifest describes them.
+///
+/// # Errors
+/// Records that cannot be used; a file that is damaged or of another kind.
+pub fn is_of_records(file: &ResultFile, study: &DisplacementStudy) -> Result<bool, StudiesError> {
+    let inputs = Inputs::read(study, &Silent)?;
+    if file.head()?.input_checksums != checksums(&inputs.records) {
+        return Ok(false);
+    }
+    let motions = inputs.sets(study)?.motions;
+    let names = inputs.records.sets.iter().map(|set| &set.name);
+    if !names.eq(file.displacements()?.sets.iter().map(|set| &set.name)) {
+        return Ok(false);
+    }
+    for (set, motions) in inputs.records.sets.iter().zip(&motions) {
+        if !file.holds_motions(&set.name, &stored_motions(&inputs.records, set, motions))? {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 fn checksums(records: &RecordSets) -> BTreeMap<String, String> {

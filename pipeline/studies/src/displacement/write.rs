@@ -154,7 +154,7 @@ fn write_axes(
 }
 
 /// What a result holds of the motions of a set: two a record.
-fn stored_motions(records: &RecordSets, set: &NamedSet, motions: &MotionSet<'_>) -> Vec<StoredMotion> {
+pub(super) fn stored_motions(records: &RecordSets, set: &NamedSet, motions: &MotionSet<'_>) -> Vec<StoredMotion> {
     let components = records.records_of(set).flat_map(|record| [(record, 0), (record, 1)]);
     let of = |(motion, (record, which)): (&Motion<'_>, (&SetRecord, usize))| {
         let text = |key: &str| record.pair.metadata.get(key).cloned().unwrap_or_default();

@@ -2,7 +2,10 @@
 
 use serde::Serialize;
 use uplift_job::study_run::RunHead;
-use uplift_result::ShakeTable;
+use uplift_result::{ResultFile, ShakeTable};
+use uplift_study::Kind;
+
+use crate::error::StudiesError;
 
 /// What a run tells.
 #[derive(Debug, Clone, Serialize)]
@@ -15,4 +18,14 @@ pub struct RunReport {
     /// The tests.
     #[serde(flatten)]
     pub table: ShakeTable,
+}
+
+impl RunReport {
+    /// The report on the result in `file`, with a `head`.
+    ///
+    /// # Errors
+    /// A file that is damaged or of another kind.
+    pub fn read(file: &ResultFile, head: RunHead) -> Result<Self, StudiesError> {
+        Ok(Self { head, kind: Kind::ShakeTable.key(), table: file.shake_table()? })
+    }
 }

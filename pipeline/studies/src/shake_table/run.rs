@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use uplift_alarms::alarms;
-use uplift_job::events::Events;
+use uplift_job::events::{Events, Silent};
 use uplift_job::study_run::Place;
 use uplift_result::earlier::Earlier;
 use uplift_result::{Provenance, ResultFile};
@@ -38,7 +38,7 @@ pub fn run(study: &ShakeTableStudy, place: &Place<'_>, events: &dyn Events) -> R
     let mut provenance = provenance.of_result(path, &study.to_toml()?);
     provenance.wall_time_s = place.start.elapsed().as_secs_f64();
     let outcome = ShakeTableOutcome { study, table: &table, seconds, warnings: &warnings, provenance: &provenance };
-    let earlier = Earlier::keep(path, &provenance.study_digest)?;
+    let earlier = Earlier::keep(path, &provenance.study_digest, None)?;
     write_shake_table(path, &outcome)?;
     earlier.set_aside(events)?;
     let mut files = vec![path.to_owned()];
@@ -49,4 +49,14 @@ pub fn run(study: &ShakeTableStudy, place: &Place<'_>, events: &dyn Events) -> R
     let records = (table.records.as_str(), table.synthetic);
     let head = provenance.head(&study.title, records, alarms, files, place.start.elapsed().as_secs_f64());
     Ok(RunReport { head, kind: Kind::ShakeTable.key(), table })
+}
+
+/// Whether the result in `file` was computed from the structure, records and excitations of `study`.
+///
+/// # Errors
+/// Inputs that cannot be used; a file that is damaged or of another kind.
+pub fn is_of_inputs(file: &ResultFile, study: &ShakeTableStudy) -> Result<bool, StudiesError> {
+    let inputs = Inputs::read(study, &Silent)?;
+    let played = inputs.played().into_iter().map(|(excitation, _)| excitation);
+    Ok(file.head()?.input_checksums == inputs.checksums && played.eq(file.shake_table()?.excitations))
 }

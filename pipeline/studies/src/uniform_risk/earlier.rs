@@ -5,12 +5,14 @@ use std::path::Path;
 
 use uplift_engine::checkpoint::oscillator_key;
 use uplift_ida::{Axes, Cells};
-use uplift_inputs::RecordSet;
+use uplift_inputs::{Record, RecordSet, motion_keys};
 use uplift_labelled::{LabelledError, LabelledReader};
 use uplift_result::declared::of_measure;
 use uplift_result::layout::axis;
-use uplift_result::{FACTORS, IMPACTS, INTENSITY, MOTION_KEYS, PEAKS, intensity_names};
+use uplift_result::{FACTORS, IMPACTS, INTENSITY, MOTION_KEYS, PEAKS, ResultFile, intensity_names};
 use uplift_study::{MeasurePlan, UniformRiskStudy};
+
+use crate::error::StudiesError;
 
 /// An earlier result at the place of the one to come.
 pub struct EarlierStripes {
@@ -85,4 +87,26 @@ impl EarlierStripes {
         }
         Ok(())
     }
+}
+
+/// Whether the result in `file` was computed from these `records` as the manifest describes them: the motions, what
+/// they are scaled by, and their metadata.
+///
+/// # Errors
+/// A file that is damaged or of another kind.
+pub fn is_of_records(file: &ResultFile, study: &UniformRiskStudy, records: &[Record]) -> Result<bool, StudiesError> {
+    let kept = file.records()?;
+    let same = |kept: &[f64], own: &dyn Fn(&Record) -> f64| {
+        kept.iter().map(|value| value.to_bits()).eq(records.iter().map(|record| own(record).to_bits()))
+    };
+    let mut is_same = kept.motion_sha256 == motion_keys(records)
+        && same(&kept.pga_g, &|record| record.pga_g)
+        && same(&kept.pgv_cm_s, &|record| record.pgv_cm_s)
+        && same(&kept.magnitude, &|record| record.number("magnitude"))
+        && same(&kept.rrup_km, &|record| record.number("rrup_km"))
+        && same(&kept.vs30, &|record| record.number("vs30"));
+    for plan in &study.measures {
+        is_same &= file.oscillator_key(plan.measure)? == oscillator_key(study);
+    }
+    Ok(is_same)
 }

@@ -9,7 +9,7 @@ use uplift_inputs::{OtherHazard, RecordSet, SiteHazard, input_checksums, read_ha
 use uplift_job::events::Events;
 use uplift_job::study_run::Place;
 use uplift_result::earlier::Earlier;
-use uplift_result::{Provenance, ResultFile, StoredSpectra};
+use uplift_result::{Additions, Provenance, ResultFile, StoredSpectra};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::Answer;
 use uplift_uniform_risk::{
@@ -17,6 +17,7 @@ use uplift_uniform_risk::{
     uniform_risk_spectra,
 };
 
+use super::earlier::is_of_records;
 use super::plan::tell_mistaken_curves;
 use super::report::{MeasureReport, RunReport};
 use super::{Inputs, csv_paths, needs, site_table, write_csv, write_result};
@@ -97,8 +98,9 @@ pub fn run(
         warnings: &warnings,
         provenance: &provenance,
     };
-    let earlier = Earlier::keep(path, &provenance.study_digest)?;
-    write_result(path, &outcome)?;
+    let additions = valid_additions(&outcome, place)?;
+    let earlier = Earlier::keep(path, &provenance.study_digest, additions.as_ref())?;
+    write_result(path, &outcome, additions)?;
     earlier.set_aside(events)?;
     checkpoint.remove();
     let mut files = vec![path.to_owned()];
@@ -114,6 +116,17 @@ pub fn run(
     let head = provenance.head(&study.title, of_records, alarms(&file)?, files, seconds);
     let measures = stripes.iter().map(MeasureReport::new).collect();
     RunReport::read(&file, head, measures, Some((&consistency, &precisions)))
+}
+
+/// The additions to the earlier result that stay valid: of a result with other numbers, or of one that is written
+/// `again`, none.
+fn valid_additions(outcome: &ComputedStudy<'_>, place: &Place<'_>) -> Result<Option<Additions>, StudiesError> {
+    let Ok(file) = ResultFile::open(place.path) else { return Ok(None) };
+    let same_numbers = file.head()?.study_digest() == outcome.provenance.study_digest;
+    if place.options.again || !same_numbers || !is_of_records(&file, outcome.study, &outcome.records.records)? {
+        return Ok(None);
+    }
+    Ok(Some(Additions::valid_for(file, outcome.study)?))
 }
 
 /// All that a study computed, by measure where it depends on it.

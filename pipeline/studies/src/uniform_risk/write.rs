@@ -10,8 +10,8 @@ use uplift_motion::{Combination, IntensityMeasure};
 use uplift_result::declared::of_measure;
 use uplift_result::layout::{URS_PRECISION, axis};
 use uplift_result::{
-    DRAWN_QUANTITY, DRAWN_STRUCTURE, FACTORS, IMPACTS, INTENSITY, MOTION_KEYS, MeasureSpectra, Origin, PEAKS, RECORDS,
-    RISK_SURFACE, SHARES, StoredRecords, drawn_names, intensity_names, urs,
+    Additions, DRAWN_QUANTITY, DRAWN_STRUCTURE, FACTORS, IMPACTS, INTENSITY, MOTION_KEYS, MeasureSpectra, Origin,
+    PEAKS, RECORDS, RISK_SURFACE, SHARES, StoredRecords, drawn_names, intensity_names, urs,
 };
 use uplift_uniform_risk::consistency::Keep;
 
@@ -19,11 +19,15 @@ use super::ComputedStudy;
 use super::write_hazard::{write_branches, write_hazard, write_other_hazard, write_structures};
 use crate::error::StudiesError;
 
-/// Write `outcome` to `path`, atomically: an earlier file survives a failure.
+/// Write `outcome` to `path` with the `additions` to an earlier result, atomically: an earlier file survives a failure.
 ///
 /// # Errors
 /// Whatever keeps the file from being written, a full disk for instance.
-pub fn write_result(path: &Path, outcome: &ComputedStudy<'_>) -> Result<(), StudiesError> {
+pub fn write_result(
+    path: &Path,
+    outcome: &ComputedStudy<'_>,
+    additions: Option<Additions>,
+) -> Result<(), StudiesError> {
     let mut writer = LabelledWriter::create(path)?;
     write_root(&mut writer, outcome)?;
     write_axes(&mut writer, outcome)?;
@@ -34,7 +38,12 @@ pub fn write_result(path: &Path, outcome: &ComputedStudy<'_>) -> Result<(), Stud
     for (index, stored) in spectra.measures.iter().enumerate() {
         write_measure(&mut writer, outcome, index, stored)?;
     }
-    outcome.consistency.add(&mut writer, Keep::Exponents)?;
+    if !additions.as_ref().is_some_and(Additions::has_repair) {
+        outcome.consistency.add(&mut writer, Keep::Exponents)?;
+    }
+    if let Some(additions) = additions {
+        additions.write(&mut writer)?; // closes the earlier file, which is about to be replaced
+    }
     writer.finish()?;
     Ok(())
 }

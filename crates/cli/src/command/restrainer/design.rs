@@ -16,6 +16,7 @@ use crate::error::CommandError;
 use crate::show::{print_json, print_restrainer_design};
 use crate::terminal::Terminal;
 
+#[expect(clippy::struct_excessive_bools, reason = "each is an option")]
 #[derive(Debug, Args)]
 #[command(
     group = ArgGroup::new("target").required(true).multiple(false),
@@ -66,6 +67,9 @@ pub(super) struct DesignArguments {
         allow_negative_numbers = true, value_parser = number
     )]
     safety_factor: f64,
+    /// Judge the proxy alone, without the wobbling frame
+    #[arg(long, requires = "urs", help_heading = SPECTRUM)]
+    proxy: bool,
     #[command(flatten)]
     limits: LimitArguments,
     /// Spring deformation at which stoppers engage, m
@@ -191,7 +195,7 @@ impl DesignArguments {
                     risk: self.risk.asked(),
                     measure: self.measure,
                     safety_factor: self.safety_factor,
-                    spectrum_only: true,
+                    proxy: self.proxy,
                     ..DesignOptions::default()
                 }),
             },

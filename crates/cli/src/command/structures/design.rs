@@ -12,6 +12,7 @@ use crate::error::CommandError;
 use crate::show::{print_design, print_json, print_shard};
 use crate::terminal::Terminal;
 
+#[expect(clippy::struct_excessive_bools, reason = "each is an option")]
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  uplift design configs/structures/pier.toml --urs results/study.h5")]
 pub(crate) struct DesignArguments {
@@ -40,6 +41,9 @@ pub(crate) struct DesignArguments {
     /// Apply the rules to the spectrum without analysing the structure
     #[arg(long)]
     spectrum_only: bool,
+    /// Judge the proxy alone, without the wobbling frame
+    #[arg(long)]
+    proxy: bool,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -63,6 +67,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
         repaired: arguments.repaired,
         safety_factor: arguments.safety_factor,
         spectrum_only: arguments.spectrum_only,
+        proxy: arguments.proxy,
         shards: shards.clone(),
     };
     let structure = arguments.structure.load()?;

@@ -27,6 +27,9 @@ pub(crate) struct OverturningArguments {
     /// Coefficient of restitution of both models
     #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
     restitution: Option<f64>,
+    /// Count the proxy alone, without the wobbling frame
+    #[arg(long)]
+    proxy: bool,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -50,6 +53,7 @@ pub(crate) fn overturning(arguments: &OverturningArguments, terminal: &Terminal)
         site: arguments.site.clone(),
         measure: arguments.measure,
         restitution: arguments.restitution,
+        proxy: arguments.proxy,
         table: arguments.output.clone(),
         shards: shards.clone(),
         force: arguments.overwriting.force,

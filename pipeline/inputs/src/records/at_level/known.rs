@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn a_record_that_stands_twice_is_found_twice() {
+    fn a_repeated_record_is_found_twice() {
         let known = known(&[("a", "a/RSN5_A1.AT2", "a/RSN5_A2.AT2"), ("b", "b/RSN5_A1.AT2", "b/RSN5_A2.AT2")]);
         assert_eq!(known.find(&SelectedName::SequenceNumber(5), SelectedComponent::Pair), ["a", "b"]);
     }

@@ -1,0 +1,395 @@
+//! The frame of a structure itself, wobbling and in a plane, beside the oscillator that stands for it.
+//!
+//! `uplift risk` shakes a frame at every level of the study. A design needs one demand and two rates, so here the frame
+//! is shaken at [`LEVELS`] levels at most: evenly spaced in the logarithm of the intensity, from the level that is
+//! exceeded [`TIMES_TARGET`] times as often as the target to the last. Weaker shaking than that has no part in the
+//! demand.
+
+use serde::Serialize;
+use uplift_alarms::OwnRisk;
+use uplift_engine::analysis::{Analysed, LabelledPlan};
+use uplift_fragility::Stripes as Stripe;
+use uplift_frame::{ColumnShape, Model, RockingFrame};
+use uplift_ida::{Peaks, Plan, ShakenFrame, StripeRecord, System};
+use uplift_inputs::{Record, RecordSet, rocking_frame};
+use uplift_job::checksum::motion_key;
+use uplift_job::text::thousands;
+use uplift_motion::{Accelerogram, IntensityMeasure, RecordPair};
+use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
+use uplift_statics::RestrainedColumns;
+use uplift_study::Structure;
+use uplift_uniform_risk::{EventRisk, SpectraOfResult, seen, shaken_upwards, stripes_of};
+
+use super::certainty::{DemandBands, Scatter, demand_bands};
+use super::hazard::Hazard;
+use super::opening::{Place, ShakenRecords};
+use super::risk::{OVERTURNING_M, bounded, own_risk, risk_of_exceeding};
+use super::weights::SiteWeights;
+use crate::error::DesignError;
+
+/// Most levels at which a frame is shaken beside its oscillator.
+const LEVELS: usize = 28;
+/// How many times as often as the target the first of them is exceeded.
+const TIMES_TARGET: f64 = 30.0;
+
+/// What the models of a frame leave out.
+pub(super) const OF_FRAME: &str = "the wobbling model loses no energy by impact or friction, and its deck does not \
+                                   turn; the planar one is shaken by one component alone, which is known to be \
+                                   unconservative (Section 6.2.3)";
+
+/// Why a frame that can wobble is left out.
+pub(super) const STOPPED: &str = "the frame itself is not analysed: its motion ends where flat springs stop the \
+                                  columns (when_flat = \"stop\")";
+
+/// The frame itself, as a design or the overturning of a structure shows it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrameReport {
+    /// Levels at which it was shaken, in the unit of the measure.
+    pub levels: Vec<f64>,
+    /// Nonlinear time histories.
+    pub analyses: u64,
+    /// Wobbling under both components, then in the plane of the study's component.
+    pub models: Vec<FrameModel>,
+}
+
+/// One model of the frame.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrameModel {
+    /// `wobbling frame` or `planar frame`.
+    pub model: &'static str,
+    /// Velocity after over before an impact.
+    pub restitution: f64,
+    /// Travel of the deck at the target rate, m; infinite where it overturns more often.
+    pub demand_m: f64,
+    /// 90 % bands; none with repaired weights, and of a single record.
+    pub bands: Option<DemandBands>,
+    /// The displacement capacity is exceeded; none for a structure without one.
+    pub beyond_capacity: Option<EventRisk>,
+    /// It overturns.
+    pub overturning: EventRisk,
+    /// The capacity held against the demand; none for a structure without one.
+    pub check: Option<FrameCheck>,
+}
+
+/// The capacity of a structure held against the demand on its frame (Eq. 3.15).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FrameCheck {
+    /// Safety factor times demand, m; infinite where the frame overturns more often than the target.
+    pub required_capacity_m: f64,
+    /// Capacity over demand.
+    pub safety_factor: f64,
+    /// Whether the capacity is at least the required one.
+    pub satisfied: bool,
+}
+
+impl FrameReport {
+    /// The wobbling frame.
+    pub fn wobbling(&self) -> &FrameModel {
+        &self.models[0]
+    }
+}
+
+impl FrameCheck {
+    fn new(capacity_m: f64, demand_m: f64, safety_factor: f64) -> Self {
+        let required_capacity_m = safety_factor * demand_m;
+        let satisfied = capacity_m >= required_capacity_m;
+        Self { required_capacity_m, safety_factor: capacity_m / demand_m, satisfied }
+    }
+}
+
+/// Pairs of a study, each with a key of both components, and how many records are of each.
+#[derive(Debug)]
+pub(super) struct Pairs {
+    pub(super) all: Vec<RecordPair>,
+    pub(super) keys: Vec<String>,
+    pub(super) per_pair: usize,
+}
+
+impl Pairs {
+    pub(super) fn new(pairs: Vec<RecordPair>, per_pair: usize) -> Self {
+        let key = |pair: &RecordPair| [&pair.h1, &pair.h2].map(motion_key).join(" and ");
+        Self { keys: pairs.iter().map(key).collect(), all: pairs, per_pair }
+    }
+
+    /// The amplitude of a pair in the measure: both records of a pair have its intensity.
+    pub(super) fn amplitude(&self, set: &RecordSet, measure: IntensityMeasure, pair: usize) -> f64 {
+        measure.amplitude(set.records[pair * self.per_pair].intensity(measure))
+    }
+
+    /// The vertical component of every pair, each so `many` times; none where the study does not ask for it.
+    pub(super) fn verticals<'a>(&self, set: &'a RecordSet, many: usize) -> Vec<&'a Accelerogram> {
+        let of_pair = set.records.iter().step_by(self.per_pair).filter_map(|record| record.vertical.as_ref());
+        of_pair.flat_map(|vertical| std::iter::repeat_n(&vertical.accelerogram, many)).collect()
+    }
+
+    /// Wobbling frames under both components of every pair.
+    pub(super) fn shaking<'a>(
+        &'a self,
+        set: &'a RecordSet,
+        (measure, levels): (IntensityMeasure, &[f64]),
+        wobbling: &'a [System],
+    ) -> Result<Plan<'a>, DesignError> {
+        let record = |(index, pair): (usize, &'a RecordPair)| StripeRecord {
+            id: &pair.id,
+            accelerogram: &pair.h1,
+            intensity: self.amplitude(set, measure, index),
+        };
+        let records = self.all.iter().enumerate().map(record).collect();
+        let stripes = stripes_of((measure, levels), records, wobbling, true)?;
+        let stripes = stripes.across(self.all.iter().map(|pair| &pair.h2).collect())?;
+        Ok(shaken_upwards(stripes, self.verticals(set, 1))?)
+    }
+}
+
+/// Planar frames under the records of a study, as these see their pairs.
+pub(super) fn in_the_plane_of_records<'a>(
+    set: &'a RecordSet,
+    (measure, levels): (IntensityMeasure, &[f64]),
+    planar: &'a [System],
+) -> Result<Plan<'a>, DesignError> {
+    let record = |record: &'a Record| StripeRecord {
+        id: &record.id,
+        accelerogram: &record.accelerogram,
+        intensity: measure.amplitude(record.intensity(measure)),
+    };
+    let stripes = stripes_of((measure, levels), set.records.iter().map(record).collect(), planar, true)?;
+    Ok(seen(stripes, set)?)
+}
+
+/// A frame by one of its models.
+///
+/// * `rest_amplitude_rad` — of the wobbling frame, as its structure file has it
+pub(super) fn modelled(
+    frame: &RockingFrame,
+    (model, restitution): (Model, f64),
+    rest_amplitude_rad: Option<f64>,
+) -> System {
+    // rest of the planar model is proved
+    let rest_amplitude_rad = rest_amplitude_rad.filter(|_| model == Model::Wobbling);
+    System::Frame(Box::new(ShakenFrame { frame: frame.clone(), model, restitution, rest_amplitude_rad }))
+}
+
+/// The frame of a structure that can wobble, by both models.
+#[derive(Debug)]
+pub(super) struct OwnFrame {
+    wobbling: Vec<System>,
+    planar: Vec<System>,
+    /// Where the restitution of the planar model comes from.
+    restitution_from: &'static str,
+    pairs: Pairs,
+}
+
+impl OwnFrame {
+    /// Whether a structure is a frame that can wobble: on cylinders.
+    pub(super) fn is_described(structure: &Structure) -> bool {
+        let frame = structure.rocking_frame().and_then(Result::ok);
+        frame.is_some_and(|frame| frame.shape() == ColumnShape::Cylinder)
+    }
+
+    /// Whether it is one that can be shaken to the end: flat springs that stop the columns end its motion.
+    pub(super) fn can_be_shaken(structure: &Structure) -> bool {
+        let stops = |columns: &RestrainedColumns| columns.restrainer().is_some_and(|held| held.limit_m().is_some());
+        Self::is_described(structure) && !structure.columns.as_ref().is_some_and(stops)
+    }
+
+    /// The frame of `structure`, to be shaken by `pairs`.
+    pub(super) fn from_structure(structure: &Structure, pairs: Pairs) -> Result<Self, DesignError> {
+        let frame = rocking_frame(structure)?;
+        let own = structure.description.restitution;
+        let (restitution, restitution_from) =
+            own.map_or_else(|| (frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
+        Ok(Self {
+            wobbling: vec![modelled(&frame, (Model::Wobbling, 1.0), structure.rest_amplitude_rad)],
+            planar: vec![modelled(&frame, (Model::Planar, restitution), None)],
+            restitution_from,
+            pairs,
+        })
+    }
+
+    /// Its models, each with the origin of its restitution.
+    pub(super) fn models(&self) -> [(&System, &'static str); 2] {
+        [(&self.wobbling[0], "the model loses no energy"), (&self.planar[0], self.restitution_from)]
+    }
+
+    /// Positions of the levels at which it is shaken to count what overturns: from the last one on at which no pair of
+    /// components lifts it.
+    pub(super) fn levels_that_uplift(&self, set: &RecordSet, measure: &SpectraOfResult) -> Vec<usize> {
+        let System::Frame(shaken) = &self.wobbling[0] else { return Vec::new() };
+        let (of, threshold_m_s2) = (measure.measure(), shaken.frame.uplift_acceleration_m_s2());
+        let largest = |pair: &RecordPair| {
+            let [one, other] = [&pair.h1, &pair.h2].map(Accelerogram::acceleration_m_s2);
+            one.iter().zip(other).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max)
+        };
+        let per_amplitude = |(index, pair): (usize, &RecordPair)| largest(pair) / self.pairs.amplitude(set, of, index);
+        let most = self.pairs.all.iter().enumerate().map(per_amplitude).fold(0.0, f64::max);
+        let levels = &measure.plan.levels;
+        let stands = |level: &f64| most * of.amplitude(*level) < threshold_m_s2;
+        sparse(levels, levels.iter().rposition(stands).unwrap_or(0))
+    }
+
+    /// Its stripes at `levels` of a measure: wobbling, then planar.
+    pub(super) fn plans<'a>(
+        &'a self,
+        records: &'a ShakenRecords,
+        (measure, levels): (IntensityMeasure, &[f64]),
+    ) -> Result<[LabelledPlan<'a>; 2], DesignError> {
+        let at = (measure, levels);
+        let wobbling = self.pairs.shaking(&records.set, at, &self.wobbling)?;
+        let planar = in_the_plane_of_records(&records.set, at, &self.planar)?;
+        let of = |plan: Plan<'a>, what: &str, motions: &'a [String]| {
+            let label = format!("{}, {}", measure.label(), plan.systems().first().map_or("", System::kind));
+            let axes = plan.axes();
+            let text =
+                format!("{} {what} x {} levels = {} analyses", axes.motions, axes.scales, thousands(plan.analyses()));
+            LabelledPlan { remark: Some((label.clone(), text)), label, plan, motions, known: None }
+        };
+        Ok([of(wobbling, "pairs", &self.pairs.keys), of(planar, "records", &records.motions)])
+    }
+
+    /// What the stripes of [`plans`](Self::plans) came to: of both models the peaks, m, `[record, level]`.
+    pub(super) fn peaks(&self, [wobbling, planar]: [&Analysed; 2]) -> FramePeaks {
+        let records = planar.peaks.axes().motions;
+        let of = |peaks: &Peaks, motion_of: &dyn Fn(usize) -> usize| -> Vec<f64> {
+            (0..records).flat_map(|record| peaks.row_m(motion_of(record), 0).iter().copied()).collect()
+        };
+        let models = [
+            (&self.wobbling[0], of(&wobbling.peaks, &|record| record / self.pairs.per_pair)),
+            (&self.planar[0], of(&planar.peaks, &|record| record)),
+        ];
+        FramePeaks {
+            analyses: wobbling.analyses + planar.analyses,
+            models: models.map(|(system, peaks_m)| (system.kind(), system.restitution(), peaks_m)),
+        }
+    }
+}
+
+/// Peaks of both models of a frame.
+#[derive(Debug)]
+pub(super) struct FramePeaks {
+    analyses: u64,
+    /// Each with its restitution, m, `[record, level]`.
+    models: [(&'static str, f64, Vec<f64>); 2],
+}
+
+impl FramePeaks {
+    /// Those of each model.
+    pub(super) fn each(&self) -> impl Iterator<Item = (&'static str, &[f64])> {
+        self.models.iter().map(|(model, _, peaks_m)| (*model, &peaks_m[..]))
+    }
+}
+
+/// What is asked of the peaks of a frame at one site.
+pub(super) struct FrameQuestion<'a> {
+    /// Positions of its levels among those of the study.
+    pub(super) places: &'a [usize],
+    pub(super) place: Place<'a>,
+    pub(super) weights: &'a SiteWeights<'a>,
+    pub(super) hazard: &'a Hazard<'a>,
+    pub(super) scatter: &'a Scatter,
+    /// Rate of the demand, 1/yr.
+    pub(super) target_per_year: f64,
+    /// Years that probabilities refer to.
+    pub(super) years: f64,
+    /// Displacement capacity of the structure, m.
+    pub(super) capacity_m: Option<f64>,
+    pub(super) safety_factor: f64,
+}
+
+impl FrameQuestion<'_> {
+    /// Demand, verdict and risks by both models.
+    pub(super) fn answer(&self, peaks: &FramePeaks) -> Result<FrameReport, DesignError> {
+        let of_study = &self.place.measure.plan.levels;
+        let levels: Vec<f64> = self.places.iter().map(|&place| of_study[place]).collect();
+        let mean: StripeWeights = self.hazard.mean.at_levels(self.places)?;
+        let hazard = self.hazard.at_levels(&mean, self.places)?;
+        let repaired: Option<RunWeights> = match self.weights {
+            SiteWeights::Alike(_) => None,
+            SiteWeights::Repaired(runs) => Some(runs.at_levels(self.places)?),
+        };
+        let weights = repaired.as_ref().map_or(SiteWeights::Alike(&mean), SiteWeights::Repaired);
+        let model = |(model, restitution, peaks_m): &(&'static str, f64, Vec<f64>)| {
+            let pool = PooledDemand::new(&Stripe::new(&levels, peaks_m)?)?;
+            let risk = |threshold_m: f64| -> Result<EventRisk, DesignError> {
+                let risk = risk_of_exceeding(&pool, &weights, threshold_m, self.years)?;
+                Ok(bounded(risk, &weights, &self.scatter.pairs))
+            };
+            let demand_m = weights.curve(&pool)?.exact_ordinate(self.target_per_year)?.displacement_m;
+            let asked = (self.target_per_year, 1.0, self.capacity_m);
+            let bands = demand_bands(&pool, (&hazard, repaired.as_ref()), self.scatter, asked)?;
+            Ok(FrameModel {
+                model,
+                restitution: *restitution,
+                demand_m,
+                bands,
+                beyond_capacity: self.capacity_m.map(risk).transpose()?,
+                overturning: risk(OVERTURNING_M)?,
+                check: self.capacity_m.map(|capacity_m| FrameCheck::new(capacity_m, demand_m, self.safety_factor)),
+            })
+        };
+        let models = peaks.models.iter().map(model).collect::<Result<_, DesignError>>()?;
+        Ok(FrameReport { levels, analyses: peaks.analyses, models })
+    }
+}
+
+impl FrameReport {
+    /// Risks of it that may come from outside the levels.
+    pub(super) fn own_risks(&self, place: Place<'_>, scatter: &Scatter) -> Vec<OwnRisk> {
+        let counts = (scatter.pairs.iter().map(Vec::len).sum(), scatter.pairs.len());
+        let of = |model: &FrameModel| {
+            let event = format!("overturning of the {}", model.model);
+            own_risk((&event, model.overturning), (place.name, place.measure), counts)
+        };
+        self.models.iter().map(of).collect()
+    }
+}
+
+/// Positions of the levels at which a frame is shaken for a demand of this rate: all of them where they are few.
+pub(super) fn levels_for(measure: &SpectraOfResult, site: usize, target_per_year: f64) -> Vec<usize> {
+    let rates = measure.weights[site].rates_per_year();
+    let first = rates.iter().rposition(|&rate| rate >= TIMES_TARGET * target_per_year).unwrap_or(0);
+    sparse(&measure.plan.levels, first)
+}
+
+/// At most [`LEVELS`] of the levels from the `first` on, evenly spaced in their logarithm; all where they are few.
+pub(super) fn sparse(levels: &[f64], first: usize) -> Vec<usize> {
+    let last = levels.len() - 1;
+    if levels.len() <= LEVELS {
+        return (0..levels.len()).collect();
+    }
+    if last - first < LEVELS {
+        return (first..=last).collect();
+    }
+    let [from, to] = [levels[first], levels[last]].map(f64::ln);
+    let nearest = |step: usize| {
+        let wanted = from + (to - from) * step as f64 / (LEVELS - 1) as f64;
+        let distance = |place: &usize| (levels[*place].ln() - wanted).abs();
+        (first..=last).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(last)
+    };
+    let mut places: Vec<usize> = (0..LEVELS).map(nearest).collect();
+    places.dedup();
+    places
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_levels_are_thinned_evenly_and_few_are_kept() {
+        let few: Vec<f64> = (1..=28).map(f64::from).collect();
+        assert_eq!(sparse(&few, 9), (0..28).collect::<Vec<_>>());
+        let many: Vec<f64> = (0..200).map(|step| 1.05_f64.powi(step)).collect();
+        let thin = sparse(&many, 37);
+        assert_eq!((thin.len(), thin[0], thin[27]), (LEVELS, 37, 199));
+        assert!(thin.windows(2).all(|pair| pair[1] == pair[0] + 6), "{thin:?}");
+        assert_eq!(sparse(&many, 180), (180..200).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_capacity_is_held_against_the_demand() {
+        let check = FrameCheck::new(1.2, 0.4, 2.5);
+        assert_eq!((check.satisfied, check.required_capacity_m), (true, 1.0));
+        assert!(!FrameCheck::new(1.2, 0.5, 2.5).satisfied);
+        assert!(!FrameCheck::new(1.2, f64::INFINITY, 2.5).satisfied);
+    }
+}
