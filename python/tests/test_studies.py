@@ -225,7 +225,7 @@ def test_nothing_hangs_on_a_file(folder, result):
     os.mkfifo(folder / "pipe.h5")
     for name, words in (("heap.h5", "the file is damaged"), ("pipe.h5", "is not a file")):
         code = f"import uplift_urs; uplift_urs.open_result({str(folder / name)!r})"
-        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, cwd=folder)
         assert done.returncode == 1 and words in done.stderr, done.stderr
 
 
