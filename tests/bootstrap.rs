@@ -178,6 +178,57 @@ fn earthquakes_are_drawn_with_all_their_records() {
     study.uplift(&["bootstrap", "o.h5", "--unit", "event"]).fails(2, &["all records are of one earthquake"]);
 }
 
+// Three records of an earthquake that differ in their amplitude alone: scaled to a level they are the same, and four
+// earthquakes know as much as four records, whatever their twelve records seem to know.
+#[test]
+fn the_quoted_band_is_by_earthquake_where_records_of_one_are_alike() {
+    let study = SmallStudy::new();
+    study.uplift(&["records", "synthesize", "--count", "12", "-o", "set", "-q"]).ok();
+    let file = |record: usize, which: &str| study.path().join(format!("set/SYN{record:03}_{which}.AT2"));
+    let mut manifest = std::fs::read_to_string(study.path().join("set/manifest.csv")).unwrap();
+    for record in 1..=12 {
+        // powers of 2 change no bit of what is scaled to a level
+        let (earthquake, factor) = ((record - 1) % 4 + 1, f64::from(1 << ((record - 1) / 4)));
+        for which in ["H1", "H2"] {
+            let text = std::fs::read_to_string(file(earthquake, which)).unwrap();
+            let (head, samples) = text.split_at(text.match_indices('\n').nth(3).unwrap().0);
+            let scaled = |sample: &str| format!("{:e}\n", factor * sample.parse::<f64>().unwrap());
+            let samples: String = samples.split_whitespace().map(scaled).collect();
+            std::fs::write(file(record, which), format!("{head}\n{samples}")).unwrap();
+        }
+        let line = manifest.lines().find(|line| line.starts_with(&format!("SYN{record:03}"))).unwrap().to_owned();
+        let quoted = line.split('"').nth(1).unwrap();
+        manifest = manifest.replace(&line, &line.replace(&format!("\"{quoted}\""), &format!("E{earthquake}")));
+    }
+    study.write("set/manifest.csv", &manifest);
+    let run = |records: &str, result: &str| {
+        let source = ["records.manifest=set/manifest.csv", records].map(|set| ["--set", set]).concat();
+        study.uplift(&[&["run", "study.toml", "-o", result, "-q"][..], &source].concat()).ok();
+        let size = records.rsplit('=').next().unwrap();
+        study.uplift(&["bootstrap", result, "-q", "--replicates", "50", "--sizes", size]).ok();
+        let asked = study.uplift(&["spectrum", result, "--json"]).ok().stdout;
+        let asked: Value = serde_json::from_str(&asked).unwrap();
+        let limits = ["truth_lower_m", "truth_upper_m"]
+            .map(|name| array(&study.path().join(result), &format!("/bootstrap/pgv/{name}")));
+        (asked["band_of"].clone(), asked["displacements"][1]["band_m"].clone(), limits)
+    };
+    let [twelve, four] = [("records.first=12", "r.h5"), ("records.first=4", "s.h5")].map(|(set, name)| run(set, name));
+    assert_eq!((&twelve.0, &four.0), (&Value::from("earthquakes"), &Value::from("records")));
+    for (of_twelve, of_four) in twelve.2.iter().flatten().zip(four.2.iter().flatten()) {
+        assert!((of_twelve - of_four).abs() <= 1e-5 * of_four || of_twelve == of_four, "{of_twelve} {of_four}");
+    }
+    let limits = |band: &Value| [0, 1].map(|limit| band[limit].as_f64().unwrap());
+    assert!(limits(&twelve.1).iter().zip(limits(&four.1)).all(|(a, b)| (a - b).abs() <= 1e-5 * b), "{twelve:?}");
+    let said = study.uplift(&["spectrum", "r.h5"]).ok().stdout;
+    assert!(said.contains("(90 % confidence band by earthquake)"), "{said}");
+    let warned = study.uplift(&["warnings", "r.h5"]).ok().stdout;
+    assert!(warned.contains("Few earthquakes\n          4; below 5 no confidence band holds."), "{warned}");
+    // as it comes to drawing them
+    study.uplift(&["bootstrap", "r.h5", "-q", "--replicates", "50", "--sizes", "12", "--unit", "event"]).ok();
+    let by_event = array(&study.path().join("r.h5"), "/bootstrap/pgv/truth_upper_m");
+    assert!(same_bits(&by_event, &twelve.2[1]));
+}
+
 // A pair of twins knows no more than one of them: the bands are those of one component.
 #[test]
 fn components_of_a_pair_scatter_together() {

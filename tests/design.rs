@@ -526,7 +526,7 @@ fn a_design_sheet_says_what_the_design_says() {
     let satisfied = found["rules"].as_array().unwrap().iter().all(|rule| rule["from_spectrum"]["satisfied"] == true);
     assert_eq!(lead.contains("class=\"verdict no\""), !satisfied, "{lead}");
     // how sure that is, in words and drawn
-    assert!(lead.contains("m (90 % band of records ") && lead.contains(" 90 % band of records: "), "{lead}");
+    assert!(lead.contains("m (90 % band ") && lead.contains(" 90 % band: "), "{lead}");
     let drawn = rest.split_once("aria-label=\"Values (dots) with their 90 % confidence bands (bars), m\"").unwrap().1;
     assert!(drawn.contains(">demand on the structure, Here, PGV: "), "{drawn}");
     // the block to scale, with its dimensions

@@ -1,7 +1,8 @@
 //! How sure a uniform risk spectrum is: the bootstrap over records of Section 4.5, and the influence of single records.
 //!
 //! - [`ResamplingPlan`]: which records each replicate draws; planned before any computing, from counter-based streams.
-//! - [`Unit`]: whether records are drawn one by one, or earthquakes with all their records ([`units`]).
+//! - [`Unit`]: whether records are drawn one by one, or earthquakes with all their records ([`units`]);
+//!   [`is_too_narrow`]: where a band by record is not to be quoted.
 //! - [`Replicates`]: the ordinates of one strength for all replicates, sites and probabilities.
 //! - [`weighted_replicates`]: the same where the records of each replicate are weighed anew.
 //! - [`Interval`], [`Band`]: confidence intervals of an ordinate, by percentiles or bias-corrected and
@@ -47,6 +48,6 @@ pub use plan::ResamplingPlan;
 pub use replicates::Replicates;
 pub use simultaneous::simultaneous_bands;
 pub use skewed_mean::{SkewedMean, StudentQuantiles};
-pub use unit::{Unit, units, units_in_sample};
+pub use unit::{Unit, is_too_narrow, units, units_in_sample};
 pub use weighted::weighted_quantile;
 pub use weighted_replicates::{left_out, left_out_together, weighted_replicates};

@@ -58,9 +58,31 @@ pub fn units_in_sample(size: u32, units: usize, records: usize) -> u32 {
     ((f64::from(size) * units as f64 / records as f64).round() as u32).max(1)
 }
 
+/// A band by record is not quoted where it is narrower than this share of the band by earthquake.
+const TOO_NARROW: f64 = 0.75;
+
+/// Whether records that share earthquakes tell so much less than their number that their band must be by earthquake:
+/// by record it is more than a quarter narrower.
+///
+/// - `by_record`, `by_earthquake`: widths of the two bands, in the same unit.
+pub fn is_too_narrow(by_record: f64, by_earthquake: f64) -> bool {
+    by_record < TOO_NARROW * by_earthquake
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_quarter_is_too_much() {
+        assert_eq!(
+            [(0.74, 1.0), (0.76, 1.0), (1.2, 1.0)].map(|(own, of)| is_too_narrow(own, of)),
+            [true, false, false]
+        );
+        // up to overturning by earthquake alone
+        assert!(is_too_narrow(1.0, f64::INFINITY) && !is_too_narrow(f64::INFINITY, f64::INFINITY));
+        assert!(!is_too_narrow(1.0, f64::NAN));
+    }
 
     #[test]
     fn units_have_their_records() {

@@ -20,7 +20,8 @@ pub(super) fn result_alarms(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError
     if file.kind() == Kind::UniformRisk {
         let records = file.stored_axes()?.records.len();
         // nor does it say which records are of one pair
-        let pair_of = if study.is_some() { Question::from_result(file)?.pair_of() } else { (0..records).collect() };
+        let question = study.is_some().then(|| Question::from_result(file)).transpose()?;
+        let pair_of = question.as_ref().map_or_else(|| (0..records).collect(), Question::pair_of);
         let pairs = uplift_bootstrap::units(&pair_of);
         let sets = sets_of_levels(file, &pairs)?;
         alarms.extend(sets.iter().filter_map(far));
@@ -28,6 +29,8 @@ pub(super) fn result_alarms(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError
         if sets.is_empty() {
             alarms.extend(few(records, pairs.len()));
         }
+        let shared = question.filter(Question::shares_earthquakes);
+        alarms.extend(shared.and_then(|own| few_earthquakes(uplift_bootstrap::units(&own.event_of()).len())));
     }
     let noticed = head.warnings.iter().filter(|line| !line.is_empty());
     alarms.extend(noticed.map(|line| Alarm::new(Severity::Note, "inputs", "inputs", line.clone(), "")));
@@ -136,9 +139,32 @@ pub fn few(records: usize, pairs: usize) -> Option<Alarm> {
     })
 }
 
+/// Fewer earthquakes than this have no band that holds (`make coverage`; docs/confidence-bands.md).
+const FEW_EARTHQUAKES: usize = 5;
+
+/// Where the records share so few `earthquakes` that no confidence band holds as often as it says.
+pub fn few_earthquakes(earthquakes: usize) -> Option<Alarm> {
+    (earthquakes < FEW_EARTHQUAKES).then(|| {
+        Alarm::new(
+            Severity::Caution,
+            "few-earthquakes",
+            "Few earthquakes",
+            format!("{earthquakes}; below {FEW_EARTHQUAKES} no confidence band holds"),
+            "Add records of other earthquakes: records.manifest",
+        )
+    })
+}
+
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
+
+    #[test]
+    fn five_earthquakes_are_no_longer_few() {
+        assert_eq!(few_earthquakes(5), None);
+        assert_eq!(few_earthquakes(4).unwrap().to_string(), "Few earthquakes: 4; below 5 no confidence band holds");
+    }
 
     #[test]
     fn the_level_with_the_fewest_records_that_count_is_named() {

@@ -42,7 +42,7 @@ pub use error::AlarmsError;
 pub use evidence::{Evidence, Scope, spectrum_name};
 pub use fit::{FitReach, reach_of_fit};
 pub use hazard::{CurvesAtSite, hazard_alarms};
-pub use inputs::{far_factors_alarm, few, study_alarms};
+pub use inputs::{far_factors_alarm, few, few_earthquakes, study_alarms};
 pub use levels::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, Counted, UpperEnd, below_first_case};
 pub use measures::COMPARED_FROM_M;
 pub use numbers::number_alarms;
@@ -63,15 +63,11 @@ pub fn alarms(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError> {
     alarms_of(file, &Scope::default())
 }
 
-/// The alarms of the spectra by one `measure`, the worst first.
+/// The alarms of the spectra within `scope`, the worst first.
 ///
 /// # Errors
 /// A file that is damaged.
-pub fn alarms_by(file: &ResultFile, measure: IntensityMeasure) -> Result<Vec<Alarm>, AlarmsError> {
-    alarms_of(file, &Scope { measure: Some(measure), ..Scope::default() })
-}
-
-fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
+pub fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
     let mut alarms = inputs::result_alarms(file)?;
     if file.kind() == Kind::UniformRisk && !file.axes()?.sites.is_empty() {
         alarms.extend(spectra_alarms(&Evidence::read(file, scope)?, scope)?);

@@ -2,11 +2,11 @@
 
 use serde::Serialize;
 use uplift_bootstrap::{
-    inferred_limits, inferred_limits_over_curves, inferred_rate, inferred_rate_over_curves, repaired_limits,
-    repaired_rate,
+    inferred_limits, inferred_limits_over_curves, inferred_rate, inferred_rate_over_curves, is_too_narrow,
+    repaired_limits, repaired_rate,
 };
 use uplift_result::ResultFile;
-use uplift_risk::{PooledDemand, RunWeights};
+use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
 use uplift_uniform_risk::consistency::Question;
 
 use super::hazard::Hazard;
@@ -63,16 +63,17 @@ impl Bands {
         [Some(self.by_record), self.by_earthquake, self.with_hazard]
     }
 
-    /// The band that takes account of most, and of what.
-    pub fn fullest(&self) -> (&'static str, [f64; 2]) {
-        let named = self.each().into_iter().zip(self.words());
-        named.rev().find_map(|(limits, of)| Some((of, limits?))).unwrap_or((RECORDS, self.by_record))
+    /// The band to quote: by earthquake where by record it is more than a quarter narrower ([`is_too_narrow`]).
+    pub fn quoted(&self) -> [f64; 2] {
+        let width = |[lower, upper]: [f64; 2]| upper - lower;
+        let by_earthquake = self.by_earthquake.filter(|own| is_too_narrow(width(self.by_record), width(*own)));
+        by_earthquake.unwrap_or(self.by_record)
     }
 
     /// What each is of, in words.
     pub(super) fn words(&self) -> [&'static str; 3] {
         let with_hazard = if self.by_earthquake.is_some() { "earthquakes and hazard" } else { "records and hazard" };
-        [RECORDS, "earthquakes", with_hazard]
+        ["records", "earthquakes", with_hazard]
     }
 
     /// The same of what follows from the number.
@@ -81,9 +82,6 @@ impl Bands {
         Self { by_record: of(by_record), by_earthquake: by_earthquake.map(&of), with_hazard: with_hazard.map(&of) }
     }
 }
-
-/// What a band of records is of.
-const RECORDS: &str = "records";
 
 /// 90 % bands of the demand on a structure and of its risks, by all records like those at hand.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -129,6 +127,27 @@ pub(super) fn rate_bands(
     Ok((by_record[1] > 0.0).then_some(Bands { by_record, by_earthquake, with_hazard }))
 }
 
+/// The bands of the demand of `target_per_year` on an oscillator or a frame, m, by record and by earthquake; none of a
+/// single record.
+pub(super) fn record_bands(
+    demand: &PooledDemand,
+    (mean, repaired): (&StripeWeights, Option<&RunWeights>),
+    scatter: &Scatter,
+    (target_per_year, confidence): (f64, f64),
+) -> Result<Option<Bands>, DesignError> {
+    let of = |units: &Vec<Vec<usize>>| -> Result<Option<[f64; 2]>, DesignError> {
+        let (sizes, targets) = ([units.len()], [target_per_year]);
+        let found = match repaired {
+            None => inferred_limits(demand, mean, units, &targets, (&sizes, confidence))?,
+            Some(weights) => repaired_limits(demand, weights, units, &targets, (&sizes, confidence))?,
+        };
+        Ok(found.first().map(|own| own.truth_m).filter(|limits_m| !limits_m[1].is_nan()))
+    };
+    let Some(by_record) = of(&scatter.pairs)? else { return Ok(None) };
+    let by_earthquake = scatter.earthquakes.as_ref().map(of).transpose()?.flatten();
+    Ok(Some(Bands { by_record, by_earthquake, with_hazard: None }))
+}
+
 /// The bands of the demand of `target_per_year` on a structure, `factor` times that on its oscillator, and of its
 /// risks; none of a single record. With `repaired` weights they are of the mean hazard curve alone.
 pub(super) fn demand_bands(
@@ -137,21 +156,12 @@ pub(super) fn demand_bands(
     scatter: &Scatter,
     (target_per_year, factor, capacity_m): (f64, f64, Option<f64>),
 ) -> Result<Option<DemandBands>, DesignError> {
-    let told = |limits_m: [f64; 2]| (!limits_m[1].is_nan()).then_some(limits_m.map(|limit_m| factor * limit_m));
-    let of = |units: &Vec<Vec<usize>>| -> Result<Option<[f64; 2]>, DesignError> {
-        let (sizes, targets) = ([units.len()], [target_per_year]);
-        let found = match repaired {
-            None => inferred_limits(demand, hazard.mean, units, &targets, (&sizes, CONFIDENCE))?,
-            Some(weights) => repaired_limits(demand, weights, units, &targets, (&sizes, CONFIDENCE))?,
-        };
-        Ok(found.first().and_then(|own| told(own.truth_m)))
-    };
-    let Some(by_record) = of(&scatter.pairs)? else { return Ok(None) };
     let asked = (target_per_year, CONFIDENCE);
+    let Some(of_records) = record_bands(demand, (hazard.mean, repaired), scatter, asked)? else { return Ok(None) };
     let branches = if repaired.is_some() { &[] } else { &hazard.branches[..] };
     let with_hazard = inferred_limits_over_curves(demand, branches, scatter.coarsest(), asked)?;
-    let by_earthquake = scatter.earthquakes.as_ref().map(of).transpose()?.flatten();
-    let demand_m = Bands { by_record, by_earthquake, with_hazard: told(with_hazard) };
+    let with_hazard = (!with_hazard[1].is_nan()).then_some(with_hazard);
+    let demand_m = Bands { with_hazard, ..of_records }.map(|limits_m| limits_m.map(|limit_m| factor * limit_m));
     // what is left of the capacity is least where the demand is largest
     let left = |capacity_m: f64| demand_m.map(|[lower_m, upper_m]| [upper_m, lower_m].map(|m| factor * capacity_m - m));
     let rate = |threshold_m: f64| rate_bands(demand, (hazard, repaired), scatter, threshold_m);

@@ -24,6 +24,7 @@ use uplift_study::Structure;
 pub use demand::{Banded, ModelDemand, RiskPoint};
 pub use edps::{DirectionEffect, EventReport, StateAtDemand};
 
+use super::certainty::Scatter;
 use super::collapse::{Collapse, collapse};
 use super::design::{DesignOptions, design};
 use super::opening::{Place, check_tables, choose_measure, job_name, study_with_common_records};
@@ -186,8 +187,8 @@ pub fn frame_risk(
     let settings = &source.study.bootstrap;
     let plan = draws(&file, &source, &analysis)?;
     let levels: &[f64] = &measure.plan.levels;
-    let question =
-        Question { levels, weights, repaired, target_per_year, plan: &plan, confidence: settings.confidence };
+    let (scatter, confidence) = (&Scatter::from_file(&file)?, settings.confidence);
+    let question = Question { levels, weights, repaired, target_per_year, scatter, plan: &plan, confidence };
     let own_m = demands.wobbling_m.as_ref().unwrap_or(&demands.planar_m);
     let own = question.ask(own_m, 1.0)?;
     let demand_m = own.demand_m;

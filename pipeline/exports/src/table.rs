@@ -18,7 +18,7 @@ pub use design::{DesignTable, DesignTableRow};
 pub use tests_of_table::{Agreement, TestRow, TestsTable};
 pub use uplift_alarms::COMPARED_FROM_M;
 
-use uplift_alarms::{alarms, alarms_by, fit_alarms, ranked};
+use uplift_alarms::{Scope, alarms, alarms_of, fit_alarms, ranked};
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_questions::bootstrap::resampled;
@@ -109,7 +109,9 @@ pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport,
     // bands tell which measures disagree, at whatever risk
     let file = resampled(file, events)?;
     let mut alarms = match options.measure {
-        TableMeasure::Only(measure) if file.kind() == Kind::UniformRisk => alarms_by(&file, measure),
+        TableMeasure::Only(measure) if file.kind() == Kind::UniformRisk => {
+            alarms_of(&file, &Scope { measure: Some(measure), ..Scope::default() })
+        }
         _ => alarms(&file),
     }?;
     if let TableRows::Coefficients(_) = rows {

@@ -10,6 +10,9 @@ pub const LAYOUT: i64 = 1;
 /// The sentence on how well the records know the spectra of a measure, an attribute of its group in `/urs`.
 pub const URS_PRECISION: &str = "precision";
 
+/// Half of the confidence band over the ordinate by record, and by earthquake, attributes of the same group.
+pub const HALF_WIDTHS: [&str; 2] = ["half_width", "half_width_by_event"];
+
 /// What structures were asked, and the answers.
 pub mod structures {
     /// The group of all structures.

@@ -8,7 +8,7 @@ use uplift_risk::OrdinateFlag;
 
 use super::declared::{Field, Group, Place, Quantity, of_measure, place};
 use super::file::ResultFile;
-use super::layout::{URS_PRECISION, axis};
+use super::layout::{HALF_WIDTHS, URS_PRECISION, axis};
 use crate::error::ResultError;
 
 /// The spectra of a result, read as its study says (`risk.contour`), with their coefficients.
@@ -282,6 +282,15 @@ impl ResultFile {
         let words =
             |measure: IntensityMeasure| self.reader.attribute_text(&urs::GROUP.of_measure(measure), URS_PRECISION).ok();
         self.measures().into_iter().filter_map(words).collect()
+    }
+
+    /// Half of the 90 % confidence band over the ordinate by `measure`, the middle one of sites and some strengths: as
+    /// the records tell it one by one, and as their earthquakes tell it. None where no two pairs are known to share an
+    /// earthquake, and in older results.
+    pub fn half_widths(&self, measure: IntensityMeasure) -> Option<[f64; 2]> {
+        let group = urs::GROUP.of_measure(measure);
+        let [by_record, by_event] = HALF_WIDTHS.map(|name| self.reader.attribute_f64(&group, name).ok());
+        Some([by_record?, by_event?])
     }
 
     /// The spectra and coefficients of a result of uniform risk; of the risks that it was asked for, if it was

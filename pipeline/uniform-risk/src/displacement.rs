@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use serde::Serialize;
-use uplift_bootstrap::{inferred_limits, repaired_limits, units};
+use uplift_bootstrap::{inferred_limits, repaired_limits};
 use uplift_hazard::rate_from_probability;
 use uplift_job::table::{ColumnsOf, table_text};
 use uplift_job::text::nearest;
@@ -16,6 +16,7 @@ use uplift_structure::{Capacity, Demand, Rule};
 use crate::asked::{AskedRisk, RiskTargets};
 use crate::consistency::{Question, Reweighing};
 use crate::error::UniformRiskError;
+use crate::quoted::{BandOf, QuotedUnits};
 use crate::stored_stripes::{StoredMeasure, poe_index, stored_measure};
 
 /// How often a band is to hold the displacement of all records like those at hand.
@@ -78,6 +79,8 @@ pub struct DisplacementReport {
     pub measure: IntensityMeasure,
     /// Whether they are weighted for hazard consistency.
     pub repaired: bool,
+    /// What the bands take for independent.
+    pub band_of: BandOf,
     /// The displacement capacity asked for, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub capacity_m: Option<f64>,
@@ -88,7 +91,7 @@ pub struct DisplacementReport {
 /// Reads displacements off the result `file`, which is [`at`](crate::at) the risks asked for, linear between its
 /// strengths.
 ///
-/// The band is that of [`inferred_limits`] over pairs of records, the same as `truth` in `/bootstrap`.
+/// The band is that of [`inferred_limits`] over [`QuotedUnits`], the same as `truth` in `/bootstrap`.
 ///
 /// # Errors
 /// A file that is damaged, of another kind, or without sites; strengths, risks, sites or a measure that it does not
@@ -111,10 +114,10 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
     looked_at.sort_unstable();
     looked_at.dedup();
     let stripes = stored_measure(file, &axes, &[], measure, study.risk.extrapolate)?;
-    let pairs = units(&Question::from_result(file)?.pair_of());
+    let units = QuotedUnits::read(file, measure, &Question::from_result(file)?);
     let reweighing = if asked.repaired { Reweighing::from_result(file)? } else { None };
     let of_strength =
-        |&strength: &usize| bands(&stripes, (&pairs, reweighing.as_ref()), &targets_per_year, strength, &sites);
+        |&strength: &usize| bands(&stripes, (&units.records, reweighing.as_ref()), &targets_per_year, strength, &sites);
     // [strength][site][poe]
     let bands_m = looked_at.par_iter().map(of_strength).collect::<Result<Vec<_>, _>>()?;
     let row = |strength: usize| looked_at.partition_point(|&own| own < strength);
@@ -147,6 +150,7 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
         synthetic: head.synthetic,
         measure,
         repaired: asked.repaired,
+        band_of: units.of,
         capacity_m: asked.capacity_m,
         displacements,
     })
@@ -177,21 +181,21 @@ impl DisplacementReport {
 /// Limits of the bands at a strength of the result, `[site][target]`, m; NaN of a single record, and of a site without
 /// repair where repaired spectra are asked for.
 ///
-/// - `pairs`: the records of each pair: two components of one are not independent.
+/// - `units`: the records of each pair or earthquake.
 /// - `reweighing`: what has the weights of repaired spectra.
 fn bands(
     stripes: &StoredMeasure,
-    (pairs, reweighing): (&[Vec<usize>], Option<&Reweighing>),
+    (units, reweighing): (&[Vec<usize>], Option<&Reweighing>),
     targets_per_year: &[f64],
     strength: usize,
     sites: &[usize],
 ) -> Result<Vec<Vec<[f64; 2]>>, UniformRiskError> {
     let demand = stripes.demand(strength)?;
     let of_site = |&site: &usize| {
-        let asked = (&[pairs.len()][..], CONFIDENCE);
+        let asked = (&[units.len()][..], CONFIDENCE);
         let limits = match reweighing.map(|own| own.weights(stripes.measure, site)) {
-            None => inferred_limits(&demand, &stripes.weights[site], pairs, targets_per_year, asked)?,
-            Some(Some(weights)) => repaired_limits(&demand, weights, pairs, targets_per_year, asked)?,
+            None => inferred_limits(&demand, &stripes.weights[site], units, targets_per_year, asked)?,
+            Some(Some(weights)) => repaired_limits(&demand, weights, units, targets_per_year, asked)?,
             Some(None) => return Ok(vec![[f64::NAN; 2]; targets_per_year.len()]),
         };
         Ok(limits.iter().map(|limits| limits.truth_m).collect())

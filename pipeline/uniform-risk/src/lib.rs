@@ -6,7 +6,7 @@
 //! | `stripes` | the peaks of one measure, `[record, strength, level]` |
 //! | `spectra`, `coefficients`, `site_risk` | spectra of all sites and their fits; the same site by site |
 //! | `epistemic` | spectra of weighted hazard curves and of structures that are not known exactly |
-//! | `precision` | how well the records know the spectra |
+//! | `precision`, `quoted` | how well the records know the spectra; whose scatter a quoted band is of |
 //! | `displacement` | displacements with their confidence bands, at any strength and risk |
 //! | [`consistency`] | whether the records have the hazard of the other measure, and weights by which they do |
 //! | `asked`, `study_of_result` | a result asked for other risks; its study and records read again |
@@ -20,6 +20,7 @@ mod epistemic;
 mod error;
 mod event_risk;
 mod precision;
+mod quoted;
 mod site_risk;
 mod spectra;
 mod stored_stripes;
@@ -37,6 +38,7 @@ pub use epistemic::{BRANCHES, BranchSpectra, write_branch_spectra};
 pub use error::UniformRiskError;
 pub use event_risk::{BOUND_CONFIDENCE, EventRisk, at_most_per_year, share_at_most};
 pub use precision::{Precision, precision};
+pub use quoted::{BandOf, QuotedUnits};
 pub use site_risk::{SiteRisk, SiteSpectra};
 pub use spectra::{Reading, Spectra, pooled_demand, uniform_risk_spectra};
 pub use stored_stripes::{StoredMeasure, StoredStripes, branch_weights};

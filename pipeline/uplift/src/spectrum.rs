@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use serde::Serialize;
-use uplift_alarms::alarms_by;
+use uplift_alarms::{Scope, alarms_of};
 use uplift_job::alarm::Alarm;
 use uplift_result::ResultFile;
-use uplift_uniform_risk::{DisplacementOptions, DisplacementReport, at, displacements};
+use uplift_uniform_risk::{DisplacementOptions, DisplacementReport, at, displacements, site_index};
 
 use crate::error::UpliftError;
 
-/// Displacements with their confidence bands, and the warnings of the measure that they are by.
+/// Displacements with their confidence bands, and the warnings of what was asked for.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SpectrumReport {
     /// The displacements.
@@ -29,6 +29,10 @@ pub struct SpectrumReport {
 pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumReport, UpliftError> {
     let file = at(ResultFile::open(path)?, &asked.risk)?;
     let found = displacements(&file, asked)?;
-    let alarms = alarms_by(&file, found.measure)?;
+    let site = match &asked.sites[..] {
+        [only] => Some(site_index(&file.axes()?.sites, only)?),
+        _ => None,
+    };
+    let alarms = alarms_of(&file, &Scope { site, measure: Some(found.measure), ..Scope::default() })?;
     Ok(SpectrumReport { found, alarms })
 }

@@ -80,7 +80,7 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
     let dash = || "-".to_owned();
     let risk = |risk: &EventRisk, band: Option<Bands>| {
         let band = band.map_or_else(String::new, |band| {
-            let [lower, upper] = band.by_record.map(|per_year| format!("{per_year:.1e}"));
+            let [lower, upper] = band.quoted().map(|per_year| format!("{per_year:.1e}"));
             format!(" ({lower}–{upper})")
         });
         if risk.per_year > 0.0 { format!("{:.1e}{band}", risk.per_year) } else { risk_cells(risk)[0].clone() }
@@ -89,7 +89,7 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
         if demand_m.is_infinite() {
             metres(demand_m)
         } else {
-            cell_with_band(demand_m, bands.map(|of| of.demand_m.by_record))
+            cell_with_band(demand_m, bands.map(|of| of.demand_m.quoted()))
         }
     };
     let mut rows: Vec<[String; 5]> = Vec::new();
@@ -164,7 +164,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     }
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();
-        let band_m = bands.map(|bands| bands.demand_m.by_record);
+        let band_m = bands.map(|bands| bands.demand_m.quoted());
         writeln!(
             out,
             "Demand    {} on {}",
@@ -174,7 +174,8 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         if let Some(risk) = &exact.beyond_capacity {
             let band = |band: Option<Bands>| {
                 band.map_or_else(String::new, |of| {
-                    format!(" ({} to {})", limit(of.by_record[0]), limit(of.by_record[1]))
+                    let [lower, upper] = of.quoted().map(limit);
+                    format!(" ({lower} to {upper})")
                 })
             };
             let [beyond, ..] = risk_cells(risk);

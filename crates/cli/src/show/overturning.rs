@@ -42,7 +42,7 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
         // a frame has twice as many rows: at many sites the bands are left to the details
         let shown_bands = of.bands.filter(|_| !has_frame || sites.len() < 3);
         let band = shown_bands.map_or_else(String::new, |bands| {
-            let [lower, upper] = bands.by_record.map(|per_year| format!("{per_year:.1e}"));
+            let [lower, upper] = bands.quoted().map(|per_year| format!("{per_year:.1e}"));
             format!(" ({lower}–{upper})")
         });
         let short = |per_year: f64| format!("{per_year:.1e}");
@@ -189,7 +189,7 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
                 row.push(of_site.repaired.map_or_else(|| "-".to_owned(), |risk| risk_cells(&risk)[0].clone()));
             }
             row.extend([
-                of_site.bands.map_or_else(|| "-".to_owned(), |bands| limits(bands.by_record)),
+                of_site.bands.map_or_else(|| "-".to_owned(), |bands| limits(bands.quoted())),
                 or_dash(of_site.lognormal_per_year_rounding, rate),
                 percent(of_site.risk.lower_tail_share),
                 percent(of_site.risk.upper_tail_share),

@@ -31,8 +31,8 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         (Some(exact), _) => {
             let demand = exact.rounding.demand_m.marked(two_digits);
             let band = exact.bands.as_ref().map_or_else(String::new, |bands| {
-                let (whose, [lower_m, upper_m]) = bands.demand_m.fullest();
-                format!(" (90 % band of {whose} {} to {} m)", two_digits(lower_m), two_digits(upper_m))
+                let [lower_m, upper_m] = bands.demand_m.quoted().map(two_digits);
+                format!(" (90 % band {lower_m} to {upper_m} m)")
             });
             say(format!("{of}, the demand is {demand} m{band}{capacity}."), None);
         }
@@ -81,9 +81,9 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     if let Some(exact) = &report.exact {
         let overturns = in_words("It overturns", &exact.overturning, &exact.rounding.overturning_per_year, years);
         let band = exact.bands.and_then(|bands| bands.overturning_per_year).map_or_else(String::new, |bands| {
-            let (whose, [lower, upper]) = bands.fullest();
+            let [lower, upper] = bands.quoted();
             let shown = |per_year: f64| if per_year > 0.0 { power(per_year, 1) } else { "0".to_owned() };
-            format!(" 90 % band of {whose}: {} to {} a year.", shown(lower), shown(upper))
+            format!(" 90 % band: {} to {} a year.", shown(lower), shown(upper))
         });
         say(format!("{overturns}{band}"), None);
     }

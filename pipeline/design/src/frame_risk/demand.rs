@@ -1,4 +1,5 @@
-//! The demand of a target rate on a frame and on its proxies, with bands from resampled records.
+//! The demand of a target rate on a frame and on its proxies with its confidence band; errors with bands from resampled
+//! records.
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -7,6 +8,7 @@ use uplift_fragility::Stripes as Stripe;
 use uplift_risk::{PooledDemand, ResamplingTable, RunWeights, StripeWeights};
 use uplift_structure::relative_error;
 
+use super::super::certainty::{Scatter, record_bands};
 use super::super::weights::SiteWeights;
 use crate::error::DesignError;
 
@@ -29,8 +31,8 @@ pub struct Banded {
 pub struct ModelDemand {
     /// What it is: `wobbling frame`, `planar frame`, `oscillator`, or a reading of the spectrum.
     pub model: &'static str,
-    /// Demand of the target rate in the displacement of the deck, m, with its band; infinite where it overturns more
-    /// often.
+    /// Demand of the target rate in the displacement of the deck, m, with its confidence band, as that of a design;
+    /// infinite where it overturns more often.
     pub demand_m: Banded,
     /// The same of records weighted so that they bring the site's hazard, m; none where the result has no repair, and
     /// for a spectrum.
@@ -57,13 +59,16 @@ pub(super) struct Question<'a> {
     pub(super) weights: &'a StripeWeights,
     pub(super) repaired: Option<&'a RunWeights>,
     pub(super) target_per_year: f64,
+    pub(super) scatter: &'a Scatter,
     pub(super) plan: &'a ResamplingPlan,
     pub(super) confidence: f64,
 }
 
-/// A demand, and that of every resample, m.
+/// A demand with its confidence band, and that of every resample, m.
 pub(super) struct Resampled {
     pub(super) demand_m: f64,
+    /// NaN of a single record.
+    limits_m: [f64; 2],
     pub(super) replicates_m: Vec<f64>,
     repaired_m: Option<f64>,
     risk_curve: Vec<RiskPoint>,
@@ -82,7 +87,10 @@ impl Question<'_> {
             table.ordinates(sample, &[self.target_per_year], &mut ordinate_m)?;
             Ok(factor * ordinate_m[0])
         };
+        let asked = (self.target_per_year, self.confidence);
+        let bands = record_bands(&pool, (self.weights, None), self.scatter, asked)?;
         Ok(Resampled {
+            limits_m: bands.map_or([f64::NAN; 2], |bands| bands.quoted().map(|limit_m| factor * limit_m)),
             demand_m: demand_m(SiteWeights::Alike(self.weights))?,
             replicates_m: self.plan.samples().par_iter().map(replicate).collect::<Result<_, _>>()?,
             repaired_m: self.repaired.map(|weights| demand_m(SiteWeights::Repaired(weights))).transpose()?,
@@ -120,7 +128,7 @@ impl Question<'_> {
         });
         ModelDemand {
             model,
-            demand_m: self.band(of.demand_m, of.replicates_m),
+            demand_m: Banded { value: of.demand_m, lower: of.limits_m[0], upper: of.limits_m[1] },
             repaired_m: of.repaired_m,
             error,
             risk_curve: of.risk_curve,
@@ -142,7 +150,9 @@ impl Resampled {
         rule: impl Fn(f64) -> Result<f64, DesignError>,
     ) -> Result<Self, DesignError> {
         let replicates_m = self.replicates_m.iter().map(|of| rule(*of)).collect::<Result<_, _>>()?;
-        Ok(Self { demand_m, replicates_m, repaired_m: None, risk_curve: Vec::new() })
+        let [lower_m, upper_m] = self.limits_m;
+        let limits_m = if upper_m.is_nan() { self.limits_m } else { [rule(lower_m)?, rule(upper_m)?] };
+        Ok(Self { demand_m, limits_m, replicates_m, repaired_m: None, risk_curve: Vec::new() })
     }
 }
 
@@ -162,6 +172,7 @@ mod tests {
             weights: &weights,
             repaired: None,
             target_per_year: 0.4,
+            scatter: &Scatter { pairs: vec![vec![0], vec![1]], earthquakes: None },
             plan: &plan,
             confidence: 0.9,
         };

@@ -3,8 +3,8 @@
 use uplift_bootstrap::{ResamplingPlan, Unit};
 use uplift_job::events::Events;
 use uplift_result::{BandMethod, ResultFile, StoredBands, StoredDraws};
-use uplift_uniform_risk::StoredStripes;
 use uplift_uniform_risk::consistency::{Question, Reweighing};
+use uplift_uniform_risk::{QuotedUnits, StoredStripes};
 
 use super::bands::BandSettings;
 use super::compute::{Source, compute};
@@ -32,8 +32,9 @@ pub fn resampled(file: ResultFile, events: &dyn Events) -> Result<ResultFile, Qu
     let stored = StoredStripes::read(&file)?;
     // where the bootstrap made bands of repaired spectra as well
     let reweighing = if file.has_repaired_bands() { Reweighing::from_result(&file)? } else { None };
-    let (reweighing, pair_of) = (reweighing.as_ref(), &Question::from_result(&file)?.pair_of());
-    let source = Source { stored: &stored, reweighing, plan: &plan, pair_of, settings: &settings };
+    let quoted = QuotedUnits::of_measures(&file)?;
+    let source =
+        Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, quoted: &quoted, settings: &settings };
     let measures = compute(&source, None, events)?.into_iter().map(|bands| bands.stored()).collect();
     let (sizes, unit) = (plan.sizes().to_vec(), plan.unit());
     Ok(file.with_bands(StoredBands { sizes, unit, confidence, measures }))

@@ -61,7 +61,7 @@ impl Checkpoint {
     /// The checkpoint of this very bootstrap: its fingerprint covers all numbers that the bands depend on.
     pub(super) fn new(source: &Source<'_>) -> Self {
         // pairs are of the bands of the truth, which are not kept
-        let Source { stored, reweighing, plan, settings, pair_of: _ } = source;
+        let Source { stored, reweighing, plan, settings, quoted: _ } = source;
         let mut hash = Sha256::new();
         let mut add = |values: &[f64]| {
             hash.update((values.len() as u64).to_le_bytes());

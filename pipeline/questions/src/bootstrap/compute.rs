@@ -3,9 +3,7 @@
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
-use uplift_bootstrap::{
-    InferredLimits, ResamplingPlan, Unit, inferred_limits, repaired_limits, units, units_in_sample,
-};
+use uplift_bootstrap::{InferredLimits, ResamplingPlan, Unit, inferred_limits, repaired_limits, units_in_sample};
 use uplift_ida::Watch;
 use uplift_job::events::{Events, Progress};
 use uplift_job::{Array, JobError, is_stopped};
@@ -13,7 +11,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_result::InferredBands;
 use uplift_risk::PooledDemand;
 use uplift_uniform_risk::consistency::Reweighing;
-use uplift_uniform_risk::{StoredMeasure, StoredStripes};
+use uplift_uniform_risk::{QuotedUnits, StoredMeasure, StoredStripes};
 
 use super::bands::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
 use super::checkpoint::{Checkpoint, Expected, Finished};
@@ -33,8 +31,8 @@ pub(super) struct Source<'a> {
     pub(super) reweighing: Option<&'a Reweighing>,
     /// The draws.
     pub(super) plan: &'a ResamplingPlan,
-    /// The pair of each record, `[record]`.
-    pub(super) pair_of: &'a [usize],
+    /// Whose scatter the bands of the truth are of, where records are not drawn by earthquake, `[measure]`.
+    pub(super) quoted: &'a [QuotedUnits],
     /// What kind of bands.
     pub(super) settings: &'a BandSettings,
 }
@@ -63,13 +61,13 @@ pub(super) fn compute(
     repaired_bands(source, &mut finished, &mut keeper, events)?;
     // the result may not be writable, on a disk that has filled up for instance
     Keeper { checkpoint, kept: start }.keep_now_and_then(&finished)?;
-    let Source { stored, plan, pair_of, settings, .. } = source;
-    let of_measure = |measure: &StoredMeasure| -> Result<Bands, QuestionsError> {
+    let Source { stored, plan, quoted, settings, .. } = source;
+    let of_measure = |(measure, quoted): (&StoredMeasure, &QuotedUnits)| -> Result<Bands, QuestionsError> {
         let key = measure.measure.key();
         let own: Vec<&StrengthBands> =
             finished.strengths.range((key, 0)..=(key, usize::MAX)).map(|(_, bands)| bands).collect();
         let inferred = |reweighing| {
-            inferred_bands(stored, (measure, reweighing), (plan, pair_of), settings.confidence)
+            inferred_bands(stored, (measure, reweighing), (plan, quoted), settings.confidence)
                 .map_err(|error| uplift_job::in_file(error, &stored.path))
         };
         let mut bands = gather_bands(stored, measure, plan, settings, (&own, inferred(None)?));
@@ -86,7 +84,7 @@ pub(super) fn compute(
         }
         Ok(bands)
     };
-    stored.measures.iter().map(of_measure).collect()
+    stored.measures.iter().zip(*quoted).map(of_measure).collect()
 }
 
 /// Finishes the bands of plain spectra, a strength after the other.
@@ -277,22 +275,20 @@ fn finished_before(source: &Source<'_>, checkpoint: &Checkpoint) -> Finished {
     finished
 }
 
-/// The bands of the spectra of one measure, from all its records, pair by pair or earthquake by earthquake as `plan`
-/// has it; with `reweighing` those of its repaired spectra, NaN at sites without repair.
-///
-/// - `pair_of`: the pair of each record, `[record]`: two components of a pair are not independent, and scatter as one.
+/// The bands of the spectra of one measure, from all its records: by earthquake where `plan` draws them, else by the
+/// `quoted` units; with `reweighing` those of its repaired spectra, NaN at sites without repair.
 pub(super) fn inferred_bands(
     stored: &StoredStripes,
     (measure, reweighing): (&StoredMeasure, Option<&Reweighing>),
-    (plan, pair_of): (&ResamplingPlan, &[usize]),
+    (plan, quoted): (&ResamplingPlan, &QuotedUnits),
     confidence: f64,
 ) -> Result<InferredBands, QuestionsError> {
     let units = match plan.unit() {
-        Unit::Record => units(pair_of),
-        Unit::Pair | Unit::Event => plan.units(),
+        Unit::Record | Unit::Pair => quoted.records.clone(),
+        Unit::Event => plan.units(),
     };
     let sizes: Vec<usize> =
-        plan.sizes().iter().map(|&size| units_in_sample(size, units.len(), pair_of.len()) as usize).collect();
+        plan.sizes().iter().map(|&size| units_in_sample(size, units.len(), stored.records.len()) as usize).collect();
     let targets = &stored.targets_per_year;
     // [strength][site][poe, size]
     let of_strength = |strength: usize| -> Result<Vec<Vec<InferredLimits>>, QuestionsError> {

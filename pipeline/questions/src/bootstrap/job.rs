@@ -8,8 +8,8 @@ use uplift_job::events::Events;
 use uplift_job::outputs;
 use uplift_result::LockedResult;
 use uplift_study::Bootstrap;
-use uplift_uniform_risk::StoredStripes;
-use uplift_uniform_risk::consistency::{Question, Reweighing};
+use uplift_uniform_risk::consistency::Reweighing;
+use uplift_uniform_risk::{QuotedUnits, StoredStripes};
 
 use super::bands::BandSettings;
 use super::checkpoint::Checkpoint;
@@ -73,14 +73,22 @@ pub fn bootstrap(
     announce((&file, &stored), &plan, events)?;
 
     let start = Instant::now();
-    let (reweighing, pair_of) = (reweighing.as_ref(), &Question::from_result(&file)?.pair_of());
-    let source = Source { stored: &stored, reweighing, plan: &plan, pair_of, settings: &settings };
+    let quoted = QuotedUnits::of_measures(&file)?;
+    let source =
+        Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, quoted: &quoted, settings: &settings };
     let checkpoint = Checkpoint::new(&source);
     let bands = compute(&source, Some(&checkpoint), events)?;
     events.remark("", &format!("{:.1} s", start.elapsed().as_secs_f64()));
     write_bands(
         &locked,
-        &BandsFile { stored: &stored, plan: &plan, plan_source: &plan_source, settings: &settings, bands: &bands },
+        &BandsFile {
+            stored: &stored,
+            plan: &plan,
+            plan_source: &plan_source,
+            settings: &settings,
+            bands: &bands,
+            quoted: &quoted,
+        },
     )?;
     checkpoint.remove();
     Ok(BootstrapReport::new(

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
-use uplift_bootstrap::ResamplingPlan;
+use uplift_bootstrap::{ResamplingPlan, Unit};
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
@@ -13,7 +13,7 @@ use uplift_result::{
     BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, InferredBands, JOINT_BANDS, LockedResult,
     REPAIRED_BANDS, SIMULTANEOUS_BANDS, SiteJointBands, StoredDraws, band_lengths, band_names, sign,
 };
-use uplift_uniform_risk::StoredStripes;
+use uplift_uniform_risk::{BandOf, QuotedUnits, StoredStripes};
 
 use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
 use crate::error::QuestionsError;
@@ -35,6 +35,8 @@ pub(super) struct BandsFile<'a> {
     pub(super) settings: &'a BandSettings,
     /// The bands, a measure each.
     pub(super) bands: &'a [Bands],
+    /// Whose scatter those of the truth are of, where records are not drawn by earthquake, a measure each.
+    pub(super) quoted: &'a [QuotedUnits],
 }
 
 /// The tables beside the result file: bands, and the figures of Table 4.1.
@@ -89,11 +91,13 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
     };
     DRAWS.write(writer, &[], &draws.lengths(), &draws)?;
     let limits = limit_names(settings.confidence);
-    for bands in file.bands {
+    for (bands, quoted) in file.bands.iter().zip(file.quoted) {
         let names = |of_repaired| band_names(bands.measure, &limits, of_repaired);
         add_spectra_bands(writer, &names(""), &bands.plain, &stored.sites)?;
         let lengths = band_lengths(bands.plain.lower_m.shape());
         INFERRED_BANDS.write(writer, &names(""), &lengths, &bands.inferred)?;
+        let of = if plan.unit() == Unit::Event { BandOf::Earthquakes } else { quoted.of };
+        writer.attribute(&BANDS.group(&names("")), "band_of", of.word())?;
         if let Some(repaired) = &bands.repaired {
             let names = names(REPAIRED_BANDS);
             add_spectra_bands(writer, &names, &repaired.bands, &stored.sites)?;

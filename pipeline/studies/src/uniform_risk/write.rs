@@ -8,7 +8,7 @@ use uplift_inputs::{DrawnStructure, Record, motion_keys};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_result::declared::of_measure;
-use uplift_result::layout::{URS_PRECISION, axis};
+use uplift_result::layout::{HALF_WIDTHS, URS_PRECISION, axis};
 use uplift_result::{
     Additions, DRAWN_QUANTITY, DRAWN_STRUCTURE, FACTORS, IMPACTS, INTENSITY, MOTION_KEYS, MeasureSpectra, Origin,
     PEAKS, RECORDS, RISK_SURFACE, SHARES, StoredRecords, drawn_names, intensity_names, urs,
@@ -184,9 +184,9 @@ fn write_measure(
     if let Some(precision) = outcome.precision.iter().find(|own| own.im == measure.label()) {
         let group = urs::GROUP.of_measure(measure);
         writer.attribute(&group, URS_PRECISION, precision.words().as_str())?;
-        writer.attribute(&group, "half_width", precision.half_width[0])?;
-        if let Some(by_event) = precision.half_width_by_event {
-            writer.attribute(&group, "half_width_by_event", by_event)?;
+        let widths = [Some(precision.half_width[0]), precision.half_width_by_event];
+        for (name, width) in HALF_WIDTHS.into_iter().zip(widths) {
+            width.map(|width| writer.attribute(&group, name, width)).transpose()?;
         }
     }
     write_branches(writer, outcome, spectra)?;

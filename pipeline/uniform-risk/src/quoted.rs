@@ -1,0 +1,63 @@
+//! Whose scatter a quoted confidence band is of.
+
+use serde::Serialize;
+use uplift_bootstrap::{is_too_narrow, units};
+use uplift_motion::IntensityMeasure;
+use uplift_result::ResultFile;
+
+use crate::consistency::Question;
+use crate::error::UniformRiskError;
+
+/// What a confidence band takes for independent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BandOf {
+    /// Records; the components of a pair are one.
+    Records,
+    /// Earthquakes with all their records.
+    Earthquakes,
+}
+
+impl BandOf {
+    /// `records` or `earthquakes`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Records => "records",
+            Self::Earthquakes => "earthquakes",
+        }
+    }
+}
+
+/// The units whose scatter makes the quoted bands of the spectra by a measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct QuotedUnits {
+    /// What they are.
+    pub of: BandOf,
+    /// Positions of the records of each.
+    pub records: Vec<Vec<usize>>,
+}
+
+impl QuotedUnits {
+    /// Those of every measure of `file`, in order.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn of_measures(file: &ResultFile) -> Result<Vec<Self>, UniformRiskError> {
+        let question = Question::from_result(file)?;
+        Ok(file.measures().into_iter().map(|measure| Self::read(file, measure, &question)).collect())
+    }
+
+    /// Those of the spectra by `measure` in `file`: earthquakes, where records share them and the band by record is
+    /// more than a quarter narrower ([`is_too_narrow`], of the half-widths that a run stores).
+    ///
+    /// - `question`: knows pairs and earthquakes of the records.
+    pub fn read(file: &ResultFile, measure: IntensityMeasure, question: &Question) -> Self {
+        let is_by_earthquake =
+            file.half_widths(measure).is_some_and(|[by_record, by_event]| is_too_narrow(by_record, by_event));
+        if is_by_earthquake {
+            Self { of: BandOf::Earthquakes, records: units(&question.event_of()) }
+        } else {
+            Self { of: BandOf::Records, records: units(&question.pair_of()) }
+        }
+    }
+}
