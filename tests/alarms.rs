@@ -527,3 +527,25 @@ fn none_overturned_is_not_never() {
     let expected = beyond + (1.0 - 0.05_f64.powf(0.25)) * 0.5 * (before - beyond);
     assert!((bound - expected).abs() < 1e-3 * expected, "{bound} {expected}");
 }
+
+// Once beside every number of theirs; a quiet terminal gets the numbers alone.
+#[test]
+fn synthetic_records_are_told_by_every_question() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    for question in [
+        &["spectrum", "r.h5"][..],
+        &["spectrum", "r.h5", "--strength", "0.2"],
+        &["bootstrap", "r.h5", "--replicates", "20"],
+        &["consistency", "r.h5"],
+        &["consistency", "r.h5", "--details"],
+        &["influence", "r.h5"],
+        &["measures", "r.h5"],
+        &["table", "r.h5"],
+    ] {
+        let told = study.uplift(question).ok().stdout;
+        assert_eq!(told.matches("Synthetic records: not for design").count(), 1, "{question:?}\n{told}");
+        let quiet = study.uplift(&[question, &["-q"]].concat()).ok().stdout;
+        assert!(!quiet.contains("not for design") || question.contains(&"--details"), "{question:?}\n{quiet}");
+    }
+}

@@ -34,6 +34,8 @@ pub struct ConsistencyReport {
     pub unasked: Vec<String>,
     /// Records of the set.
     pub records: usize,
+    /// Whether the records are synthetic.
+    pub synthetic: bool,
     /// Earthquakes of the set, where they are known.
     pub events: Option<usize>,
     /// Years that probabilities refer to.
@@ -172,6 +174,7 @@ impl ConsistencyReport {
             note,
             unasked: unasked(question, findings),
             records: question.records.len(),
+            synthetic: question.synthetic,
             events: (!question.events.is_empty()).then_some(question.events.len()),
             years: question.years,
             scale_factors: question.settings.scale_factors,
