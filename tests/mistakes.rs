@@ -141,6 +141,16 @@ fn records_entered_twice() {
     study.uplift(&[&["check", "study.toml"], &one[..]].concat()).ok();
 }
 
+// The checkpoint of a run is no result, and says what makes one of it.
+#[test]
+fn a_part_of_a_run_says_how_to_finish_it() {
+    let study = SmallStudy::new();
+    study.write("r.h5.part", "{\"format\":\"uplift analysis rows 2\"}\n");
+    for command in ["report", "spectrum", "bootstrap", "warnings"] {
+        study.uplift(&[command, "r.h5.part"]).fails(4, &["r.h5.part", "interrupted", "repeat the command", "status"]);
+    }
+}
+
 // One --set turns a study of synthetic records into one of real ones; a path typed there starts from where it is typed.
 #[test]
 fn manifest_goes_before_the_synthetic_set() {
