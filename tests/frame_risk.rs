@@ -254,7 +254,8 @@ fn records_of_one_pair_are_one_motion() {
 fn a_case_known_by_hand() {
     let study = SmallStudy::with(
         "title = \"steps\"\n[records]\nmanifest = \"manifest.csv\"\nduplicates = \"keep\"\n[strengths]\n\
-         values = [0.1, 0.2]\n[pga]\nlevels_g = [0.05, 0.12, 0.3, 0.8]\n[[sites]]\nname = \"Here\"\npga = \"pga.csv\"\n",
+         values = [0.1, 0.2]\n[pga]\n\
+         levels_g = [0.05, 0.12, 0.3, 0.8]\n[[sites]]\nname = \"Here\"\npga = \"pga.csv\"\n",
     );
     study.write("step.txt", &(0..1500).map(|_| "1\n").collect::<String>());
     let jerk: String = (0..1500).map(|sample| if sample == 2 { "1\n" } else { "0\n" }).collect();

@@ -33,9 +33,9 @@ fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
     let is_repaired = report.rows.iter().any(|row| row.repair.is_some());
     let repair = |row: &ConsistencyRow| match row.repair.as_ref() {
         Some(RepairRow { failed: None, least_effective: Some(least), .. }) => {
-            format!("{least:.0} of {} records", report.records)
+            format!("{least:.0} of {}", report.records)
         }
-        Some(_) => "no weights found".to_owned(),
+        Some(_) => "none".to_owned(),
         None => "-".to_owned(),
     };
     let table = Table::of(&report.rows)
@@ -43,7 +43,7 @@ fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
         .left("records scaled to", |row| row.scaled_to)
         .right("have times the site's", |row| format!("{} {}", number(row.bias, 2), row.shows))
         .right("verdict", |row| row.verdict.unwrap_or("-"))
-        .when(is_repaired, |table| table.right("repaired, effective", repair));
+        .when(is_repaired, |table| table.right("repaired, effective records", repair));
     Ok(writeln!(out, "{table}")?)
 }
 
@@ -88,13 +88,21 @@ fn print_end(out: &mut impl Write, report: &ConsistencyReport, terminal: &Termin
 /// What speaks against the records, and how many other warnings there are.
 fn print_warnings(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     let synthetic = report.synthetic.then(|| warning(&synthetic_records()));
-    if synthetic.is_some() || !report.warnings.is_empty() {
+    // a repair that was asked for and is not there is the answer
+    let nearest = |row: &ConsistencyRow| {
+        let (site, scaled_to) = (&row.site, row.scaled_to);
+        let nearest = row.repair.as_ref()?.nearest.as_ref()?;
+        Some(format!("{site} by {scaled_to}: no weights give the site's {}: {}", row.shows, nearest.worst))
+    };
+    let nearest = report.rows.iter().find_map(nearest);
+    let more = report.warnings.len() - usize::from(nearest.is_some());
+    let shown: Vec<String> = nearest.into_iter().chain(synthetic).collect();
+    if !shown.is_empty() || more > 0 {
         writeln!(out, "\nWarnings")?;
     }
-    if let Some(line) = synthetic {
+    for line in shown {
         writeln!(out, "  {line}")?;
     }
-    let more = report.warnings.len();
     if more > 0 { Ok(writeln!(out, "  {more} more: --details")?) } else { Ok(()) }
 }
 
