@@ -527,3 +527,55 @@ fn none_overturned_is_not_never() {
     let expected = beyond + (1.0 - 0.05_f64.powf(0.25)) * 0.5 * (before - beyond);
     assert!((bound - expected).abs() < 1e-3 * expected, "{bound} {expected}");
 }
+
+// A curve that only the consistency looks at is judged like the others, by check and by run.
+#[test]
+fn curves_to_compare_with_are_told_as_mistakes_too() {
+    let study = SmallStudy::with(&SMALL_STUDY.replace("[pga]\nlevels_g = [0.02, 0.1, 0.3, 1.0]\n", ""));
+    let kinds = |kind: &str, words: &str| {
+        let checked = json(&study, &["check", "study.toml", "--json"]);
+        let run = json(&study, &["run", "study.toml", "-o", "r.h5", "--json", "--again"]);
+        for found in [&checked, &run] {
+            let odd = alarm(found, kind);
+            assert!(odd["severity"] == "mistake" && text(odd, "what").contains(words), "{odd}");
+        }
+    };
+    study.write("pga.csv", "iml,maf\n0.5,4\n50,0.12\n");
+    kinds("hazard-implausible", "10 g is exceeded 0.41 times a year");
+    study.write("pga.csv", "iml,maf\n0.005,1e-9\n5,1e-12\n");
+    kinds("no-common-rate", "PGA from 1.0e-9 to 1.0e-12 a year have no rate in common");
+}
+
+// A curve may begin at any number: levels that no study can say are not proposed, and no reason against it.
+#[test]
+fn check_and_run_give_one_verdict_on_a_curve_from_nothing_to_everything() {
+    let study = SmallStudy::new();
+    study.write("here-pgv.csv", "iml,maf\n1e-300,1\n1e300,1e-10\n");
+    for command in [&["check", "study.toml"][..], &["run", "study.toml", "-o", "r.h5"]] {
+        let told = study.uplift(command).ok().stdout;
+        assert!(told.contains("mistake?"), "{told}");
+        assert!(!told.contains(&"0".repeat(20)), "numbers of 300 digits: {told}");
+    }
+}
+
+// Once beside every number of theirs; a quiet terminal gets the numbers alone.
+#[test]
+fn synthetic_records_are_told_by_every_question() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    for question in [
+        &["spectrum", "r.h5"][..],
+        &["spectrum", "r.h5", "--strength", "0.2"],
+        &["bootstrap", "r.h5", "--replicates", "20"],
+        &["consistency", "r.h5"],
+        &["consistency", "r.h5", "--details"],
+        &["influence", "r.h5"],
+        &["measures", "r.h5"],
+        &["table", "r.h5"],
+    ] {
+        let told = study.uplift(question).ok().stdout;
+        assert_eq!(told.matches("Synthetic records: not for design").count(), 1, "{question:?}\n{told}");
+        let quiet = study.uplift(&[question, &["-q"]].concat()).ok().stdout;
+        assert!(!quiet.contains("not for design") || question.contains(&"--details"), "{question:?}\n{quiet}");
+    }
+}

@@ -182,8 +182,8 @@ fn azimuths_of_a_pair_are_resampled_together() {
 /// Records that are not synchronised are not added; components of other time steps neither.
 #[test]
 fn components_that_do_not_belong_together_are_not_turned() {
-    let study =
-        SmallStudy::with(&SMALL_STUDY.replace("first = 4\n[records.synthetic]\npairs = 4", "manifest = \"m.csv\""));
+    let records = "manifest = \"m.csv\"\nduplicates = \"keep\"";
+    let study = SmallStudy::with(&SMALL_STUDY.replace("first = 4\n[records.synthetic]\npairs = 4", records));
     let motion = |dt: &str| {
         let samples: Vec<String> = (0..400).map(|sample| format!("{:.3}", (f64::from(sample) * 0.1).sin())).collect();
         format!("# dt = {dt} s\n# acc (m/s2)\n{}\n", samples.join("\n"))

@@ -253,7 +253,8 @@ fn records_of_one_pair_are_one_motion() {
 #[test]
 fn a_case_known_by_hand() {
     let study = SmallStudy::with(
-        "title = \"steps\"\n[records]\nmanifest = \"manifest.csv\"\n[strengths]\nvalues = [0.1, 0.2]\n[pga]\n\
+        "title = \"steps\"\n[records]\nmanifest = \"manifest.csv\"\nduplicates = \"keep\"\n[strengths]\n\
+         values = [0.1, 0.2]\n[pga]\n\
          levels_g = [0.05, 0.12, 0.3, 0.8]\n[[sites]]\nname = \"Here\"\npga = \"pga.csv\"\n",
     );
     study.write("step.txt", &(0..1500).map(|_| "1\n").collect::<String>());

@@ -119,6 +119,38 @@ fn manifests() {
     study.uplift(&["check", "study.toml"]).fails(4, &["manifest.csv"]);
 }
 
+// Copies under another name are refused, all at once; the user may keep them.
+#[test]
+fn records_entered_twice() {
+    let study = with_manifest("A,a.AT2,b.AT2,,,\nB,copy.AT2,again.AT2,,,\nC,c.AT2,b.AT2,,,\n");
+    let wave = |factor: f64| -> Vec<f64> { (0..300).map(|i| factor * (f64::from(i) * 0.1).sin()).collect() };
+    for (name, factor) in [("b", 0.2), ("c", 0.1), ("copy", 0.3), ("again", 0.2)] {
+        study.write(&format!("{name}.AT2"), &at2(&wave(factor), 300).replace("Event", name));
+    }
+    for command in ["check", "run"] {
+        let failed = study.uplift(&[command, "study.toml"]).fails(
+            4,
+            &["record B is record A again", "copy.AT2", "record C has a motion of record A", "records.duplicates"],
+        );
+        assert!(failed.stderr.contains("2 things to mend"), "{}", failed.stderr);
+    }
+    let keep = ["--set", "records.duplicates=keep"];
+    let checked = study.uplift(&[&["check", "study.toml"], &keep[..]].concat()).ok();
+    assert!(checked.stdout.contains("records entered twice are kept: B is A, C is A"), "{}", checked.stdout);
+    let one = ["--set", "records.first=1"];
+    study.uplift(&[&["check", "study.toml"], &one[..]].concat()).ok();
+}
+
+// The checkpoint of a run is no result, and says what makes one of it.
+#[test]
+fn a_part_of_a_run_says_how_to_finish_it() {
+    let study = SmallStudy::new();
+    study.write("r.h5.part", "{\"format\":\"uplift analysis rows 2\"}\n");
+    for command in ["report", "spectrum", "bootstrap", "warnings"] {
+        study.uplift(&[command, "r.h5.part"]).fails(4, &["r.h5.part", "interrupted", "repeat the command", "status"]);
+    }
+}
+
 // One --set turns a study of synthetic records into one of real ones; a path typed there starts from where it is typed.
 #[test]
 fn manifest_goes_before_the_synthetic_set() {

@@ -364,6 +364,8 @@ fn from_a_spectrum_to_a_stack() {
     for stack in stacks {
         assert!(stack["capacity_m"].as_f64().unwrap() >= required, "{stack}");
     }
+    let told = study.uplift(&[&arguments[..], &["4"]].concat()).ok().stdout;
+    assert!(told.contains("Synthetic records: not for design"), "{told}");
     // force and springs at the demand itself, which is the required capacity over the factor of safety
     close(&report["target"]["demand_m"], required / 4.0, 1e-12);
     for (stack, at_demand) in stacks.iter().zip(report["at_demand"].as_array().unwrap()) {

@@ -124,6 +124,7 @@ pub(crate) fn consistency(
             scaled_to: hazard.measure(),
             scaled_to_unit: hazard.unit(),
             other: other_hazard.measure(),
+            other_unit: other_hazard.unit(),
             levels: &levels,
             has_level_sets: false,
             record: &|record| format!("{record} (from 0)"),

@@ -115,6 +115,18 @@ impl<'a> ScaledAnalysis<'a> {
         &self.targets
     }
 
+    /// The site's level of x at a rate within the range, on straight lines of logarithms between the stripes.
+    pub(crate) fn scaled_level(&self, rate_per_year: f64) -> f64 {
+        let rates = self.stripes.rates_per_year();
+        let at = rates.partition_point(|rate| *rate > rate_per_year).clamp(1, rates.len().max(2) - 1);
+        let [low, high] = [at - 1, at.min(rates.len() - 1)];
+        if rates[low] <= rates[high] {
+            return self.levels[low];
+        }
+        let share = (rates[low] / rate_per_year).ln() / (rates[low] / rates[high]).ln();
+        self.levels[low] * (self.levels[high] / self.levels[low]).powf(share)
+    }
+
     /// Whether stripe `level` lies in the range: `ρ_low ≤ λ_x(x_i) ≤ ρ_high`.
     pub fn is_in_range(&self, level: usize) -> bool {
         self.range.contains(self.stripes.rates_per_year()[level])

@@ -1,5 +1,6 @@
 //! Why a set cannot be repaired by weights.
 
+use crate::nearest::{Nearest, three};
 use crate::range::{HighLimit, LowLimit};
 use crate::solver::FIT_RATES;
 use crate::{Exponents, LeastEffective, RateRange, Reach, Words};
@@ -10,22 +11,44 @@ pub enum NoRepair {
     /// The rates at which both hazards can be compared are too few: no verdict either.
     NarrowRange(RateRange),
     /// No weights give the site's hazard.
-    OutOfReach(Reach),
+    OutOfReach {
+        /// How many rates, and on which side.
+        reach: Reach,
+        /// The nearest that any weights come at each level by itself.
+        nearest: Nearest,
+    },
     /// An exponent grew beyond all bounds.
     Runaway {
         /// The exponents.
         exponents: Exponents,
+        /// What they come to.
+        nearest: Nearest,
     },
     /// The best weights do not give the site's hazard.
     NotReached {
-        /// The largest |ln(implied rate/site's rate)|.
-        largest_residual: f64,
+        /// What they give.
+        nearest: Nearest,
     },
     /// The weights leave next to no records.
-    TooFew(LeastEffective),
+    TooFew {
+        /// Where the fewest are left.
+        least: LeastEffective,
+        /// Geometric mean of y there, under the weights: about what the site's records have.
+        other_level: f64,
+    },
 }
 
 impl NoRepair {
+    /// The reachable hazard that is nearest to the site's; none where that is not the reason.
+    pub fn nearest(&self) -> Option<&Nearest> {
+        match self {
+            Self::OutOfReach { nearest, .. } | Self::Runaway { nearest, .. } | Self::NotReached { nearest } => {
+                Some(nearest).filter(|nearest| !nearest.is_met())
+            }
+            Self::NarrowRange(_) | Self::TooFew { .. } => None,
+        }
+    }
+
     /// A sentence that says it, and what to do.
     pub fn sentence(&self, words: &Words<'_>) -> String {
         let (x, y) = (words.scaled_to, words.other);
@@ -48,35 +71,32 @@ impl NoRepair {
                     range.high_per_year, range.low_per_year
                 )
             }
-            Self::OutOfReach(reach) => {
-                let side = |count: usize, side: &str, missing: &str| match count {
-                    0 => String::new(),
-                    count => format!(
-                        "at {count} of {FIT_RATES} rates every record brings {y} {side} often than the site's hazard: \
-                         {missing} are missing"
-                    ),
+            Self::OutOfReach { reach, nearest } => {
+                let missing = if reach.set_above > 0 { lower } else { higher };
+                let told = if nearest.is_met() {
+                    format!("each is missed by less than a tenth; add {missing}")
+                } else {
+                    nearest.sentence(words)
                 };
-                let sides = [side(reach.set_above, "more", &lower), side(reach.set_below, "less", &higher)];
-                format!(
-                    "no weights can give the site's {y}: {}",
-                    sides.iter().filter(|text| !text.is_empty()).cloned().collect::<Vec<_>>().join("; ")
-                )
+                format!("no weights give the site's {y} at {} of {FIT_RATES} rates: {told}", reach.out_of_reach())
             }
-            Self::Runaway { exponents } => {
+            Self::Runaway { exponents, nearest } if nearest.is_met() => {
                 let largest = exponents.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(f64::NAN);
                 let missing = if largest > 0.0 { higher } else { lower };
                 format!("the weights run away (exponent {largest:.0}), so that few records are left: add {missing}")
             }
-            Self::NotReached { largest_residual } => format!(
-                "the best weights still miss the rates of the site's {y} by up to {:.0} %: add {lower} and {higher}{}",
-                100.0 * largest_residual.exp_m1(),
+            Self::Runaway { nearest, .. } | Self::NotReached { nearest } => format!(
+                "no weights give the site's {y}: {}{}",
+                nearest.sentence(words),
                 if words.has_level_sets { ", or more records at each level" } else { "" }
             ),
-            Self::TooFew(least) => format!(
-                "the weights leave {:.1} effective records at the stripe {}, fewer than 5: choose records whose \
-                 {y}/{x} is like the site's",
+            Self::TooFew { least, other_level } => format!(
+                "the weights leave {:.1} effective records at the stripe {}, fewer than 5: add records with {y} near \
+                 {} {} there",
                 least.records,
-                words.level(least.level)
+                words.level(least.level),
+                three(*other_level),
+                words.other_unit
             ),
         }
     }
@@ -85,6 +105,7 @@ impl NoRepair {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Miss;
     use crate::words::with_words;
 
     #[test]
@@ -95,6 +116,8 @@ mod tests {
             high_limit: HighLimit::FirstStripe,
             low_limit: LowLimit::OtherCurve,
         };
+        let (met, miss) = (Nearest::default(), Miss { level: 0.6, rate_per_year: 1e-3, times: 1.8, scaled_to: 48.0 });
+        let nearest = Nearest { too_often: Some(miss), too_rarely: None };
         with_words(|words| {
             for (reason, parts) in [
                 (
@@ -102,23 +125,36 @@ mod tests {
                     ["1.00e-3 per year (half the rate of the first stripe of PGV)", "5.00e-4"],
                 ),
                 (
-                    NoRepair::OutOfReach(Reach { set_above: 12, set_below: 0 }),
-                    ["at 12 of 12 rates every record brings PGA more often", "records of lower PGA/PGV are missing"],
+                    NoRepair::OutOfReach { reach: Reach { set_above: 12, set_below: 0 }, nearest },
+                    [
+                        "the site's PGA at 12 of 12 rates: the nearest hazard exceeds 0.6 g 1.8 times",
+                        "add records with PGA below 0.6 g at",
+                    ],
                 ),
                 (
-                    NoRepair::OutOfReach(Reach { set_above: 1, set_below: 2 }),
-                    ["at 1 of 12", "at 2 of 12 rates every record brings PGA less often"],
+                    NoRepair::OutOfReach { reach: Reach { set_above: 1, set_below: 2 }, nearest: met },
+                    ["at 3 of 12 rates", "by less than a tenth; add records of lower PGA/PGV"],
                 ),
-                (NoRepair::Runaway { exponents: [0.0, -61.0, 3.0, 0.0] }, ["exponent -61", "add records of lower"]),
-                (NoRepair::NotReached { largest_residual: 0.2 }, ["22 %", "records of higher PGA/PGV"]),
-                (NoRepair::TooFew(LeastEffective { records: 3.21, level: 2 }), ["3.2 effective", "40 cm/s"]),
+                (
+                    NoRepair::Runaway { exponents: [0.0, -61.0, 3.0, 0.0], nearest: met },
+                    ["exponent -61", "add records of lower"],
+                ),
+                (
+                    NoRepair::Runaway { exponents: [0.0, -61.0, 3.0, 0.0], nearest },
+                    ["no weights give the site's PGA: the nearest hazard exceeds 0.6 g 1.8 times", "PGV 48 cm/s"],
+                ),
+                (NoRepair::NotReached { nearest }, ["0.6 g 1.8 times", "below 0.6 g at PGV 48 cm/s"]),
+                (
+                    NoRepair::TooFew { least: LeastEffective { records: 3.21, level: 2 }, other_level: 0.3141 },
+                    ["3.2 effective records at the stripe 40 cm/s", "PGA near 0.314 g there"],
+                ),
             ] {
                 let sentence = reason.sentence(words);
                 assert!(parts.iter().all(|part| sentence.contains(part)), "{sentence}");
             }
             let of_levels = Words { has_level_sets: true, ..*words };
-            let missed = NoRepair::NotReached { largest_residual: 0.2 }.sentence(&of_levels);
-            assert!(missed.ends_with("records of higher PGA/PGV, or more records at each level"), "{missed}");
+            let missed = NoRepair::NotReached { nearest }.sentence(&of_levels);
+            assert!(missed.ends_with("PGV 48 cm/s, or more records at each level"), "{missed}");
         });
     }
 }

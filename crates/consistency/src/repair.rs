@@ -52,15 +52,15 @@ impl ScaledAnalysis<'_> {
         let once = self.set().once();
         let reach = solver.reach(&once)?;
         if !reach.is_whole() {
-            return none(NoRepair::OutOfReach(reach));
+            return none(NoRepair::OutOfReach { reach, nearest: solver.nearest_reach(&once)? });
         }
         let mut scratch = Scratch::default();
         let fit = solver.solve(&once, &[0.0; crate::KNOTS], &mut scratch)?;
         if fit.has_run_away() {
-            return none(NoRepair::Runaway { exponents: fit.exponents });
+            return none(NoRepair::Runaway { exponents: fit.exponents, nearest: solver.nearest_of(&fit) });
         }
         if !fit.is_reached() {
-            return none(NoRepair::NotReached { largest_residual: fit.largest_residual() });
+            return none(NoRepair::NotReached { nearest: solver.nearest_of(&fit) });
         }
         let mut shares = self.own_shares();
         solver.shares(&once, &fit.exponents, &mut scratch, &mut shares)?;
@@ -69,7 +69,9 @@ impl ScaledAnalysis<'_> {
         if let Some(least) = diagnosis.least_effective
             && least.records < TOO_FEW
         {
-            return none(NoRepair::TooFew(least));
+            let mean_ratio = diagnosis.stripes[least.level].mean_ln_ratio.exp();
+            let other_level = self.set().brought(self.levels()[least.level], mean_ratio);
+            return none(NoRepair::TooFew { least, other_level });
         }
         let warnings = Warning::of(self, &diagnosis, options.least_effective);
         Ok(Repaired { fit, knot_levels: *solver.knot_levels(), weights, diagnosis, warnings })

@@ -14,7 +14,7 @@ use crate::exponent::{Exponents, KNOTS, Knots};
 use crate::scratch::{Scratch, check};
 use uplift_risk::RiskError;
 
-use crate::{ConsistencyError, NoRepair, Reach, ScaledAnalysis};
+use crate::{ConsistencyError, Miss, Nearest, NoRepair, Reach, ScaledAnalysis};
 
 /// Rates at which the implied hazard is fitted to the site's.
 pub const FIT_RATES: usize = 12;
@@ -26,7 +26,7 @@ pub const DEFAULT_SMOOTHNESS: f64 = 0.05;
 const CURVATURES: usize = KNOTS - 2;
 
 /// A fit has not reached the curve where a residual is larger than this.
-const LARGEST_RESIDUAL: f64 = 0.1;
+pub(crate) const LARGEST_RESIDUAL: f64 = 0.1;
 
 /// An exponent beyond this has run away.
 const LARGEST_EXPONENT: f64 = 50.0;
@@ -148,6 +148,18 @@ impl<'a> Solver<'a> {
     /// # Errors
     /// Another number of multiplicities than of records; no record drawn.
     pub fn reach(&self, multiplicities: &[u32]) -> Result<Reach, ConsistencyError> {
+        let bounds = self.bounds(multiplicities)?;
+        let count = |is_out: &dyn Fn((f64, [f64; 2])) -> bool| {
+            self.rates.iter().copied().zip(bounds).filter(|of| is_out(*of)).count()
+        };
+        Ok(Reach {
+            set_above: count(&|(rate, [_, least])| least > rate),
+            set_below: count(&|(rate, [most, _])| most < rate),
+        })
+    }
+
+    /// The most and the least rate of the site's level at each rate of the fit that any weights give, 1/yr.
+    fn bounds(&self, multiplicities: &[u32]) -> Result<[[f64; 2]; FIT_RATES], ConsistencyError> {
         check(self.analysis.set(), multiplicities)?;
         let set = self.analysis.set();
         // the largest and the smallest y that a record brings, [level]
@@ -159,16 +171,41 @@ impl<'a> Solver<'a> {
             let last = drawn.next_back().copied().unwrap_or(first);
             extremes.push([first, last].map(|record| set.brought(level, ratios[record])));
         }
-        let mut reach = Reach { set_above: 0, set_below: 0 };
-        for (&rate, &site_level) in self.rates.iter().zip(&self.site_levels) {
-            let rate_of = |side: usize| -> f64 {
+        Ok(self.site_levels.map(|site_level| {
+            [0, 1].map(|side| {
                 let levels = extremes.iter().zip(&self.stripe_weights);
                 levels.filter(|(brought, _)| brought[side] > site_level).map(|(_, weight)| weight).sum()
-            };
-            reach.set_above += usize::from(rate_of(1) > rate);
-            reach.set_below += usize::from(rate_of(0) < rate);
-        }
-        Ok(reach)
+            })
+        }))
+    }
+
+    /// The nearest to the site's hazard that any weights of the drawn records come at each level by itself.
+    ///
+    /// - `multiplicities`: how often each record counts, `[record]`.
+    ///
+    /// # Errors
+    /// Another number of multiplicities than of records; no record drawn.
+    pub fn nearest_reach(&self, multiplicities: &[u32]) -> Result<Nearest, ConsistencyError> {
+        let bounds = self.bounds(multiplicities)?;
+        Ok(self.nearest(std::array::from_fn(|n| {
+            let ([most, least], rate) = (bounds[n], self.rates[n]);
+            rate.clamp(least.min(most), most) / rate
+        })))
+    }
+
+    /// What the weights of `fit` come to: of all tried, the nearest in the sum of squares of the logarithms.
+    pub fn nearest_of(&self, fit: &Fit) -> Nearest {
+        self.nearest(fit.residuals.map(f64::exp))
+    }
+
+    /// Where the site's levels are exceeded so many `times` as often.
+    fn nearest(&self, times: [f64; FIT_RATES]) -> Nearest {
+        Nearest::of(&std::array::from_fn(|n| Miss {
+            level: self.site_levels[n],
+            rate_per_year: self.rates[n],
+            times: times[n],
+            scaled_to: self.analysis.scaled_level(self.rates[n]),
+        }))
     }
 
     /// Fits the exponents: Levenberg and Marquardt's method with the exact derivatives.

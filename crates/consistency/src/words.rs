@@ -11,6 +11,8 @@ pub struct Words<'a> {
     pub scaled_to_unit: &'a str,
     /// The other measure: PGA.
     pub other: &'a str,
+    /// Its unit: g.
+    pub other_unit: &'a str,
     /// Stripe levels of x, `[level]`.
     pub levels: &'a [f64],
     /// Whether each has records of its own.
@@ -44,6 +46,7 @@ pub(crate) fn with_words(test: impl Fn(&Words<'_>)) {
         scaled_to: "PGV",
         scaled_to_unit: "cm/s",
         other: "PGA",
+        other_unit: "g",
         levels: &[1.0, 2.5, 40.0],
         has_level_sets: false,
         record: &|record| format!("RSN{record}"),

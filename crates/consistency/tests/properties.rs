@@ -239,3 +239,62 @@ fn both_components_are_one_pair() {
         assert!(2 * one.largest_record == both.largest_record && both.effective_events.is_none());
     }
 }
+
+/// By hand: hazards `c x⁻²` and `c y⁻²`, so that y = x at every rate, and records of q from 1.3 to 2 at every level. The
+/// least that weights can give is all weight on q = 1.3: `λ̂(y) = λ_x(y/1.3) = 1.69 λ(y)`. What would cure it has y below
+/// the site's level when scaled to the same level of x.
+#[test]
+fn a_set_out_of_reach_comes_so_near() {
+    let powers = |levels: Vec<f64>, measure: &str| {
+        let rates = levels.iter().map(|level| 0.5 * level.powi(-2)).collect();
+        HazardCurve::new(measure, "cm/s", "", levels, rates).unwrap()
+    };
+    let fine: Vec<f64> = (0..700).map(|i| 1.01_f64.powi(i)).collect();
+    let (x, y) = (powers(vec![0.5, 2000.0], "PGV"), powers(vec![0.5, 2000.0], "other"));
+    let ln_ratios: Vec<f64> = (0..25).map(|i| f64::ln(1.3) + f64::from(i) / 24.0 * f64::ln(2.0 / 1.3)).collect();
+    let of = |ln_ratios: &[f64]| {
+        let set = set(&[1.0; 25], ln_ratios);
+        let analysis = ScaledAnalysis::new(&set, &fine, &x, &y, &targets(), Extrapolation::Refuse).unwrap();
+        match analysis.repair(&RepairOptions::default()).unwrap_err() {
+            ConsistencyError::NoRepair(NoRepair::OutOfReach { reach, nearest }) => (reach, nearest),
+            other => panic!("{other}"),
+        }
+    };
+    let near = |found: f64, expected: f64, tolerance: f64| {
+        assert!((found / expected - 1.0).abs() < tolerance, "{found} {expected}");
+    };
+    let (reach, nearest) = of(&ln_ratios);
+    assert_eq!((reach.set_above, reach.set_below, nearest.too_rarely), (12, 0, None));
+    let miss = nearest.too_often.unwrap();
+    near(miss.times, 1.69, 0.02);
+    near(miss.rate_per_year, 0.5 * miss.level.powi(-2), 1e-9);
+    near(miss.scaled_to, miss.level, 1e-9);
+    // and from the other side: all weight on q = 1/1.3
+    let (reach, nearest) = of(&ln_ratios.iter().map(|ln_ratio| -ln_ratio).collect::<Vec<_>>());
+    assert_eq!((reach.set_above, reach.set_below, nearest.too_often), (0, 12, None));
+    near(nearest.too_rarely.unwrap().times, 1.0 / 1.69, 0.02);
+    near(nearest.too_rarely.unwrap().scaled_to, nearest.too_rarely.unwrap().level, 1e-9);
+}
+
+/// Records on both sides of the site's, and none between: weights reach each rate by itself, and no smooth ones all of
+/// them. What is told is what the weights of the best exponents give.
+#[test]
+fn the_nearest_hazard_is_that_of_the_best_weights() {
+    let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.0));
+    let ln_ratios: Vec<f64> = (0..30).map(|i| if i % 2 == 0 { 3.0 } else { -3.0 }).collect();
+    let set = set(&[1.0; 30], &ln_ratios);
+    let analysis = analysis(&set, &x, &y);
+    let solver = Solver::new(&analysis, 0.05).unwrap();
+    let error = analysis.repair(&RepairOptions::default()).unwrap_err();
+    let ConsistencyError::NoRepair(reason) = error else { panic!("{error}") };
+    assert!(matches!(reason, NoRepair::NotReached { .. } | NoRepair::Runaway { .. }), "{reason:?}");
+    let nearest = reason.nearest().unwrap();
+    let (_, shares) = solved(&solver, &set.once());
+    let weights = RunWeights::new(analysis.stripes(), &shares).unwrap();
+    let implied = analysis.implied(Some(&weights)).unwrap();
+    for miss in [nearest.too_often, nearest.too_rarely].into_iter().flatten() {
+        let times = implied.mean_annual_frequency(miss.level).unwrap() / miss.rate_per_year;
+        assert!((times / miss.times - 1.0).abs() < 1e-9 && (times.ln()).abs() > 0.1, "{times} {miss:?}");
+    }
+    assert!(solver.nearest_reach(&set.once()).unwrap().is_met());
+}

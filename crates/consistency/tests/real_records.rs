@@ -264,7 +264,7 @@ fn a_set_out_of_reach_is_reported() {
     let set = RecordSet::new(records).unwrap();
     let site = Site::former("Aachen");
     let error = site.analysis(&set, ScaledTo::Pga).repair(&RepairOptions::default()).unwrap_err();
-    assert!(matches!(error, ConsistencyError::NoRepair(uplift_consistency::NoRepair::OutOfReach(_))), "{error}");
+    assert!(matches!(error, ConsistencyError::NoRepair(uplift_consistency::NoRepair::OutOfReach { .. })), "{error}");
 }
 
 #[test]

@@ -75,7 +75,7 @@ pub use kind::{AnyStudy, Kind};
 pub use reading::did_you_mean;
 pub use schema::{structure_schema, study_schema};
 pub use sections::output::Output;
-pub use sections::record_source::{DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, RecordSource};
+pub use sections::record_source::{DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, Duplicates, RecordSource};
 pub use sections::selection::{CRITERIA, Criterion, Range, RecordSelection};
 pub use sections::uncertainty::{Uncertainty, UncertaintyKind};
 pub use shake_table::{DesignSpectrumPlan, FrameModel, LevelPlan, ShakeTableStudy, SpectraPlan};

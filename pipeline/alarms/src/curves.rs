@@ -2,12 +2,14 @@
 
 use uplift_inputs::unit_that_explains;
 use uplift_job::alarm::{Alarm, Case, Severity};
+use uplift_job::text::short;
 use uplift_motion::IntensityMeasure::{Pga, Pgv};
 use uplift_plausible::USUAL_GRAVITY;
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::ConsistencyReport;
 
 use super::evidence::{Evidence, Scope};
+use super::hazard::CurvesAtSite;
 
 /// PGA over PGV differs by 3 times between rock near by and soft soil far away, of which records bring some.
 const BEYOND_NATURE: f64 = 5.0;
@@ -74,12 +76,42 @@ fn case(study: &UniformRiskStudy, site: &str, biases: [Option<f64>; 2]) -> Optio
         badness: times,
         subject: site.to_owned(),
         what: format!(
-            "its curve of PGA is {times:.1} times too {direction} for its curve of PGV and these records; sites differ \
-             by 2 or 3 times"
+            "its curve of PGA is {} times too {direction} for its curve of PGV and these records; sites differ by 2 or \
+             3 times",
+            if times < 1e6 { format!("{times:.1}") } else { short(times) }
         ),
         what_to_do: unit_that_explains(study, site, too_high)
             .unwrap_or_else(|| "Check both curves: unit, annual rates, site, and definition of the measure".to_owned()),
     })
+}
+
+/// Curves of a site of which one is rarer at all its levels than the other at any: nothing of them can be compared.
+pub(super) fn without_common_rate(curves: &[CurvesAtSite<'_>]) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (position, one) in curves.iter().enumerate() {
+        for other in curves[position + 1..].iter().filter(|other| other.site == one.site) {
+            let ends = |of: &CurvesAtSite<'_>| [of.curve.first().maf, of.curve.last().maf];
+            let [high, low] = [ends(one), ends(other)];
+            let apart = (low[1] / high[0]).max(high[1] / low[0]);
+            if apart > 1.0 {
+                let range = |of: &CurvesAtSite<'_>, [most, least]: [f64; 2]| {
+                    format!("{} from {most:.1e} to {least:.1e}", of.measure.label())
+                };
+                cases.push(Case {
+                    severity: Severity::Mistake,
+                    badness: apart,
+                    subject: one.site.to_owned(),
+                    what: format!(
+                        "its curves of {} and {} a year have no rate in common",
+                        range(one, high),
+                        range(other, low)
+                    ),
+                    what_to_do: "Check both curves: annual rates, unit, and site".to_owned(),
+                });
+            }
+        }
+    }
+    cases
 }
 
 #[cfg(test)]
@@ -165,6 +197,25 @@ mod tests {
         std::fs::write(&path, text).unwrap();
         let case = case(&uplift_study::Study::load(&path, &[]).unwrap(), "Here", [Some(9.0), None]).unwrap();
         assert!(case.what_to_do.ends_with("divide its levels by 10 into cm/s; or is PGA not of 50 years?"));
+    }
+
+    #[test]
+    fn curves_without_a_common_rate_are_told() {
+        use uplift_hazard::HazardCurve;
+        let curve = |rates: [f64; 2]| HazardCurve::new("IM", "g", "", vec![1.0, 10.0], rates.to_vec()).unwrap();
+        let told = |pgv: [f64; 2], pga: [f64; 2]| {
+            let both = [(Pgv, "Here", curve(pgv)), (Pga, "Here", curve(pga)), (Pga, "There", curve([1e-9, 1e-10]))];
+            let curves: Vec<CurvesAtSite<'_>> = both
+                .iter()
+                .map(|(measure, site, curve)| CurvesAtSite { site, measure: *measure, curve, branches: Vec::new() })
+                .collect();
+            without_common_rate(&curves).into_iter().map(|case| (case.subject, case.what)).collect::<Vec<_>>()
+        };
+        assert_eq!(told([0.1, 1e-4], [1e-4, 1e-6]), []);
+        let what =
+            "its curves of PGV from 1.0e-1 to 1.0e-4 and PGA from 9.9e-5 to 1.0e-6 a year have no rate in common";
+        assert_eq!(told([0.1, 1e-4], [9.9e-5, 1e-6]), [("Here".to_owned(), what.to_owned())]);
+        assert_eq!(told([1e-5, 1e-6], [0.1, 1e-4]).len(), 1);
     }
 
     #[test]

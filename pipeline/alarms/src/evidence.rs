@@ -15,6 +15,8 @@ pub struct Evidence {
     pub(crate) spectra: StoredSpectra,
     /// By measure, as the spectra; weighted curves of the sites alone that are asked about.
     pub(crate) hazard: Vec<StoredHazard>,
+    /// Curves of measures that the study is not analysed by, with the position of the site.
+    pub(crate) other_curves: Vec<(usize, IntensityMeasure, HazardCurve)>,
     pub(crate) bands: Option<StoredBands>,
     /// By the measure that records are scaled to.
     pub(crate) consistency: Vec<StoredConsistency>,
@@ -76,9 +78,20 @@ impl Evidence {
     /// # Errors
     /// A file that is damaged, of another kind, or without sites.
     pub(crate) fn read(file: &ResultFile, scope: &Scope) -> Result<Self, AlarmsError> {
+        let (study, spectra) = (file.stored_study()?, file.spectra()?);
+        let is_analysed = |measure| spectra.measures.iter().any(|of| of.measure == measure);
+        let mut other_curves = Vec::new();
+        for (site, name) in spectra.sites.iter().enumerate().filter(|(site, _)| scope.holds_site(*site)) {
+            let listed = study.sites.iter().find(|listed| listed.name == *name);
+            let measures = listed.iter().flat_map(|listed| listed.curves.iter().map(|file| file.measure));
+            for measure in measures.filter(|measure| !is_analysed(*measure)) {
+                other_curves.extend(file.mean_curve(name, measure)?.map(|curve| (site, measure, curve)));
+            }
+        }
         Ok(Self {
-            study: file.stored_study()?,
-            spectra: file.spectra()?,
+            study,
+            spectra,
+            other_curves,
             hazard: file.hazard_with_branches(|site| scope.holds_site(site))?,
             bands: file.bands()?,
             consistency: file.consistency()?,

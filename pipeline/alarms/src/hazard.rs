@@ -5,6 +5,7 @@ use uplift_job::alarm::Alarm;
 use uplift_motion::IntensityMeasure;
 use uplift_study::UniformRiskStudy;
 
+use super::curves::without_common_rate;
 use super::evidence::{Evidence, Scope};
 use super::{branches, implausible, probabilities};
 
@@ -67,6 +68,7 @@ pub fn hazard_alarms(study: &UniformRiskStudy, curves: &[CurvesAtSite<'_>]) -> V
         Alarm::from_cases("hazard-probabilities", levelling_off),
         Alarm::from_cases("branches-disagree", disagreeing),
         Alarm::from_cases("hazard-implausible", hardly_possible),
+        Alarm::from_cases("no-common-rate", without_common_rate(curves)),
     ];
     alarms.into_iter().flatten().collect()
 }
@@ -84,6 +86,12 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Vec<Alarm> {
                     branches: curves.branches.iter().map(|branch| (branch.name.as_str(), &branch.curve)).collect(),
                 });
             }
+        }
+    }
+    for (site, measure, curve) in &evidence.other_curves {
+        if scope.holds(*site, *measure) {
+            let site = &evidence.spectra.sites[*site];
+            all.push(CurvesAtSite { site, measure: *measure, curve, branches: Vec::new() });
         }
     }
     let mut alarms = hazard_alarms(&evidence.study, &all);

@@ -22,7 +22,11 @@ pub(super) fn case(study: &UniformRiskStudy, curves: &CurvesAtSite<'_>) -> Optio
         badness: odd.times,
         subject: curves.subject(),
         what: format!("by {} {}, which is hardly possible", found.name, odd.what),
-        what_to_do: units_that_make_possible(study, (curves.site, measure), found.curve)
-            .unwrap_or_else(|| "Check its unit, its measure, and that it gives annual rates".to_owned()),
+        what_to_do: if odd.is_faint_and_frequent {
+            "Are its rates in per cent? Divide them by 100; else check its unit and measure".to_owned()
+        } else {
+            units_that_make_possible(study, (curves.site, measure), found.curve)
+                .unwrap_or_else(|| "Check its unit, its measure, and that it gives annual rates".to_owned())
+        },
     })
 }

@@ -39,16 +39,19 @@ pub(super) fn result_alarms(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError
 
 /// What a study says but probably does not mean, and that its records are not real ones.
 pub fn study_alarms(warnings: &[Warning], synthetic: bool) -> impl Iterator<Item = Alarm> {
-    let of_records = synthetic.then(|| {
-        Alarm::new(
-            Severity::Caution,
-            "synthetic-records",
-            "Synthetic records",
-            "not for design".to_owned(),
-            "Use recorded motions: records.manifest",
-        )
-    });
+    let of_records = synthetic.then(synthetic_records);
     warnings.iter().map(|warning| warning_alarm("study", warning)).chain(of_records)
+}
+
+/// Of records that are not real ones, wherever a number of theirs is shown.
+pub fn synthetic_records() -> Alarm {
+    Alarm::new(
+        Severity::Caution,
+        "synthetic-records",
+        "Synthetic records",
+        "not for design".to_owned(),
+        "Use recorded motions: records.manifest",
+    )
 }
 
 /// What a file says but probably does not mean.

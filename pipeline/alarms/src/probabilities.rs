@@ -3,6 +3,7 @@
 use uplift_hazard::HazardCurve;
 use uplift_inputs::{POE, curve_line};
 use uplift_job::alarm::{Case, Severity};
+use uplift_job::text::short;
 
 use super::hazard::CurvesAtSite;
 
@@ -41,7 +42,7 @@ pub(super) fn case(curves: &CurvesAtSite<'_>) -> Option<Case> {
             "the rates of {} level off just below 1 ({} a year at {} {}), as probabilities in many years do",
             found.name,
             first.maf,
-            first.im,
+            if first.im < 1e-6 { short(first.im) } else { first.im.to_string() },
             found.curve.unit()
         ),
         what_to_do,

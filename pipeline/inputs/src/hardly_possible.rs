@@ -1,4 +1,5 @@
-//! Hazard curves by which the extreme shaking is frequent, or the faintest is rare: what a wrong unit looks like.
+//! Hazard curves by which the extreme shaking is frequent, or the faintest is rare or happens every week: what a wrong
+//! unit looks like.
 
 use std::fmt;
 
@@ -23,6 +24,8 @@ pub struct HardlyPossible {
     pub what: String,
     /// How many times too often, or too rarely, at least.
     pub times: f64,
+    /// Whether the faintest is too frequent, as rates in per cent are.
+    pub is_faint_and_frequent: bool,
 }
 
 /// By `curve` the extreme shaking is frequent, or the faintest is rare.
@@ -38,6 +41,8 @@ pub(super) fn hardly_possible_if(
 ) -> Option<HardlyPossible> {
     /// Once in ten thousand years.
     const RARE_PER_YEAR: f64 = 1e-4;
+    /// Once a week: earthquakes that shake a site so are fewer anywhere.
+    const WEEKLY_PER_YEAR: f64 = 52.0;
     let [strong, faint] = extreme_levels(measure)?;
     let unit = measure.unit();
     let at = |level: f64| curve.rate_at(level * too_large).ok();
@@ -47,11 +52,15 @@ pub(super) fn hardly_possible_if(
     if let Some(rate) = at_least(strong).filter(|&rate| rate > RARE_PER_YEAR) {
         let often = if rate < 0.01 { format!("{rate:.1e}") } else { format!("{rate:.2}") };
         let what = format!("{strong} {unit} is exceeded {often} times a year");
-        return Some(HardlyPossible { what, times: rate / RARE_PER_YEAR });
+        return Some(HardlyPossible { what, times: rate / RARE_PER_YEAR, is_faint_and_frequent: false });
+    }
+    if let Some(rate) = at_least(faint).filter(|&rate| rate > WEEKLY_PER_YEAR) {
+        let what = format!("{faint} {unit} is exceeded {rate:.0} times a year");
+        return Some(HardlyPossible { what, times: rate / WEEKLY_PER_YEAR, is_faint_and_frequent: true });
     }
     let rate = at_most(faint).filter(|&rate| rate < RARE_PER_YEAR)?;
     let what = format!("{faint} {unit} is exceeded only {rate:.1e} times a year");
-    Some(HardlyPossible { what, times: RARE_PER_YEAR / rate })
+    Some(HardlyPossible { what, times: RARE_PER_YEAR / rate, is_faint_and_frequent: false })
 }
 
 impl fmt::Display for HardlyPossible {
@@ -102,5 +111,21 @@ mod tests {
         ] {
             assert_eq!(told(measure, level).as_deref(), Some(words), "{measure:?} {level}");
         }
+    }
+
+    #[test]
+    fn rates_in_per_cent_are_recognised_where_no_site_is_shaken_so_often() {
+        let found = |measure: IntensityMeasure, faint: f64, times: f64| {
+            let im = [1.0, 10.0, 1000.0].map(|part| part * faint).to_vec();
+            let maf = im.iter().map(|im| times * 2.0 * (im / faint).powf(-1.5)).collect();
+            let curve = HazardCurve::new(measure.label(), measure.unit(), "", im, maf).unwrap();
+            hardly_possible(&curve, measure).map(|found| (found.what, found.is_faint_and_frequent))
+        };
+        // twice a year in the strongest seismicity; two per cent a year more looks like it
+        assert_eq!(found(IntensityMeasure::Pgv, 0.3, 1.0), None);
+        assert_eq!(found(IntensityMeasure::Pga, 0.003, 25.0), None);
+        let weekly = |what: &str| Some((what.to_owned(), true));
+        assert_eq!(found(IntensityMeasure::Pgv, 0.3, 100.0), weekly("0.3 cm/s is exceeded 200 times a year"));
+        assert_eq!(found(IntensityMeasure::Pga, 0.003, 100.0), weekly("0.003 g is exceeded 200 times a year"));
     }
 }

@@ -11,7 +11,6 @@ use uplift_study::{
     CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_place, levels_within,
 };
 
-use super::hardly_possible::hardly_possible;
 use super::other_unit::{file_of, of_outside, with_remedy};
 use crate::error::InputsError;
 
@@ -181,14 +180,12 @@ impl SiteReader<'_> {
         let (curve, checksum) = if let Some(path) = &file.file {
             let read = self.read_file(path);
             let read = self.noted(read)?;
-            self.note_if_hardly_possible(path, &read.curve);
             (read.curve, read.checksum)
         } else {
             let mut curves = Vec::new();
             for branch in &file.branches {
                 let read = self.read_file(&branch.file);
                 let ReadCurve { curve, checksum, .. } = self.noted(read)?;
-                self.note_if_hardly_possible(&branch.file, &curve);
                 curves.push((branch.weight, curve));
                 branches.push((branch.name.clone(), checksum));
             }
@@ -204,14 +201,6 @@ impl SiteReader<'_> {
             curve,
             branches,
         })
-    }
-
-    /// Alarms are raised of the curves that a study is analysed by, and of others this note.
-    fn note_if_hardly_possible(&mut self, path: &Path, curve: &HazardCurve) {
-        if let Some(reason) = hardly_possible(curve, self.measure) {
-            let (measure, path) = (self.measure.label(), path.display());
-            self.notes.push(format!("site {}, {measure}: {path}: {reason}", self.site));
-        }
     }
 
     fn input(&mut self, path: &Path, plan: &MeasurePlan) -> Option<HazardInput> {

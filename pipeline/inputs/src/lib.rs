@@ -4,6 +4,7 @@ pub mod at_level;
 mod cache;
 mod checksums;
 mod drawn_structures;
+mod duplicates;
 mod error;
 mod file_options;
 mod hardly_possible;

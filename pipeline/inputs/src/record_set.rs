@@ -16,6 +16,8 @@ use uplift_motion::{
 use uplift_study::{RecordSource, UniformRiskStudy};
 
 use super::drawn_structures::{DrawnStructure, STRUCTURE, shaking_structures};
+use super::duplicates::Places;
+use super::manifest::Row;
 use super::pairs::{self, CheckedPair};
 use super::third_component::{ThirdComponents, Vertical};
 use super::{AtLevel, at_level, cache, manifest, selection};
@@ -148,16 +150,16 @@ fn read_set(
         _ => None,
     };
     let named = table.as_ref().map(|(table, _)| table.names());
-    let (pairs, third, source, synthetic) = match &study.records.source {
+    let (pairs, OfRows { third, places }, source, synthetic) = match &study.records.source {
         RecordSource::Synthetic { pairs, seed } => {
-            let none = ThirdComponents::from_rows(&[], study.gravity_m_s2);
+            let none = OfRows::new(&[], study.gravity_m_s2);
             (synthetic_pairs((*pairs, *seed), events)?, none, format!("seed {seed}"), true)
         }
         RecordSource::Manifest { manifest, tag } => {
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy();
             let tag_note = tag.as_ref().map_or_else(String::new, |tag| format!(", tag {tag}"));
-            let (pairs, third) = manifest_pairs((manifest, tag.as_deref()), named.as_ref(), study)?;
-            (pairs, third, format!("{name}{tag_note}"), false)
+            let (pairs, of_rows) = manifest_pairs((manifest, tag.as_deref()), named.as_ref(), study)?;
+            (pairs, of_rows, format!("{name}{tag_note}"), false)
         }
     };
     let synthetic = synthetic || pairs.iter().any(is_made);
@@ -167,6 +169,8 @@ fn read_set(
         selection::select(pairs, &study.records.select, study.records.intensity, study.gravity_m_s2)?;
     pairs.truncate(first_of(study));
     notes.extend(alike(&pairs));
+    let twice = places.note(&pairs, study.records.duplicates);
+    notes.extend(twice.iter().flatten().cloned());
     notes.extend(of_unusual_peak(&pairs, study.gravity_m_s2));
     notes.extend(of_unequal_length(&pairs, study));
     let noun = if pairs.len() == 1 { "pair" } else { "pairs" };
@@ -183,7 +187,8 @@ fn read_set(
         description.push_str(", with the vertical one");
         verticals = Some(third.read(&pairs).map_err(JobError::Inputs)?);
     }
-    let mut records = analysis_records((pairs, verticals), study, further, kept)?;
+    let mistakes = twice.err().unwrap_or_default();
+    let mut records = analysis_records((pairs, verticals), study, further, (kept, mistakes))?;
     let mut at_level = None;
     if let Some(uncertainty) = &study.uncertainty {
         (records, description) = shaking_structures(records, uncertainty, (study, description))?;
@@ -197,6 +202,18 @@ fn read_set(
         at_level = Some(found);
     }
     Ok(RecordSet { description, synthetic, records, at_level, notes })
+}
+
+/// What the rows of a manifest say of pairs besides their horizontal components.
+struct OfRows {
+    third: ThirdComponents,
+    places: Places,
+}
+
+impl OfRows {
+    fn new(rows: &[Row], gravity_m_s2: f64) -> Self {
+        Self { third: ThirdComponents::from_rows(rows, gravity_m_s2), places: Places::from_rows(rows) }
+    }
 }
 
 /// Whether the program made the pair itself: it stays synthetic, whichever way it comes back.
@@ -310,15 +327,15 @@ fn manifest_pairs(
     (manifest, tag): (&Path, Option<&str>),
     named: Option<&BTreeSet<&str>>,
     study: &UniformRiskStudy,
-) -> Result<(Vec<CheckedPair>, ThirdComponents), InputsError> {
+) -> Result<(Vec<CheckedPair>, OfRows), InputsError> {
     let mut rows = manifest::read(manifest, tag).map_err(JobError::Inputs)?;
     // nothing is read in vain
     rows.retain(|row| named.is_none_or(|named| named.contains(row.id.as_str())));
     if study.records.select.is_empty() {
         rows.truncate(first_of(study));
     }
-    let third = ThirdComponents::from_rows(&rows, study.gravity_m_s2);
-    Ok((pairs::read(rows, study.gravity_m_s2).map_err(JobError::Inputs)?, third))
+    let of_rows = OfRows::new(&rows, study.gravity_m_s2);
+    Ok((pairs::read(rows, study.gravity_m_s2).map_err(JobError::Inputs)?, of_rows))
 }
 
 /// How many of the selected records are used at most.
@@ -327,16 +344,15 @@ fn first_of(study: &UniformRiskStudy) -> usize {
 }
 
 /// The records that a study analyses, each with the intensities of its pair and its vertical component if there are
-/// such; the pairs themselves go to `kept`.
+/// such; the pairs themselves go to `kept`. What is wrong with them is added to the `mistakes` found before.
 fn analysis_records(
     (pairs, verticals): (Vec<CheckedPair>, Option<Vec<Vertical>>),
     study: &UniformRiskStudy,
     further: &[IntensityMeasure],
-    mut kept: Option<&mut Vec<RecordPair>>,
+    (mut kept, mut mistakes): (Option<&mut Vec<RecordPair>>, Vec<String>),
 ) -> Result<Vec<Record>, InputsError> {
     let component = study.records.component;
     let mut records = Vec::new();
-    let mut mistakes = Vec::new();
     let further_of = |(pair, _): &CheckedPair| -> Result<BTreeMap<IntensityMeasure, f64>, MotionError> {
         let of_pair = |&measure: &IntensityMeasure| {
             Ok((measure, measure.of_combined(study.records.intensity, pair, study.gravity_m_s2)?))

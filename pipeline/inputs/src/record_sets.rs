@@ -9,6 +9,7 @@ use uplift_motion::{Combination, RecordPair};
 use uplift_spectra::{MotionSet, RecordOfSet};
 use uplift_study::{DisplacementStudy, RecordSource, SetPlan, SetRecords};
 
+use super::duplicates::Places;
 use super::manifest::{self, Row};
 use super::pairs::{self, CheckedPair};
 use super::record_set::{alike, is_made, synthetic_pairs};
@@ -123,6 +124,7 @@ pub fn read_sets(
 ) -> Result<RecordSets, InputsError> {
     let most = most(records);
     let mut third = ThirdComponents::from_rows(&[], gravity_m_s2);
+    let mut places = Places::from_rows(&[]);
     let (pairs, chosen, source, mut notes) = match &records.source {
         &RecordSource::Synthetic { pairs, seed } => {
             let named = plans.len();
@@ -141,6 +143,7 @@ pub fn read_sets(
             let RowsOfSets { rows, chosen, notes } = rows_of_sets(manifest, records, plans)?;
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy().into_owned();
             third = ThirdComponents::from_rows(&rows, gravity_m_s2);
+            places = Places::from_rows(&rows);
             (pairs::read(rows, gravity_m_s2).map_err(JobError::Inputs)?, chosen, name, notes)
         }
     };
@@ -159,6 +162,13 @@ pub fn read_sets(
         if members.is_empty() {
             let selected = if select.is_empty() { String::new() } else { format!(" with {select}") };
             mistakes.push(format!("record set {name:?} has no record{selected}: widen it, or leave the set out"));
+        }
+        // one motion under two names in two sets is counted once in each
+        match places.note(members.iter().map(|&member| &pairs[member]), records.duplicates) {
+            Ok(note) => notes.extend(note.filter(|note| !notes.contains(note)).into_iter().collect::<Vec<_>>()),
+            Err(twice) => {
+                mistakes.extend(twice.into_iter().filter(|line| !mistakes.contains(line)).collect::<Vec<_>>());
+            }
         }
         sets.push(NamedSet { name, tag, members });
     }

@@ -25,6 +25,10 @@ pub(super) fn no_result(path: &Path, error: LabelledError) -> ResultError {
         } else {
             "is a text file, not a result: give the .h5 file that `uplift run` wrote"
         }),
+        LabelledError::NotHdf5 { .. } if ends("part") => Some(
+            "holds the finished part of a command that was interrupted, and is no result: repeat the command to resume \
+             it; `uplift status FILE` shows how far it is",
+        ),
         LabelledError::NotHdf5 { .. } if ends("csv") => {
             Some("is a table, not a result: give the .h5 file beside it, which `uplift run` wrote")
         }

@@ -31,7 +31,9 @@ pub use branches::BranchFindings;
 pub use earthquakes::{EarthquakeRow, disaggregated, earthquakes};
 pub use finding::Finding;
 pub use question::Question;
-pub use report::{AgreementRow, ConsistencyReport, ConsistencyRow, RepairRow, TargetRow, TwoSidedRow};
+pub use report::{
+    AgreementRow, ConsistencyReport, ConsistencyRow, MissRow, NearestRow, RepairRow, TargetRow, TwoSidedRow,
+};
 pub use reweighing::{RepairedAnalysis, Reweighed, ReweighedBranch, Reweighing};
 pub use spectra::{Repairs, repaired_spectra, repairs_of};
 pub use write::{Keep, add, columns, consistency_path, replaced};

@@ -22,6 +22,8 @@ pub struct StoredStripes {
     pub study_digest: String,
     /// Where the records come from, in a line.
     pub record_set: String,
+    /// Whether they are synthetic.
+    pub synthetic: bool,
     /// Names of the records.
     pub records: Vec<String>,
     /// What of them tells something by itself.
@@ -94,6 +96,7 @@ impl StoredStripes {
             path: file.path().to_owned(),
             study_digest: head.study_digest(),
             record_set: head.record_set,
+            synthetic: head.synthetic,
             units: RecordUnits::new(&study, &records),
             records,
             strengths,

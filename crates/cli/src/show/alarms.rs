@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use uplift::alarms::{Alarm, Severity};
+use uplift::alarms::{Alarm, Severity, synthetic_records};
 
 use super::shown_path;
 use crate::error::CommandError;
@@ -28,6 +28,12 @@ pub(super) fn print_warnings(
     let all =
         result.map_or_else(|| "--details".to_owned(), |path| format!("uplift warnings {}", shown_path(path).display()));
     print_warnings_up_to(out, alarms, &all, if terminal.shows_details() { usize::MAX } else { SHOWN })
+}
+
+/// That the records are synthetic, of answers that have no other warning of a result.
+pub(super) fn print_synthetic(out: &mut impl Write, synthetic: bool, terminal: &Terminal) -> Result<(), CommandError> {
+    let alarms: Vec<Alarm> = synthetic.then(synthetic_records).into_iter().collect();
+    print_warnings(out, &alarms, None, terminal)
 }
 
 /// So many of the worst warnings, and what shows `all` of them.

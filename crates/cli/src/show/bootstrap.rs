@@ -7,6 +7,7 @@ use uplift::text::{Table, per_cent, risk_in_words, risk_name};
 
 use uplift::uniform_risk::DisplacementReport;
 
+use super::alarms::print_synthetic;
 use super::spectrum::print_displacements;
 use super::{print_more, shown_path};
 use crate::error::CommandError;
@@ -28,6 +29,7 @@ pub(crate) fn print_bootstrap(
     }
     if !terminal.is_quiet() {
         print_sizes(out, report, shown)?;
+        print_synthetic(out, report.synthetic, terminal)?;
         let tables = report.tables.each_ref().map(|file| shown_path(file).display().to_string());
         writeln!(out, "\nBands    /bootstrap in {}", shown_path(&report.result).display())?;
         writeln!(out, "Tables   {}", tables.join(", "))?;

@@ -2,9 +2,11 @@
 
 use std::io::Write;
 
+use uplift::alarms::synthetic_records;
 use uplift::consistency::{ConsistencyReport, ConsistencyRow, RepairRow};
 use uplift::text::{Table, per_cent, risk_name, risks_in_words};
 
+use super::alarms::warning;
 use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -31,9 +33,9 @@ fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
     let is_repaired = report.rows.iter().any(|row| row.repair.is_some());
     let repair = |row: &ConsistencyRow| match row.repair.as_ref() {
         Some(RepairRow { failed: None, least_effective: Some(least), .. }) => {
-            format!("{least:.0} of {} records", report.records)
+            format!("{least:.0} of {}", report.records)
         }
-        Some(_) => "no weights found".to_owned(),
+        Some(_) => "none".to_owned(),
         None => "-".to_owned(),
     };
     let table = Table::of(&report.rows)
@@ -41,7 +43,7 @@ fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
         .left("records scaled to", |row| row.scaled_to)
         .right("have times the site's", |row| format!("{} {}", number(row.bias, 2), row.shows))
         .right("verdict", |row| row.verdict.unwrap_or("-"))
-        .when(is_repaired, |table| table.right("repaired, effective", repair));
+        .when(is_repaired, |table| table.right("repaired, effective records", repair));
     Ok(writeln!(out, "{table}")?)
 }
 
@@ -54,8 +56,8 @@ fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(),
     print_earthquakes(out, report)?;
     print_two_sided(out, report)?;
     print_agreement(out, report)?;
-    for warning in &report.warnings {
-        writeln!(out, "\nWarning: {warning}")?;
+    for line in report.synthetic.then(|| warning(&synthetic_records())).iter().chain(&report.warnings) {
+        writeln!(out, "\nWarning: {line}")?;
     }
     Ok(())
 }
@@ -63,23 +65,45 @@ fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(),
 /// What to do next, and where everything is.
 fn print_end(out: &mut impl Write, report: &ConsistencyReport, terminal: &Terminal) -> Result<(), CommandError> {
     let Some(result) = report.result.as_ref().map(|result| shown_path(result).display()) else { return Ok(()) };
+    if !terminal.shows_details() {
+        print_warnings(out, report)?;
+    }
+    writeln!(out)?;
     let is_repaired = |row: &&ConsistencyRow| row.repair.as_ref().is_some_and(|repair| repair.failed.is_none());
     if let Some(repaired) = report.rows.iter().find(is_repaired) {
         // without a word spectra are by the first measure
         let is_first = report.rows.first().is_some_and(|first| first.scaled_to == repaired.scaled_to);
         let measure = if is_first { String::new() } else { format!(" --measure {}", repaired.scaled_to) };
-        writeln!(out, "\nRepaired spectra: uplift spectrum {result} --repaired{measure}")?;
+        writeln!(out, "Repaired spectra: uplift spectrum {result} --repaired{measure}")?;
     } else if report.rows.iter().any(|row| row.verdict == Some("inconsistent") && row.repair.is_none()) {
-        writeln!(out, "\nRepair: uplift consistency {result} --repair")?;
-    }
-    if !report.warnings.is_empty() && !terminal.shows_details() {
-        writeln!(out, "\nWarnings\n  {} more: --details", report.warnings.len())?;
+        writeln!(out, "Repair: uplift consistency {result} --repair")?;
     }
     writeln!(out, "Result   /consistency in {result}")?;
     if let Some(path) = &report.table {
         writeln!(out, "Table    {}", shown_path(path).display())?;
     }
     Ok(())
+}
+
+/// What speaks against the records, and how many other warnings there are.
+fn print_warnings(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
+    let synthetic = report.synthetic.then(|| warning(&synthetic_records()));
+    // a repair that was asked for and is not there is the answer
+    let nearest = |row: &ConsistencyRow| {
+        let (site, scaled_to) = (&row.site, row.scaled_to);
+        let nearest = row.repair.as_ref()?.nearest.as_ref()?;
+        Some(format!("{site} by {scaled_to}: no weights give the site's {}: {}", row.shows, nearest.worst))
+    };
+    let nearest = report.rows.iter().find_map(nearest);
+    let more = report.warnings.len() - usize::from(nearest.is_some());
+    let shown: Vec<String> = nearest.into_iter().chain(synthetic).collect();
+    if !shown.is_empty() || more > 0 {
+        writeln!(out, "\nWarnings")?;
+    }
+    for line in shown {
+        writeln!(out, "  {line}")?;
+    }
+    if more > 0 { Ok(writeln!(out, "  {more} more: --details")?) } else { Ok(()) }
 }
 
 /// A line a row that is not consistent, and one for all that are.

@@ -5,6 +5,7 @@ use std::io::Write;
 use uplift::efficiency::{EfficiencyReport, EfficiencyRow, Trend};
 use uplift::text::{Table, nearest};
 
+use super::alarms::print_synthetic;
 use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -25,6 +26,7 @@ pub(crate) fn print_efficiency(report: &EfficiencyReport, terminal: &Terminal) -
         shown.print_scatter(out)?;
         shown.print_trends(out)?;
     }
+    print_synthetic(out, report.synthetic, terminal)?;
     if !terminal.is_quiet() {
         writeln!(out, "\nResult   /efficiency and /sufficiency in {}", shown_path(&report.result).display())?;
         writeln!(out, "Table    {}", shown_path(&report.table).display())?;

@@ -5,6 +5,7 @@ use std::io::Write;
 use uplift::influence::{InfluenceReport, IntensityShares};
 use uplift::text::{Table, metres, risk_in_words, spectrum_words};
 
+use super::alarms::print_synthetic;
 use super::shown_path;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -15,6 +16,7 @@ pub(crate) fn print_influence(report: &InfluenceReport, terminal: &Terminal) -> 
     let name = risk_in_words(report.poe, report.years);
     print_records(out, report, &name)?;
     print_intensities(out, report, &name)?;
+    print_synthetic(out, report.synthetic, terminal)?;
     if !terminal.is_quiet() {
         writeln!(out, "\nResult   /influence and /disaggregation in {}", shown_path(&report.result).display())?;
         writeln!(out, "Table    {}", shown_path(&report.table).display())?;

@@ -6,6 +6,7 @@ use uplift::restrainer::{RestrainerCurve, RestrainerDesign, stack_name};
 use uplift::text::{Table, TableOf};
 use uplift_statics::Candidate;
 
+use super::alarms::print_warnings;
 use super::{print_files, print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -62,6 +63,7 @@ pub(crate) fn print_restrainer_design(report: &RestrainerDesign, terminal: &Term
     if terminal.shows_details() {
         print_details(&mut out, report)?;
     }
+    print_warnings(&mut out, &report.alarms, None, terminal)?;
     print_more(&mut out, terminal)?;
     drop(out);
     print_files(&report.files, terminal)

@@ -7,10 +7,10 @@ use serde_json::json;
 
 use crate::keys::{Boolean, File, Integer, Key, SectionKeys, Special, boolean, integer, special};
 use crate::reading::{LARGEST_INTEGER, Paths, Section, optional};
-use crate::sections::record_source::{self, NO_TAG, RecordSource, Synthetic};
+use crate::sections::record_source::{self, DUPLICATES, Duplicates, NO_TAG, RecordSource, Synthetic};
 use crate::sections::selection::{self, RecordSelection};
 
-pub(crate) const KEYS: SectionKeys = SectionKeys::new("records", &[&MANIFEST, &VERTICAL, &FIRST, &SELECT]);
+pub(crate) const KEYS: SectionKeys = SectionKeys::new("records", &[&MANIFEST, &VERTICAL, &FIRST, &DUPLICATES, &SELECT]);
 const MANIFEST: Key<File> = record_source::MANIFEST.without_default("none: synthetic records");
 const VERTICAL: Key<Boolean> = boolean("vertical")
     .with_default(false)
@@ -41,6 +41,8 @@ pub struct SetRecords {
     pub select: RecordSelection,
     /// Use only so many of the records of each set, the first; all if none.
     pub first: Option<u64>,
+    /// What is done where two of a set are the same motion.
+    pub duplicates: Duplicates,
 }
 
 impl SetRecords {
@@ -61,6 +63,8 @@ impl Serialize for SetRecords {
             vertical: bool,
             #[serde(skip_serializing_if = "Option::is_none")]
             first: Option<u64>,
+            #[serde(skip_serializing_if = "Duplicates::is_default")]
+            duplicates: Duplicates,
             #[serde(skip_serializing_if = "RecordSelection::is_empty")]
             select: &'a RecordSelection,
             #[serde(skip_serializing_if = "Option::is_none")]
@@ -70,6 +74,7 @@ impl Serialize for SetRecords {
             manifest: self.source.manifest(),
             vertical: self.vertical,
             first: self.first,
+            duplicates: self.duplicates,
             select: &self.select,
             synthetic: self.source.synthetic(),
         };
@@ -85,6 +90,7 @@ pub(crate) fn read(mut section: Section<'_>, paths: &Paths, instead_of_tag: &str
     let vertical = section.read(&VERTICAL);
     record_source::vertical_is_recorded(vertical_field.as_ref(), vertical, manifest_field.is_some());
     let first_field = section.given(&FIRST);
+    let duplicates = section.read(&DUPLICATES);
     let select = selection::read(section.section("select"));
     let synthetic = record_source::synthetic(section.section("synthetic"));
     section.finish();
@@ -99,5 +105,5 @@ pub(crate) fn read(mut section: Section<'_>, paths: &Paths, instead_of_tag: &str
         record_source::enough(first_field.as_ref(), first, synthetic);
         synthetic.map(RecordSource::from)
     };
-    Some(SetRecords { source: source?, vertical: vertical?, select: select?, first: first? })
+    Some(SetRecords { source: source?, vertical: vertical?, select: select?, first: first?, duplicates: duplicates? })
 }

@@ -202,7 +202,7 @@ pub(crate) fn commas(text: &str) -> Option<String> {
     meant.extend(with_point(text).map(|point| format!("{point} with a point")));
     // 02 is part of a decimal, or of thousands
     let is_list = parts.iter().all(|part| !part.starts_with('0') || part.starts_with("0.") || *part == "0");
-    meant.extend(is_list.then(|| format!("where several numbers may stand the list [{}]", parts.join(","))));
+    meant.extend(is_list.then(|| format!("the list [{}] where several numbers may stand", parts.join(", "))));
     match &meant[..] {
         [] => None,
         [one] => Some(format!("write {one}")),

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
-use crate::keys::{File, Integer, Key, SectionKeys, file, integer};
+use crate::keys::{Choice, File, Integer, Key, SectionKeys, choice, file, integer};
 use crate::reading::{Field, Section};
 use crate::sections::top;
 
@@ -12,6 +12,11 @@ pub(crate) const MANIFEST: Key<File> = file("manifest")
     .without_default("none: the synthetic set")
     .meaning("table of record files (CSV)")
     .note("existing file");
+pub(crate) const DUPLICATES: Key<Choice<Duplicates>> =
+    choice("duplicates", &Duplicates::ALL, Duplicates::key).with_default(Duplicates::Refuse).meaning(
+        "records that are the same motion, sample by sample, under two names: `\"refuse\"` or `\"keep\"`, so that it \
+         counts twice",
+    );
 pub(crate) const SYNTHETIC_KEYS: SectionKeys = SectionKeys::new("records.synthetic", &[&PAIRS, &SEED]);
 const PAIRS: Key<Integer> = integer("pairs", 1, MOST_PAIRS)
     .with_default(DEFAULT_SYNTHETIC_PAIRS)
@@ -76,6 +81,40 @@ impl RecordSource {
             Self::Manifest { .. } => None,
             &Self::Synthetic { pairs, seed } => Some(Synthetic { pairs, seed }),
         }
+    }
+}
+
+/// What is done where two records are the same motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Duplicates {
+    /// They are a mistake.
+    Refuse,
+    /// Both are used.
+    Keep,
+}
+
+impl Duplicates {
+    /// Every way.
+    pub const ALL: [Self; 2] = [Self::Refuse, Self::Keep];
+
+    /// Its word in files and keys: refuse, keep.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Refuse => "refuse",
+            Self::Keep => "keep",
+        }
+    }
+
+    /// Whether nothing is said: it is then left out where the study is kept, as it was before there was such a key.
+    #[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
+    pub(crate) fn is_default(&self) -> bool {
+        *self == Self::Refuse
+    }
+}
+
+impl Serialize for Duplicates {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.key())
     }
 }
 

@@ -108,9 +108,9 @@ fn per_cent_are_answered_with_the_fraction() {
 fn commas_are_answered() {
     let folder = Folder::new(STUDY);
     for (given, meant) in [
-        ("risk.poe=0.02,0.1", "write where several numbers may stand the list [0.02,0.1]"),
-        ("pgv.levels_cm_s=1,2,5", "the list [1,2,5]"),
-        ("risk.years=2,5", "write 2.5 with a point, or where several numbers may stand the list [2,5], whichever"),
+        ("risk.poe=0.02,0.1", "write the list [0.02, 0.1] where several numbers may stand"),
+        ("pgv.levels_cm_s=1,2,5", "the list [1, 2, 5]"),
+        ("risk.years=2,5", "write 2.5 with a point, or the list [2, 5] where several numbers may stand, whichever"),
         ("oscillator.uplift_displacement_m=0,02", "write 0.02 with a point"),
         ("risk.years=1,000", "write 1000, or 1.000 with a point, whichever is meant"),
         ("risk.years=1,000,000", "write 1000000"),

@@ -7,12 +7,12 @@ use uplift_motion::{Combination, Component, Rotation};
 
 use crate::keys::{Boolean, Choice, File, Integer, Key, SectionKeys, Text, boolean, choice, file, integer, text};
 use crate::reading::{LARGEST_INTEGER, Paths, Section, optional};
-use crate::sections::record_source::{self, MANIFEST, NO_TAG, RecordSource, Synthetic};
+use crate::sections::record_source::{self, DUPLICATES, Duplicates, MANIFEST, NO_TAG, RecordSource, Synthetic};
 use crate::sections::selection::{self, RecordSelection};
 use crate::uniform_risk::rotation;
 
 pub(super) const KEYS: SectionKeys =
-    SectionKeys::new("records", &[&MANIFEST, &TAG, &COMPONENT, &INTENSITY, &VERTICAL, &FIRST, &AT_LEVEL]);
+    SectionKeys::new("records", &[&MANIFEST, &TAG, &COMPONENT, &INTENSITY, &VERTICAL, &FIRST, &AT_LEVEL, &DUPLICATES]);
 const TAG: Key<Text> = text("tag")
     .without_default("all rows")
     .meaning("use only rows of the manifest whose `set_tags` contain this")
@@ -68,6 +68,8 @@ pub struct Records {
     pub first: Option<u64>,
     /// Table of the records of each level; every record at every level if none.
     pub at_level: Option<PathBuf>,
+    /// What is done where two of them are the same motion.
+    pub duplicates: Duplicates,
 }
 
 impl Records {
@@ -94,6 +96,8 @@ impl Serialize for Records {
             first: Option<u64>,
             #[serde(skip_serializing_if = "Option::is_none")]
             at_level: Option<&'a Path>,
+            #[serde(skip_serializing_if = "Duplicates::is_default")]
+            duplicates: Duplicates,
             #[serde(skip_serializing_if = "RecordSelection::is_empty")]
             select: &'a RecordSelection,
             #[serde(skip_serializing_if = "Option::is_none")]
@@ -109,6 +113,7 @@ impl Serialize for Records {
             vertical: self.vertical,
             first: self.first,
             at_level: self.at_level.as_deref(),
+            duplicates: self.duplicates,
             select: &self.select,
             synthetic: self.source.synthetic(),
             rotation: match self.component {
@@ -145,6 +150,7 @@ pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
     let first = optional(first_field.as_ref(), |field| FIRST.read(field));
     let at_level_field = section.given(&AT_LEVEL);
     let at_level = optional(at_level_field.as_ref(), |field| paths.input(field));
+    let duplicates = section.read(&DUPLICATES);
     if let (Some(field), Some(select)) = (&at_level_field, &select)
         && (first_field.is_some() || !select.is_empty())
     {
@@ -186,5 +192,6 @@ pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
         select: select?,
         first: first?,
         at_level: at_level?,
+        duplicates: duplicates?,
     })
 }

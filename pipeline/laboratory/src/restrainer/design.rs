@@ -3,11 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use uplift_design::{DesignOptions, FrameReport, design as design_by_spectrum};
+use uplift_alarms::{Scope, alarms_of_inputs, ranked};
+use uplift_design::{DesignError, DesignOptions, DesignReport, FrameReport, design as design_by_spectrum};
 use uplift_job::JobError;
+use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::{ColumnsOf, write_table};
+use uplift_result::ResultFile;
 use uplift_statics::selection::{select, stopper_yield_force_n};
 use uplift_statics::{Candidate, Imperfections, Limits, Ranking, StaticsError, Target, TendonPath, Tolerance};
 use uplift_structure::{Kind, StructureDescription};
@@ -151,6 +154,9 @@ pub struct RestrainerDesign {
     pub tolerances_of: String,
     /// What imperfections do to it.
     pub tolerances: Vec<Tolerance>,
+    /// What to know before the demand of a spectrum is used, the worst first; none where the target is no spectrum's.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub alarms: Vec<Alarm>,
     /// The files written.
     pub files: Vec<PathBuf>,
 }
@@ -187,7 +193,7 @@ pub fn design(
         ..options.limits.unwrap_or(Limits::behind(tendon))
     };
     let discs = catalogue::read(&options.catalogue)?;
-    let (target, told) = target_of(structure, options, events)?;
+    let (target, told, alarms) = target_of(structure, options, events)?;
     let all = select(&columns, &discs, target, &limits, options.ranking)?;
     if all.is_empty() {
         return Err(JobError::Usage(none_found(&columns, &discs, (target, &told), &limits, options)).into());
@@ -265,6 +271,7 @@ pub fn design(
         stoppers,
         tolerances_of,
         tolerances,
+        alarms,
         files,
     })
 }
@@ -317,12 +324,12 @@ fn named<'a>(stacks: &'a [Candidate], name: Option<&str>) -> Result<&'a Candidat
     })?)
 }
 
-/// The target as the search takes it, and as it is told.
+/// The target as the search takes it, as it is told, and what is to be known of the spectrum that it comes from.
 fn target_of(
     structure: &Structure,
     options: &RestrainerDesignOptions,
     events: &dyn Events,
-) -> Result<(Target, TargetReport), LaboratoryError> {
+) -> Result<(Target, TargetReport, Vec<Alarm>), LaboratoryError> {
     let columns = pushed(structure, 0)?;
     let free = columns.without_stoppers()?.linear(0.0)?;
     let critical_stiffness_n_m = free.critical_stiffness_n_m();
@@ -349,13 +356,13 @@ fn target_of(
             .into());
         }
         let told = report(words, free.stiffness_for_capacity_n_m(capacity_m), Some(capacity_m));
-        Ok((Target::Capacity { capacity_m }, told))
+        Ok((Target::Capacity { capacity_m }, told, Vec::new()))
     };
     match &options.target {
         DesignTarget::Stiffness(stiffness_n_m) => {
             let stiffness_n_m = *stiffness_n_m;
             let words = format!("{:.0} kN/m at {at_m:.4} m", 1e-3 * stiffness_n_m);
-            Ok((Target::Stiffness { stiffness_n_m, at_m }, report(words, stiffness_n_m, None)))
+            Ok((Target::Stiffness { stiffness_n_m, at_m }, report(words, stiffness_n_m, None), Vec::new()))
         }
         DesignTarget::Capacity(capacity_m) => capacity(format!("a capacity of {capacity_m:.4} m"), *capacity_m),
         DesignTarget::Spectrum { result, options: design } => {
@@ -377,18 +384,28 @@ fn target_of(
                 "a capacity of {required_m:.4} m: {} times the demand at {}, {:.4} in {} years, by {}",
                 design.safety_factor, found.site, found.poe, found.years, found.im
             );
-            let (target, told) = capacity(words, required_m)?;
-            Ok((target, TargetReport { demand_m: Some(required_m / design.safety_factor), ..told }))
+            let (target, told, _) = capacity(words, required_m)?;
+            let told = TargetReport { demand_m: Some(required_m / design.safety_factor), ..told };
+            Ok((target, told, alarms_of_demand(result, &found)?))
         }
         DesignTarget::ZeroStiffness => {
             let words = format!("a force that stays up to {at_m:.4} m");
-            Ok((Target::ZeroStiffness { at_m }, report(words, critical_stiffness_n_m, None)))
+            Ok((Target::ZeroStiffness { at_m }, report(words, critical_stiffness_n_m, None), Vec::new()))
         }
         DesignTarget::PositiveStiffness => {
             let words = format!("a force that rises up to {at_m:.4} m");
-            Ok((Target::PositiveStiffness { at_m }, report(words, critical_stiffness_n_m, None)))
+            Ok((Target::PositiveStiffness { at_m }, report(words, critical_stiffness_n_m, None), Vec::new()))
         }
     }
+}
+
+/// What is to be known of the curves and records that a demand comes from.
+fn alarms_of_demand(result: &Path, found: &DesignReport) -> Result<Vec<Alarm>, LaboratoryError> {
+    let file = ResultFile::open(result)?;
+    let site = file.axes_with_sites()?.sites.iter().position(|site| *site == found.site);
+    let measure = file.measures().into_iter().find(|measure| measure.label() == found.im);
+    let scope = Scope { site, measure, ..Scope::default() };
+    Ok(ranked(alarms_of_inputs(&file, &scope).map_err(DesignError::from)?))
 }
 
 /// The columns without their restrainers, which may be a tendon that is still to get its springs.

@@ -38,6 +38,9 @@ pub struct BootstrapReport {
     /// Records of the result.
     #[serde(skip)]
     pub records: usize,
+    /// Whether the records are synthetic.
+    #[serde(skip)]
+    pub synthetic: bool,
     /// Records in a sample.
     #[serde(skip)]
     pub sizes: Vec<u32>,
@@ -161,6 +164,7 @@ impl BootstrapReport {
             poes: stored.poes,
             years: stored.years,
             records: stored.records.len(),
+            synthetic: stored.synthetic,
             sizes,
             strengths: stored.strengths,
             uplift_displacement_m: stored.uplift_displacement_m,

@@ -27,6 +27,9 @@ pub struct EfficiencyReport {
     /// Records.
     #[serde(skip)]
     pub records: usize,
+    /// Whether the records are synthetic.
+    #[serde(skip)]
+    pub synthetic: bool,
     /// The result file, which holds all of it now.
     #[serde(skip)]
     pub result: PathBuf,
@@ -121,6 +124,7 @@ impl EfficiencyReport {
             covariates: covariates.iter().map(|covariate| covariate.key).collect(),
             up_to_m,
             records: stored.records.len(),
+            synthetic: stored.synthetic,
             result: stored.path.clone(),
             table: efficiency_path(&stored.path),
         }

@@ -20,6 +20,8 @@ pub struct InfluenceReport {
     pub records: Vec<RecordChange>,
     /// The intensities that make the risk of one probability, at a few strengths of every measure and site.
     pub intensities: Vec<IntensityShares>,
+    /// Whether the records are synthetic.
+    pub synthetic: bool,
     /// That probability.
     #[serde(skip)]
     pub poe: f64,
@@ -114,6 +116,7 @@ impl InfluenceReport {
         Self {
             records,
             intensities: intensities(stored, influences, poe),
+            synthetic: stored.synthetic,
             poe: stored.poes[poe],
             years: stored.years,
             result: stored.path.clone(),

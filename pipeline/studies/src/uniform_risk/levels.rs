@@ -193,7 +193,9 @@ impl<'a> Trial<'a> {
             std::iter::once(&site.curve).chain(branches).map(|input| input.curve.first().im)
         });
         let Some(least) = curves.reduce(f64::max) else { return Ok(None) };
-        let starts = lower_starts(first, least);
+        let mut starts = lower_starts(first, least);
+        // what a study cannot say is not proposed: a curve may begin at any number
+        starts.truncate(starts.partition_point(|&start| measure.starting_at(start).is_ok()));
         let widest = match starts.last() {
             Some(&start) => measure.starting_at(start).map_err(|error| JobError::input(error.to_string()))?,
             None => measure.clone(),

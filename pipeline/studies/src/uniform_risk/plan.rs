@@ -70,7 +70,7 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
     let of_ends = ends.into_iter().filter_map(|(kind, cases)| Alarm::from_cases(kind, cases));
     let is_repaired = study.consistency.repair == Repair::Weights;
     let consistency = Answer::from_plan(study, &records, (&hazard, &other_hazard), is_repaired)?.report(&[]);
-    let of_curves = of_curves(study, &hazard, &consistency);
+    let of_curves = of_curves(study, (&hazard, &other_hazard), &consistency);
     let head = PlanHead {
         study: study_file.to_owned(),
         record_set: records.description.clone(),
@@ -102,17 +102,24 @@ fn of_inputs(study: &UniformRiskStudy, set: &RecordSet) -> impl Iterator<Item = 
 }
 
 /// Curves that are probably mistaken: by themselves, among each other, or by what the records bring.
-fn of_curves(study: &UniformRiskStudy, hazard: &[Vec<SiteHazard>], consistency: &ConsistencyReport) -> Vec<Alarm> {
-    let curves: Vec<CurvesAtSite<'_>> = hazard
-        .iter()
-        .flatten()
-        .map(|site| CurvesAtSite {
-            site: &site.site,
-            measure: site.measure,
-            curve: &site.curve.curve,
-            branches: site.branches.iter().map(|branch| (branch.name.as_str(), &branch.input.curve)).collect(),
-        })
-        .collect();
+fn of_curves(
+    study: &UniformRiskStudy,
+    (hazard, other_hazard): (&[Vec<SiteHazard>], &[OtherHazard]),
+    consistency: &ConsistencyReport,
+) -> Vec<Alarm> {
+    let analysed = hazard.iter().flatten().map(|site| CurvesAtSite {
+        site: &site.site,
+        measure: site.measure,
+        curve: &site.curve.curve,
+        branches: site.branches.iter().map(|branch| (branch.name.as_str(), &branch.input.curve)).collect(),
+    });
+    let compared = other_hazard.iter().map(|other| CurvesAtSite {
+        site: &other.site,
+        measure: other.measure,
+        curve: &other.curve,
+        branches: Vec::new(),
+    });
+    let curves: Vec<CurvesAtSite<'_>> = analysed.chain(compared).collect();
     let mut alarms = hazard_alarms(study, &curves);
     alarms.extend(uplift_alarms::curves_alarm(study, consistency));
     alarms
@@ -126,7 +133,7 @@ pub(super) fn tell_mistaken_curves(
     events: &dyn Events,
 ) -> Result<(), StudiesError> {
     let consistency = Answer::from_plan(study, records, (hazard, other_hazard), false)?.report(&[]);
-    for alarm in of_curves(study, hazard, &consistency) {
+    for alarm in of_curves(study, (hazard, other_hazard), &consistency) {
         events.note(&format!("{} {alarm}: {}", alarm.severity.word(), alarm.what_to_do));
     }
     Ok(())

@@ -57,6 +57,8 @@ pub struct Question {
     /// Names of the sites.
     pub sites: Vec<String>,
     pub(crate) records: Vec<AskedRecord>,
+    /// Whether these are synthetic.
+    pub(super) synthetic: bool,
     /// Names of the earthquakes.
     pub(crate) events: Vec<String>,
     /// The measures that the records are scaled to, with their levels.
@@ -114,8 +116,10 @@ impl Question {
             }
             _ => None,
         };
+        let synthetic = records.synthetic;
         let (records, events) = asked_records(rows, study);
         Ok(Self {
+            synthetic,
             settings: study.consistency.clone(),
             extrapolation: study.risk.extrapolate,
             poes: study.risk.poe.clone(),
@@ -195,6 +199,7 @@ impl Question {
         }
         let (records, events) = asked_records(rows, &study);
         Ok(Self {
+            synthetic: file.is_synthetic()?,
             level_sets,
             settings: study.consistency,
             extrapolation: study.risk.extrapolate,

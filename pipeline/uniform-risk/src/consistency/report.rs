@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-use uplift_consistency::{Agreement, Diagnosis, NoRepair, TwoSided, Verdict, Words};
+use uplift_consistency::{Agreement, Diagnosis, Miss, Nearest, NoRepair, TwoSided, Verdict, Words};
 use uplift_job::Array;
 use uplift_job::text::per_cent;
 use uplift_motion::IntensityMeasure;
@@ -34,6 +34,8 @@ pub struct ConsistencyReport {
     pub unasked: Vec<String>,
     /// Records of the set.
     pub records: usize,
+    /// Whether the records are synthetic.
+    pub synthetic: bool,
     /// Earthquakes of the set, where they are known.
     pub events: Option<usize>,
     /// Years that probabilities refer to.
@@ -113,6 +115,9 @@ pub struct TargetRow {
 pub struct RepairRow {
     /// Why there is none; none where there is one.
     pub failed: Option<String>,
+    /// Where that is so: the reachable hazard that is nearest to the site's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nearest: Option<NearestRow>,
     /// Exponents b₁ … b₄ of the weights at the knots.
     pub exponents: Option<[f64; 4]>,
     /// Largest |ln(implied/site)| after it.
@@ -127,6 +132,48 @@ pub struct RepairRow {
     pub iterations: Option<u32>,
     /// At each probability, with the weights.
     pub targets: Vec<TargetRow>,
+}
+
+/// Where the nearest reachable hazard of the other measure misses the site's most, on each side.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NearestRow {
+    /// Where it is exceeded too often; none where nowhere.
+    pub too_often: Option<MissRow>,
+    /// Where it is exceeded too rarely.
+    pub too_rarely: Option<MissRow>,
+    /// The worse of both sides in words.
+    #[serde(skip)]
+    pub worst: String,
+}
+
+/// A level of the other measure that is missed: records on its other side, scaled to the level of the same rate, would
+/// bring the hazard nearer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MissRow {
+    /// The site's level of the other measure.
+    pub level: f64,
+    /// The site's rate of it, 1/yr.
+    pub rate_per_year: f64,
+    /// The nearest reachable rate over the site's.
+    pub times_as_often: f64,
+    /// The site's level of the measure scaled to at the same rate.
+    pub scaled_to_level: f64,
+}
+
+impl NearestRow {
+    fn new(nearest: &Nearest, words: &Words<'_>) -> Self {
+        let row = |miss: Miss| MissRow {
+            level: miss.level,
+            rate_per_year: miss.rate_per_year,
+            times_as_often: miss.times,
+            scaled_to_level: miss.scaled_to,
+        };
+        Self {
+            too_often: nearest.too_often.map(row),
+            too_rarely: nearest.too_rarely.map(row),
+            worst: nearest.worst_side().sentence(words),
+        }
+    }
 }
 
 /// Both analyses of a site taken apart (see `TwoSided`).
@@ -172,6 +219,7 @@ impl ConsistencyReport {
             note,
             unasked: unasked(question, findings),
             records: question.records.len(),
+            synthetic: question.synthetic,
             events: (!question.events.is_empty()).then_some(question.events.len()),
             years: question.years,
             scale_factors: question.settings.scale_factors,
@@ -212,6 +260,9 @@ fn row(question: &Question, finding: &Finding) -> ConsistencyRow {
         repair: finding.repair.as_ref().map(|repair| match repair {
             Err(reason) => RepairRow {
                 failed: Some(said(question, finding, |words| reason.sentence(words))),
+                nearest: said(question, finding, |words| {
+                    reason.nearest().map(|nearest| NearestRow::new(nearest, words))
+                }),
                 exponents: None,
                 max: None,
                 bias: None,
@@ -224,6 +275,7 @@ fn row(question: &Question, finding: &Finding) -> ConsistencyRow {
                 let deviation = repaired.diagnosis.deviation.as_ref();
                 RepairRow {
                     failed: None,
+                    nearest: None,
                     exponents: Some(repaired.fit.exponents),
                     max: deviation.map(|deviation| deviation.max),
                     bias: deviation.map(|deviation| deviation.bias),
@@ -272,13 +324,14 @@ impl Question {
 }
 
 /// What `say` makes of the words of a finding.
-fn said(question: &Question, finding: &Finding, say: impl Fn(&Words<'_>) -> String) -> String {
+fn said<T>(question: &Question, finding: &Finding, say: impl Fn(&Words<'_>) -> T) -> T {
     let levels = question.analyses.iter().find(|(measure, _)| *measure == finding.scaled_to);
     let years = question.years;
     say(&Words {
         scaled_to: finding.scaled_to.label(),
         scaled_to_unit: finding.scaled_to.unit(),
         other: finding.other.label(),
+        other_unit: finding.other.unit(),
         levels: levels.map_or(&[][..], |(_, levels)| levels),
         has_level_sets: question.has_level_sets(),
         record: &|record| question.records.get(record).map_or_else(String::new, |record| record.id.clone()),

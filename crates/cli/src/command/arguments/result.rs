@@ -47,7 +47,7 @@ impl ResultArguments {
 
     /// The result; a study without one is run.
     pub(crate) fn find(&self, terminal: &Terminal) -> Result<FoundResult, CommandError> {
-        if is_hdf5(&self.input) || self.input.extension().is_some_and(|extension| extension == "h5") {
+        if is_hdf5(&self.input) || self.input.extension().is_some_and(|ending| ending == "h5" || ending == "part") {
             if !self.overrides.is_empty() {
                 return Err(CommandError::Usage(
                     "--set changes a study, and a result was given: give the study file instead".to_owned(),
