@@ -26,7 +26,8 @@ fn study(text: &str) -> SmallStudy {
 /// Two grounds that set off for good with a constant acceleration, and one that jerks for two hundredths of a second.
 pub(crate) fn steps() -> SmallStudy {
     let folder = SmallStudy::with(
-        "title = \"steps\"\n[records]\nmanifest = \"manifest.csv\"\n[strengths]\nvalues = [0.1, 0.2]\n[pga]\n\
+        "title = \"steps\"\n[records]\nmanifest = \"manifest.csv\"\nduplicates = \"keep\"\n[strengths]\n\
+         values = [0.1, 0.2]\n[pga]\n\
          levels_g = [0.05, 0.12, 0.3, 0.8]\n\
          [[sites]]\nname = \"Here\"\npga = \"pga.csv\"\n",
     );

@@ -77,7 +77,8 @@ fn any_number_of_threads_gives_the_same_answer() {
 #[test]
 fn a_strength_known_by_hand() {
     let folder = SmallStudy::with(
-        "title = \"steps\"\n[records]\nmanifest = \"manifest.csv\"\n[strengths]\nvalues = [0.1, 0.2]\n[pga]\n\
+        "title = \"steps\"\n[records]\nmanifest = \"manifest.csv\"\nduplicates = \"keep\"\n[strengths]\n\
+         values = [0.1, 0.2]\n[pga]\n\
          levels_g = [0.05, 0.12, 0.3, 0.8]\n[[sites]]\nname = \"Here\"\npga = \"pga.csv\"\n",
     );
     let samples =

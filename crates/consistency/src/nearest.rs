@@ -90,8 +90,8 @@ mod tests {
         with_words(|words| {
             assert_eq!(
                 nearest.sentence(words),
-                "the nearest hazard exceeds 0.181 g 1.81 times as often and 0.02 g 0.2 times as often; add records with \
-                 PGA below 0.181 g at PGV 7 cm/s and above 0.02 g at PGV 7 cm/s"
+                "the nearest hazard exceeds 0.181 g 1.81 times as often and 0.02 g 0.2 times as often; add records \
+                 with PGA below 0.181 g at PGV 7 cm/s and above 0.02 g at PGV 7 cm/s"
             );
             assert_eq!(
                 nearest.worst_side().sentence(words),

@@ -240,9 +240,9 @@ fn both_components_are_one_pair() {
     }
 }
 
-/// By hand: hazards `c x⁻²` and `c y⁻²`, so that y = x at every rate, and records of q from 1.3 to 2 at every level. The
-/// least that weights can give is all weight on q = 1.3: `λ̂(y) = λ_x(y/1.3) = 1.69 λ(y)`. What would cure it has y below
-/// the site's level when scaled to the same level of x.
+/// By hand: hazards `c x⁻²` and `c y⁻²`, so that y = x at every rate, and records of q from 1.3 to 2 at every level.
+/// The least that weights can give is all weight on q = 1.3: `λ̂(y) = λ_x(y/1.3) = 1.69 λ(y)`. What would cure it has y
+/// below the site's level when scaled to the same level of x.
 #[test]
 fn a_set_out_of_reach_comes_so_near() {
     let powers = |levels: Vec<f64>, measure: &str| {

@@ -82,11 +82,13 @@ fn shared_motions(pairs: &[&CheckedPair]) -> BTreeMap<(usize, usize), Vec<[usize
     for (position, ((pair, _), keys)) in pairs.iter().zip(keys).enumerate() {
         for (component, (motion, key)) in [&pair.h1, &pair.h2].into_iter().zip(keys).enumerate() {
             let alike = known.entry(key).or_default();
-            match alike.iter().find(|(.., other)| *other == motion) {
-                // both components of one record: that is told by itself
-                Some(&(first, ..)) if first == position => {}
-                Some(&(first, of_first, _)) => shared.entry((first, position)).or_default().push([of_first, component]),
-                None => alike.push((position, component, motion)),
+            let same = alike.iter().filter(|(.., other)| *other == motion);
+            match same.min_by_key(|(first, of_first, _)| (*first, *of_first != component)) {
+                // both components of one record may be alike: that is told by itself
+                Some(&(first, of_first, _)) if first < position => {
+                    shared.entry((first, position)).or_default().push([of_first, component]);
+                }
+                _ => alike.push((position, component, motion)),
             }
         }
     }
@@ -130,7 +132,8 @@ mod tests {
 
     #[test]
     fn every_record_that_is_entered_twice_is_named_with_its_files_and_channels() {
-        // C is A with its components swapped; D has one of B; E and F are new, and F has one motion as both components
+        // C is A with its components swapped; D has one of B; E and F are new, and F has one motion as both components;
+        // G is F again
         let set = [
             pair("A", [0.1, 0.2]),
             pair("B", [0.3, 0.4]),
@@ -138,8 +141,9 @@ mod tests {
             pair("D", [0.5, 0.4]),
             pair("E", [0.6, 0.7]),
             pair("F", [0.8, 0.8]),
+            pair("G", [0.8, 0.8]),
         ];
-        let places = places(&["A", "B", "C", "D", "E", "F"]);
+        let places = places(&["A", "B", "C", "D", "E", "F", "G"]);
         let what_to_do = "; remove one of them, or set records.duplicates = \"keep\"";
         assert_eq!(
             places.note(&set, Duplicates::Refuse).unwrap_err(),
@@ -151,10 +155,14 @@ mod tests {
                 format!(
                     "record D has a motion of record B: h2 (D.txt, channel 2) is h2 (B.txt, channel 2){what_to_do}"
                 ),
+                format!(
+                    "record G is record F again: h1 (G.txt) is h1 (F.txt), h2 (G.txt, channel 2) is h2 (F.txt, channel \
+                     2){what_to_do}"
+                ),
             ]
         );
         let kept = places.note(&set, Duplicates::Keep).unwrap();
-        assert_eq!(kept.as_deref(), Some("records entered twice are kept: C is A, D is B"));
+        assert_eq!(kept.as_deref(), Some("records entered twice are kept: C is A, D is B, G is F"));
         // without these all is well, and nothing is said
         let once = [0, 1, 4, 5].map(|position| set[position].clone());
         for duplicates in Duplicates::ALL {
