@@ -25,7 +25,7 @@ pub(super) fn unlikely(of: &StructureDescription) -> Vec<Unlikely> {
         ("uplift_displacement_m", given(of.uplift_displacement_m), USUAL_UPLIFT_DISPLACEMENT),
         ("gravity_m_s2", of.gravity_m_s2, USUAL_GRAVITY),
         ("restitution", of.restitution, USUAL_RESTITUTION),
-        ("the rotation at the displacement capacity, capacity over height,", rotation_rad(of), USUAL_ROTATION),
+        ("the rotation at the displacement capacity (over the height)", rotation_rad(of), USUAL_ROTATION),
     ];
     let mut found: Vec<Unlikely> =
         quantities.into_iter().filter_map(|(name, value, usual)| usual.unlikely(name, value?)).collect();
