@@ -22,8 +22,8 @@
 //! rolling friction that grows with the square of the rolling velocity. The corners: T. Baranyai, P. L. Várkonyi,
 //! Imperfections, impacts, and the singularity of Euler's disk, arXiv:1706.10205 (2017), follow a disk whose rim is a
 //! polygon through its impacts. The restitution: G. W. Housner, The behavior of inverted pendulum structures
-//! during earthquakes, Bulletin of the Seismological Society of America 53 (1963) 403–417. That both are one number is a
-//! choice of this program.
+//! during earthquakes, Bulletin of the Seismological Society of America 53 (1963) 403–417. That both are one number is
+//! a choice of this program.
 
 /// The smallest restitution of a wobbling frame: with less its rim would drag it to a stop beside the upright.
 pub const LEAST_RESTITUTION: f64 = 0.1;

@@ -72,8 +72,8 @@ proptest! {
         }
     }
 
-    /// The motion does not depend on where its steps end: records of half the interval, on the same straight lines, give
-    /// the same. The lean turns to one side and to the other, and what it loses bends where it stops turning.
+    /// The motion does not depend on where its steps end: records of half the interval, on the same straight lines,
+    /// give the same. The lean turns to one side and to the other, and what it loses bends where it stops turning.
     #[test]
     fn the_loss_does_not_depend_on_the_steps(
         amplitudes in (2.0..3.2_f64, 1.0..2.4_f64), periods in (0.4..0.9_f64, 0.3..0.7_f64),
@@ -90,7 +90,8 @@ proptest! {
         };
         let [x, y] = [coarse(amplitudes.0, periods.0), coarse(amplitudes.1, periods.1)];
         let state = FrameState { rotation_rad: 0.02, direction_rad: 0.4, velocity_rad_s: 0.0, turning_rad_s: 0.3 };
-        let options = Options { start: Start::Tilted(state), until: Until::Time(0.6), restitution: Some(restitution), ..Options::default() };
+        let (start, until) = (Start::Tilted(state), Until::Time(0.6));
+        let options = Options { start, until, restitution: Some(restitution), ..Options::default() };
         let run = |dt_s: f64, x: Vec<f64>, y: Vec<f64>| {
             let [x, y] = [x, y].map(|samples| Accelerogram::new(dt_s, samples).unwrap());
             respond(&frame, &GroundMotion::pair(&x, &y), Model::Wobbling, &options).unwrap().end
