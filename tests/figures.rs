@@ -15,6 +15,7 @@ mod design_tables;
 mod designs;
 mod embedded_set;
 mod fixed_step;
+mod frames;
 mod hazard_curves;
 mod images;
 mod influence;

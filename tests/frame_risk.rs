@@ -200,6 +200,42 @@ fn the_amplitude_of_rest_is_a_key_of_the_structure() {
     assert_eq!(rests("restless.toml", &["--rest-amplitude-rad", "1e-5"]), rests("frame.toml", &[]));
 }
 
+/// What a wobbling frame keeps past the upright is a key of its file, which an option replaces; every answer has it.
+#[test]
+fn the_restitution_of_wobbling_is_a_key_of_the_structure() {
+    let study = study(STUDY);
+    let free = FRAME.split("[restrainer]").next().unwrap().replace("restrained-frame", "frame");
+    let with = |value: &str| free.replace("restitution", &format!("wobbling_restitution = {value}\nrestitution"));
+    study.write("free.toml", &free);
+    study.write("none.toml", &with("1.0"));
+    study.write("loses.toml", &with("0.8"));
+    let ask = ["--site", "Here"];
+    let [none, one, loses] =
+        ["free", "none", "loses"].map(|name| json(&study, &[&["design", &format!("{name}.toml")], &ask[..]].concat()));
+    assert_eq!(none["frame"], one["frame"]);
+    let of = |report: &Value, model: usize| report["frame"]["models"][model].clone();
+    assert_eq!(of(&none, 1), of(&loses, 1), "the planar frame has its own");
+    assert_eq!((number(&of(&none, 0)["restitution"]), number(&of(&loses, 0)["restitution"])), (1.0, 0.8));
+    assert!(number(&of(&loses, 0)["demand_m"]) < number(&of(&none, 0)["demand_m"]), "{loses}");
+    assert!(loses["notes"].to_string().contains("keeps 0.8 of its velocity"), "{}", loses["notes"]);
+    let risk = json(&study, &[&["risk", "loses.toml"], &ask[..]].concat());
+    assert_eq!(risk["demands"][0]["demand_m"]["value"], of(&loses, 0)["demand_m"]);
+    let rates = json(&study, &["overturning", "loses.toml", "--site", "Here"]);
+    assert_eq!(rates["overturning"][2]["sites"][0]["per_year"], risk["overturning"]["per_year"]);
+    assert_eq!(rates["models"][2]["restitution_from"], "the structure file");
+    let manifest = rows(&study, "manifest.csv");
+    let shaken = |structure: &str, more: &[&str]| -> Value {
+        let files = ["--h1", &manifest[0]["file_h1"], "--h2", &manifest[0]["file_h2"], "--scale", "2", "--json"];
+        let ask = ["response", "--structure", structure];
+        let run: Value = serde_json::from_str(&study.uplift(&[&ask[..], &files, more].concat()).ok().stdout).unwrap();
+        run["runs"][0].clone()
+    };
+    assert_eq!(shaken("loses.toml", &[]), shaken("free.toml", &["--restitution", "0.8"]));
+    assert_ne!(shaken("loses.toml", &[]), shaken("free.toml", &[]));
+    study.write("wrong.toml", &with("0.4"));
+    study.uplift(&["design", "wrong.toml", "--urs", "r.h5"]).fails(3, &["wobbling_restitution", "from 0.5 to 1"]);
+}
+
 /// Events happen as often as their displacements are exceeded, the state is that of a pushover at the demand.
 #[test]
 #[ignore = "long: make test-long"]

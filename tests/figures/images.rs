@@ -6,7 +6,7 @@ use super::base_widths::LITTLE_ELSE;
 use super::{ordinates, range};
 use crate::common::{repository, uplift};
 
-fn compare(name: &str, drawn: &str) {
+pub fn compare(name: &str, drawn: &str) {
     let path = repository().join("docs/images").join(name);
     // said of the program that drew it: none of the picture's numbers
     let drawn = without_description(drawn);

@@ -9,7 +9,7 @@ const BEGIN: &str = "<!-- figure: ";
 const END: &str = "<!-- end -->";
 
 /// The sources, by which names begin; those that `make test` leaves out are slow.
-const SOURCES: [&str; 30] = [
+const SOURCES: [&str; 31] = [
     "base-widths",
     "conditioning",
     "consistency",
@@ -20,6 +20,7 @@ const SOURCES: [&str; 30] = [
     "embedded-choices",
     "embedded-set",
     "fixed-step",
+    "frames",
     "influence",
     "levels",
     "levels-at-athens",

@@ -6,6 +6,7 @@
 //! | [`ground`] | what shakes it: up to three components, records or pulses |
 //! | [`pulse`] | sine, cosine, half sine and Ricker pulses |
 //! | [`response`] | peaks, events, survival; the motion in time |
+//! | [`rolling`] | what a wobbling frame loses |
 //! | [`history`] | rows of a motion in time |
 //! | [`sections`] | forces on the ends of a column at such a row |
 //! | [`shake_table`] | records in the scale of a model, at a level of PGV (Section 6.4) |
@@ -19,8 +20,9 @@
 //! The upright position is the apex of a cone, not a point: passing close by it, `φ` turns by `π/κ`, `κ = √(c/M) < 1`,
 //! to the side that the sign of `L` says. Below 1e-10 rad that passage is a straight line in the developed cone,
 //! exactly; above it the steps of the series shrink with the distance. Shaking along one line from rest stays in its
-//! plane, and is computed so. Nothing in the wobbling model dissipates: a frame whose energy falls below that of
-//! `rest_amplitude_rad` while the ground does not lift it is taken to rest.
+//! plane, and is computed so. The wobbling model of the dissertation loses nothing; with a restitution below 1 it loses
+//! by [`rolling`]. A frame whose energy falls below that of `rest_amplitude_rad` while the ground does not lift it is
+//! taken to rest.
 //!
 //! # How
 //! By Taylor series, as `uplift-block` does and for its reasons: accuracy to rounding for the price of a dozen products
@@ -28,7 +30,8 @@
 //! is not analytic, slack, touch, stoppers, yield and flat springs, happens at rotations known beforehand, where a step
 //! ends ([`frame`] and the restrainer's pieces).
 //!
-//! After the record energy and momentum are constants: whether the frame survives is one root, not an integration.
+//! After the record energy and momentum are constants: whether the frame survives is one root, not an integration. A
+//! frame that loses energy by rolling is followed to its next peak.
 //!
 //! ```
 //! use uplift_frame::{ColumnShape, GroundMotion, Model, Options, Pulse, PulseShape, RockingFrame, Shaking, respond};
@@ -59,6 +62,7 @@ mod motion;
 pub mod peaks;
 pub mod pulse;
 pub mod response;
+pub mod rolling;
 pub mod sections;
 mod series;
 pub mod shake_table;

@@ -16,6 +16,7 @@ use crate::frame::RockingFrame;
 use crate::ground::length;
 use crate::history::{Moment, Observer};
 use crate::peaks::Peaks;
+use crate::rolling::Rolling;
 use crate::series::{Constants, Expansion, Shaken, Turning};
 use crate::uplift::{Uplift, uplift_in_plane, uplift_in_space};
 
@@ -73,6 +74,7 @@ pub(crate) struct Motion<O> {
     diagonal_m: f64,
     /// `κ = √(c/M)`, `J → c θ²`.
     kappa: f64,
+    rolling: Rolling,
     rules: Rules,
     branches: Vec<Branch>,
     branch: usize,
@@ -100,6 +102,8 @@ impl<O: Observer> Motion<O> {
         let inertia = frame.inertia();
         let columns = frame.columns();
         let share = f64::from(columns.restrained()) / f64::from(columns.columns());
+        let kappa = ((inertia.deck * cos * cos + inertia.diameter) / inertia.tilt).sqrt();
+        let rolling = Rolling::new(kappa, rules.restitution);
         let constants = Constants {
             sin_alpha: sin,
             cos_alpha: cos,
@@ -118,6 +122,7 @@ impl<O: Observer> Motion<O> {
                 2.0 * (inertia.deck * (sin * sin - cos * cos) - inertia.diameter + inertia.axis),
                 -4.0 * inertia.deck * sin * cos,
             ],
+            drag: 2.0 * rolling.loss,
         };
         let mut watched: Vec<(f64, EventKind)> = columns
             .events()
@@ -132,7 +137,8 @@ impl<O: Observer> Motion<O> {
             tangent: sin / cos,
             prestress: frame.prestress_ratio(),
             diagonal_m: 2.0 * geometry.size_m(),
-            kappa: ((inertia.deck * cos * cos + inertia.diameter) / inertia.tilt).sqrt(),
+            kappa,
+            rolling,
             rules,
             branches: branches(frame),
             branch: 0,
@@ -188,8 +194,15 @@ impl<O: Observer> Motion<O> {
         }
     }
 
+    /// Whether free motion is known to go beyond the last rotation from which it comes back. The energy that a turning
+    /// frame still loses may yet hold it: then the motion itself tells.
+    pub(crate) fn is_lost(&self) -> bool {
+        let loses = matches!(self.lean, Lean::Space(_)) && self.constants.drag > 0.0;
+        !loses && self.largest_rotation_to_come().is_none()
+    }
+
     /// The largest rotation of free motion from now on, rad; none if the frame overturns.
-    pub(crate) fn largest_rotation_to_come(&self) -> Option<f64> {
+    fn largest_rotation_to_come(&self) -> Option<f64> {
         let (momentum, restitution) = (self.momentum(), self.rules.restitution);
         self.frame.largest_rotation_to_come(Free { rotation: self.x, velocity: self.v, momentum, restitution })
     }

@@ -12,6 +12,7 @@ use crate::ground::{GroundMotion, Piece, length};
 use crate::history::{History, Moment, Observer, Unobserved};
 use crate::motion::{Ending, LONGEST_STEP, Lean, Motion, Rules};
 use crate::peaks::Peak;
+use crate::rolling::LEAST_RESTITUTION;
 use crate::series::{Expansion, Shaken, Turning};
 
 /// Longest motion computed, in units of 1/p.
@@ -71,8 +72,9 @@ pub struct Options {
     pub start: Start,
     /// How long it is followed.
     pub until: Until,
-    /// Ratio of velocities after to before an impact; if none, by the balance of momentum in the planar model
-    /// ([`RockingFrame::momentum_restitution`]), and 1 in the wobbling one, where it applies to exact returns alone.
+    /// Ratio of velocities after to before an impact; of the wobbling model, of those far from the upright after and
+    /// before a passage close by it ([`crate::rolling`]). If none, by the balance of momentum in the planar model
+    /// ([`RockingFrame::momentum_restitution`]), and 1 in the wobbling one, which then loses nothing.
     pub restitution: Option<f64>,
     /// A frame whose energy is below that of this rotation rests if the ground does not lift it, rad. If none, 1e-5 in
     /// the wobbling model, 0 in the planar one: there rest is proved.
@@ -220,9 +222,13 @@ fn rules(frame: &RockingFrame, model: Model, options: &Options) -> Result<Rules,
         Model::Wobbling => (1.0, REST_AMPLITUDE_RAD),
     };
     let restitution = options.restitution.unwrap_or(restitution);
+    let (least, accepted) = match model {
+        Model::Planar => (0.0, "between 0 and 1"),
+        Model::Wobbling => (LEAST_RESTITUTION, "between 0.1 and 1"),
+    };
     let rest = options.rest_amplitude_rad.unwrap_or(rest_amplitude_rad);
     Ok(Rules {
-        restitution: within("restitution", restitution, "(pure number)", 0.0..=1.0, "between 0 and 1")?,
+        restitution: within("restitution", restitution, "(pure number)", least..=1.0, accepted)?,
         rest_amplitude_rad: within("amplitude of rest", rest, "rad", 0.0..=0.1, "between 0 and 0.1 rad")?,
         start_rotation_rad: within(
             "tilt at uplift",
@@ -336,7 +342,7 @@ fn follow<O: Observer>(
         }
         now_s = end_s;
     }
-    if until == Until::FirstFreePeak && !motion.resting && motion.largest_rotation_to_come().is_none() {
+    if until == Until::FirstFreePeak && !motion.resting && motion.is_lost() {
         return Ok(Some(motion.overturn(now_s)));
     }
     let (mut steps, begin_s) = (0.0, now_s);

@@ -6,8 +6,9 @@
 //! `ω̇ = −p² [(1 + Z) sin ψ + A cos ψ] − T Δ'/(μ R² M) + ½ J' φ̇²/M`
 //!
 //! (Eq. 6.3 and, with the corrections of `docs/errata.md`, Eq. 6.6). A wobbling frame has besides `φ̇ = L/J` and
-//! `L̇ = (g/R) U_s (A_x sin φ − A_y cos φ)`, `A = A_x cos φ + A_y sin φ`: with the momentum `L` in place of `φ̇` the
-//! term `J' ω φ̇` of Eq. 6.7 needs not be carried, and the invariant of free motion is not lost to rounding.
+//! `L̇ = (g/R) U_s (A_x sin φ − A_y cos φ) − 2λ |φ̇| L`, `A = A_x cos φ + A_y sin φ`: with the momentum `L` in place of
+//! `φ̇` the term `J' ω φ̇` of Eq. 6.7 needs not be carried, and the invariant of free motion is not lost to rounding.
+//! The last term is the loss of [`crate::rolling`]. It bends where `L` is zero, and a step ends there.
 //!
 //! Sine and versine of `θ`, sine and cosine of `θ/2` and of `φ` come from their derivatives, quotients and the spring's
 //! deformation from implicit recurrences: all are products of series. The series goes on until two terms running of
@@ -19,7 +20,9 @@
 //! coefficients).
 
 use uplift_statics::RestrainedColumns;
-use uplift_taylor::{DEGREE, Factors, Forcing, LEAST_ORDER, ORDER, TRUNCATION, product, stretch, value};
+use uplift_taylor::{
+    DEGREE, Factors, Forcing, LEAST_ORDER, ORDER, TRUNCATION, first_zero, leading_sign, product, stretch, value,
+};
 
 mod strands;
 mod wobble;
@@ -49,6 +52,8 @@ pub(crate) struct Constants {
     pub(crate) turning: [f64; 3],
     /// `J' = k₀ sin θ + k₁ (1 − cos θ) + k₂ sin θ (1 − cos θ) + k₃ (1 − cos θ)²`.
     pub(crate) turning_slope: [f64; 4],
+    /// `2λ`: part of the momentum that a radian of turning takes.
+    pub(crate) drag: f64,
 }
 
 /// Shaking on a step, in units of g.
@@ -194,6 +199,7 @@ impl Expansion {
         let is_level = shaken.vertical.is_zero();
         let along = shaken.horizontal[0].coefficients();
         let by_tilt_inertia = 1.0 / constants.tilt_inertia;
+        let mut sense = if WOBBLES { leading_sign(step.momentum[..1].iter()) } else { 0.0 };
         let (mut rotation, mut turning) = (Convergence::from([v]), Convergence::from([step.momentum[0], 0.0]));
         let mut is_converged = false;
         for k in 0..ORDER {
@@ -214,6 +220,11 @@ impl Expansion {
                 moment += change.push;
                 outward = 0.5 * change.centrifugal;
                 step.momentum[k + 1] = factor * constants.fall * change.across;
+                if constants.drag > 0.0 {
+                    // from zero on the momentum has the sign of what moves it, and until then nothing is lost
+                    step.momentum[k + 1] -= factor * constants.drag * sense * product(&step.momentum, &step.turning, k);
+                    sense = if sense == 0.0 { leading_sign(step.momentum[k + 1..k + 2].iter()) } else { sense };
+                }
                 step.direction[k + 1] = factor * step.turning[k];
                 step.sin_direction[k + 1] = factor * change.sin;
                 step.cos_direction[k + 1] = -factor * change.cos;
@@ -364,6 +375,12 @@ impl Step {
             direction: value(&self.direction[..=self.order], s),
             momentum: value(&self.momentum[..=self.order], s),
         }
+    }
+
+    /// First s in (0, 1) at which the lean stops turning, and may turn to the other side.
+    pub(crate) fn stops_turning(&self) -> Option<f64> {
+        let sense = leading_sign(self.momentum[..=self.order].iter());
+        first_zero(&self.momentum.map(|c| sense * c)[..=self.order])
     }
 
     /// `φ̇` and `φ̈` at s, rad/s and rad/s².

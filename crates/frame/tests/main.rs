@@ -7,6 +7,7 @@ mod limits;
 mod misuse;
 mod reference_cases;
 mod restrainers;
+mod rolling;
 mod sections;
 mod shake_table;
 mod symmetry;

@@ -220,6 +220,17 @@ impl<'a> Plan<'a> {
     pub fn upwards(mut self, upwards: Vec<&'a Accelerogram>) -> Result<Self, IdaError> {
         self.check_beside("vertical components", upwards.len())?;
         let gravity_m_s2 = self.systems.iter().filter_map(System::gravity_m_s2).fold(f64::INFINITY, f64::min);
+        let falling = self.falling(&upwards, gravity_m_s2);
+        if !falling.is_empty() {
+            return Err(IdaError::Falls { falling });
+        }
+        self.upwards = upwards;
+        Ok(self)
+    }
+
+    /// Motions whose vertical component, one a motion, falls as fast as gravity (m/s²) at a scale factor: each once,
+    /// with the first.
+    pub fn falling(&self, upwards: &[&Accelerogram], gravity_m_s2: f64) -> Vec<String> {
         let falls = |(motion, vertical): (&ScaledMotion<'_>, &&Accelerogram)| {
             let (least, most) = vertical
                 .acceleration_m_s2()
@@ -228,14 +239,10 @@ impl<'a> Plan<'a> {
             let first = motion.scales.iter().position(|scale| (scale * least).min(scale * most) <= -gravity_m_s2)?;
             Some(format!("{} by {:.4} (scale factor {first})", motion.id, motion.scales[first]))
         };
-        let mut falling: Vec<String> = self.motions.iter().zip(&upwards).filter_map(falls).collect();
+        let mut falling: Vec<String> = self.motions.iter().zip(upwards).filter_map(falls).collect();
         // both components of a pair are told once
         falling.dedup();
-        if !falling.is_empty() {
-            return Err(IdaError::Falls { falling });
-        }
-        self.upwards = upwards;
-        Ok(self)
+        falling
     }
 
     /// This plan with every motion as it is seen from other azimuths too: a peak is a percentile of the peaks from all,

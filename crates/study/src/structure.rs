@@ -59,6 +59,7 @@ pub(crate) const KEYS: [SectionKeys; 6] = [
             &COLUMN_SHAPE,
             &F_CD_PA,
             &REST_AMPLITUDE_RAD,
+            &WOBBLING_RESTITUTION,
         ],
     ),
     restrainer::KEYS,
@@ -131,6 +132,9 @@ const F_CD_PA: Key<Number> = number("f_cd_pa", "Pa", Rule::Within(CONCRETE_STREN
 const REST_AMPLITUDE_RAD: Key<Number> = number("rest_amplitude_rad", "rad", REST)
     .without_default("1e-5")
     .meaning("tilt whose energy is that of a wobbling frame at rest, rad");
+const WOBBLING_RESTITUTION: Key<Number> = number("wobbling_restitution", "", Rule::From(0.5, 1.0, "from 0.5 to 1"))
+    .without_default("1, no loss")
+    .meaning("velocity of a wobbling frame after passing the upright divided by the one before");
 
 /// A number that the description judges.
 const fn judged(name: &'static str, unit: &'static str) -> Key<Judged> {
@@ -172,6 +176,8 @@ pub struct Structure {
     pub f_cd_pa: Option<f64>,
     /// Tilt whose energy is that of a wobbling frame at rest, rad; that of the model where none is given.
     pub rest_amplitude_rad: Option<f64>,
+    /// Velocity of a wobbling frame after passing the upright over the one before; 1, no loss, where none is given.
+    pub wobbling_restitution: Option<f64>,
     /// What of the equivalent oscillator is not known exactly; none where all of it is.
     pub uncertainty: Option<Uncertainty>,
     /// What is allowed but probably not meant.
@@ -281,6 +287,7 @@ struct ReadStructure {
     column_shape: ColumnShape,
     f_cd_pa: Option<f64>,
     rest_amplitude_rad: Option<f64>,
+    wobbling_restitution: Option<f64>,
 }
 
 impl ReadStructure {
@@ -336,6 +343,7 @@ impl ReadStructure {
             column_shape: self.column_shape,
             f_cd_pa: self.f_cd_pa,
             rest_amplitude_rad: self.rest_amplitude_rad,
+            wobbling_restitution: self.wobbling_restitution,
             uncertainty: None,
         })
     }
@@ -431,10 +439,18 @@ fn read(mut root: Section<'_>) -> Option<ReadStructure> {
     let column_shape = root.read(&COLUMN_SHAPE).unwrap_or_default();
     let f_cd_pa = root.optional(&F_CD_PA).flatten();
     let rest_amplitude_rad = root.optional(&REST_AMPLITUDE_RAD).flatten();
+    let wobbling_restitution = root.optional(&WOBBLING_RESTITUTION).flatten();
     // it is read when the structure is known, whose values are its means
     root.section("uncertainty");
     root.finish();
-    kind.map(|_| ReadStructure { description, restrainer, column_shape, f_cd_pa, rest_amplitude_rad })
+    kind.map(|_| ReadStructure {
+        description,
+        restrainer,
+        column_shape,
+        f_cd_pa,
+        rest_amplitude_rad,
+        wobbling_restitution,
+    })
 }
 
 /// Reads `[uncertainty]`, what is wrong with it, and what is doubtful; the means that are not given are those of the

@@ -31,7 +31,7 @@ use uplift_uniform_risk::{AskedRisk, EventRisk, SpectraOfResult, StudyOfResult, 
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
 use super::opening::{Place, job_name, records_and_pairs, restitution};
-use super::own_frame::{FrameReport, OF_FRAME, OwnFrame, STOPPED};
+use super::own_frame::{FrameReport, OwnFrame, STOPPED, of_frame};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::rules::{RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
@@ -112,6 +112,9 @@ pub struct DesignReport {
     /// What the frame itself says; none of a structure that cannot wobble, by its proxy, and without an analysis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frame: Option<FrameReport>,
+    /// Why a frame that can wobble is left out where it is not by its proxy that it is wanted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub without_frame: Option<String>,
     /// The structure where its quantities are not known exactly; none where its file says that they are, and without
     /// an analysis of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -182,11 +185,9 @@ pub fn design(
     if !options.repaired {
         notes.extend(beside(plain, repaired));
     }
-    if spectrum.is_none() {
-        notes.push(beyond_spectrum(structure, &source));
-    }
+    notes.extend(spectrum.is_none().then(|| beyond_spectrum(structure, &source)));
     let [wobbles, is_shaken] = [OwnFrame::is_described(structure), OwnFrame::can_be_shaken(structure)];
-    notes.extend((wobbles && !is_shaken).then(|| STOPPED.to_owned()));
+    let mut without_frame = (wobbles && !is_shaken && !options.proxy).then(|| STOPPED.to_owned());
     let mut own = None;
     if !options.spectrum_only {
         match records_and_pairs(&source, options.manifest.as_deref(), is_shaken && !options.proxy)? {
@@ -201,12 +202,13 @@ pub fn design(
         }
     }
     let (exact, uncertainty, frame, checkpoint) = match own {
-        Some(OwnAnalysis { exact, uncertainty, frame, checkpoint }) => {
-            (Some(exact), uncertainty, frame, Some(checkpoint))
+        Some(own) => {
+            without_frame = without_frame.or(own.without_frame);
+            (Some(own.exact), own.uncertainty, own.frame, Some(own.checkpoint))
         }
         None => (None, None, None, None),
     };
-    notes.extend(frame.as_ref().map(|_| OF_FRAME.to_owned()));
+    notes.extend(frame.as_ref().map(|_| of_frame(structure)));
     if structure.uncertainty.is_some() && uncertainty.is_none() {
         notes.push(without_uncertainty(options, &source));
     }
@@ -257,6 +259,7 @@ pub fn design(
         exact,
         wobbles,
         frame,
+        without_frame,
         uncertainty,
         rules,
         notes,
@@ -284,7 +287,7 @@ pub fn design_shard(
     let any_site = source.sites.first().filter(|_| !with_pairs);
     let place = Place::choose(&source, options.site.as_ref().or(any_site).map(String::as_str), options.measure)?;
     let records = records_and_pairs(&source, options.manifest.as_deref(), with_pairs)?.map_err(JobError::input)?;
-    let analysis = DesignAnalysis::from_structure(structure, &source, records, options)?;
+    let analysis = DesignAnalysis::from_structure(structure, &source, (place, target_per_year), (records, options))?;
     let name = job_name("design", structure);
     Ok(ResultJob { result, name: &name }.shard(
         analysis.work(&source, (place, target_per_year), &name)?,

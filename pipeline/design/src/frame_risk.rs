@@ -28,6 +28,7 @@ use super::certainty::Scatter;
 use super::collapse::{Collapse, collapse};
 use super::design::{DesignOptions, design};
 use super::opening::{Place, check_tables, choose_measure, job_name, study_with_common_records};
+use super::own_frame::loss;
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::weights::RepairedWeights;
@@ -336,7 +337,7 @@ fn notes(
     }
     if demands.wobbling_m.is_some() {
         notes.push(TORSION.to_owned());
-        notes.push("the wobbling model has no loss of energy by impact or friction".to_owned());
+        notes.push(loss(structure));
         let alone = analysis.without_second();
         if !alone.is_empty() {
             notes.push(format!(

@@ -28,7 +28,7 @@ use super::opening::{
     ShakenRecords, check_tables, choose_measure, job_name, records_and_pairs, required, site_index,
     study_with_common_records,
 };
-use super::own_frame::{FramePeaks, OF_FRAME, OwnFrame, STOPPED};
+use super::own_frame::{FramePeaks, OwnFrame, STOPPED, falls, of_frame};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{OVERTURNING_M, own_risk};
 use super::tables::{risk_path, write_tables};
@@ -75,6 +75,9 @@ pub struct OverturningReport {
     /// The oscillator where its quantities are not known exactly; none where the structure file says that they are.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<UncertaintyReport>,
+    /// Why a frame that can wobble is left out where it is not by its proxy that it is wanted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub without_frame: Option<String>,
     /// How the models differ, and what could not be done.
     pub notes: Vec<String>,
     /// What to know before using the numbers, the worst first.
@@ -236,7 +239,7 @@ pub fn overturning(
     let asked = FrameSites { sites: &sites, repaired: &repaired, scatter: &scatter, years: study.risk.years };
     let of_frame = analysis.frame_collapses(&mut analysed, &hazards, &asked)?;
     notes.extend(notes_on(models, &found));
-    notes.extend(analysis.frame.as_ref().map(|_| OF_FRAME.to_owned()));
+    notes.extend(analysis.frame.as_ref().map(|_| self::of_frame(structure)));
     let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
     let uncertainty = match uncertain {
         Some(uncertain) => {
@@ -258,6 +261,7 @@ pub fn overturning(
         models: analysis.models().map(|(model, origin)| ModelReport::from_model(model, origin)).collect(),
         overturning: reports((&found, &of_frame), models, records, &names),
         uncertainty,
+        without_frame: analysis.without_frame.clone(),
         notes,
         alarms: ranked(alarms),
         files: Vec::new(),
@@ -309,6 +313,8 @@ struct OverturningAnalysis<'a> {
     models: Vec<(System, &'static str)>,
     /// The frame itself, with the positions of its levels, `[measure]`; none of a structure that cannot wobble.
     frame: Option<(OwnFrame, Vec<Vec<usize>>)>,
+    /// Why one that can wobble is left out.
+    without_frame: Option<String>,
     /// The structures that it may be; none where all of it is known.
     uncertain: Option<Uncertain<'a>>,
 }
@@ -322,23 +328,34 @@ impl<'a> OverturningAnalysis<'a> {
         notes: &mut Vec<String>,
     ) -> Result<Self, DesignError> {
         let measures = measures(source, options.measure)?;
-        let models = models(structure, source, options.restitution, notes)?;
+        let mut models = models(structure, source, options.restitution, notes)?;
         let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
-        if OwnFrame::is_described(structure) && !OwnFrame::can_be_shaken(structure) {
-            notes.push(STOPPED.to_owned());
-        }
+        let stops = OwnFrame::is_described(structure) && !OwnFrame::can_be_shaken(structure) && !options.proxy;
+        let mut without_frame = stops.then(|| STOPPED.to_owned());
         let found = records_and_pairs(source, options.manifest.as_deref(), with_pairs)?;
         let (records, pairs) = required(found, "overturning")?;
         let frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
-        let frame = frame.map(|frame| {
-            let levels = measures.iter().map(|of| frame.levels_that_uplift(&records.set, of)).collect();
+        let mut frame = frame.map(|frame| {
+            let levels = measures.iter().map(|of| frame.levels_that_uplift(&records.set, of)).collect::<Vec<_>>();
             (frame, levels)
         });
+        if let Some((of, places)) = &frame {
+            for (measure, places) in measures.iter().zip(places) {
+                let levels: Vec<f64> = places.iter().map(|&place| measure.plan.levels[place]).collect();
+                let falls = of.leaves_the_ground(&records.set, (measure.measure(), &levels))?;
+                without_frame = without_frame.or(falls);
+            }
+        }
+        frame = frame.filter(|_| without_frame.is_none());
         let mut study = source.study.clone();
         // what is lost when a record ends has overturned, whoever looks
         study.oscillator.free_vibration = true;
+        if let Some(reason) = block_leaves_the_ground(&models, &study, &measures, &records.set)? {
+            models.truncate(OSCILLATOR + 1);
+            notes.push(format!("the block is not analysed: {reason}"));
+        }
         let uncertain = uncertain_structures(structure, options.restitution, (&models[OSCILLATOR].0, records.count()))?;
-        Ok(Self { study, records, measures, models, frame, uncertain })
+        Ok(Self { study, records, measures, models, frame, without_frame, uncertain })
     }
 
     /// Oscillator and block, then the models of the frame, each with the origin of its restitution.
@@ -369,7 +386,7 @@ impl<'a> OverturningAnalysis<'a> {
     /// that it may be, one a measure.
     fn work(&self, title: &str) -> Result<Work<'_>, DesignError> {
         let mut plans = Vec::new();
-        let factors: Vec<f64> = [1.0].into_iter().chain(nudges()).collect();
+        let factors = factors();
         let ShakenRecords { set, motions } = &self.records;
         for measure in &self.measures {
             for (model, _) in &self.models {
@@ -394,6 +411,32 @@ impl<'a> OverturningAnalysis<'a> {
         }
         Ok(Work::new(title, plans))
     }
+}
+
+/// Factors on every scale factor: 1, then those of its neighbours some roundings away.
+fn factors() -> Vec<f64> {
+    [1.0].into_iter().chain(nudges()).collect()
+}
+
+/// Why the block among `models` cannot be shaken: its records, scaled, let it leave the ground.
+fn block_leaves_the_ground(
+    models: &[(System, &'static str)],
+    study: &UniformRiskStudy,
+    measures: &[&SpectraOfResult],
+    set: &RecordSet,
+) -> Result<Option<String>, DesignError> {
+    let verticals: Vec<_> = set.records.iter().filter_map(|record| record.vertical.as_ref()).collect();
+    let verticals: Vec<_> = verticals.iter().map(|vertical| &vertical.accelerogram).collect();
+    let Some(gravity_m_s2) = models.iter().find_map(|(model, _)| model.gravity_m_s2()) else { return Ok(None) };
+    for measure in measures.iter().filter(|_| !verticals.is_empty()) {
+        // the oscillator feels no vertical motion
+        let plan = plan_stripes(study, &measure.plan, set, std::slice::from_ref(&models[OSCILLATOR].0))?;
+        let falling = plan.multiplied(&factors())?.falling(&verticals, gravity_m_s2);
+        if let Some(reason) = falls(&falling) {
+            return Ok(Some(reason));
+        }
+    }
+    Ok(None)
 }
 
 /// The structures that `structure` may be, whose `oscillator` is that of the structure as described; none where all of

@@ -33,13 +33,37 @@ const LEVELS: usize = 28;
 const TIMES_TARGET: f64 = 30.0;
 
 /// What the models of a frame leave out.
-pub(super) const OF_FRAME: &str = "the wobbling model loses no energy by impact or friction, and its deck does not \
-                                   turn; the planar one is shaken by one component alone, which is known to be \
-                                   unconservative (Section 6.2.3)";
+pub(super) fn of_frame(structure: &Structure) -> String {
+    format!(
+        "{}, and its deck does not turn; the planar one is shaken by one component alone, which is known to be \
+         unconservative (Section 6.2.3)",
+        loss(structure)
+    )
+}
 
-/// Why a frame that can wobble is left out.
-pub(super) const STOPPED: &str = "the frame itself is not analysed: its motion ends where flat springs stop the \
-                                  columns (when_flat = \"stop\")";
+/// What the wobbling model of a frame loses, in words.
+pub(super) fn loss(structure: &Structure) -> String {
+    match structure.wobbling_restitution {
+        None => "the wobbling model loses no energy by impact or friction".to_owned(),
+        Some(kept) => {
+            format!("the wobbling model keeps {kept} of its velocity past the upright (wobbling_restitution)")
+        }
+    }
+}
+
+/// Why a frame that can wobble is left out, ...
+pub(super) const STOPPED: &str = "its motion ends where flat springs stop the columns (when_flat = \"stop\")";
+
+/// ... and why one is under records whose ground falls under it.
+pub(super) fn falls(falling: &[String]) -> Option<String> {
+    let first = falling.first()?;
+    Some(match falling.len() {
+        1 => format!("the ground falls as fast as gravity under {first}, where no model of it holds"),
+        many => {
+            format!("the ground falls as fast as gravity under {many} records, where no model of it holds: {first}, …")
+        }
+    })
+}
 
 /// The frame itself, as a design or the overturning of a structure shows it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -129,6 +153,17 @@ impl Pairs {
         (measure, levels): (IntensityMeasure, &[f64]),
         wobbling: &'a [System],
     ) -> Result<Plan<'a>, DesignError> {
+        let stripes = self.level(set, (measure, levels), wobbling)?;
+        Ok(shaken_upwards(stripes, self.verticals(set, 1))?)
+    }
+
+    /// The same without vertical components.
+    fn level<'a>(
+        &'a self,
+        set: &'a RecordSet,
+        (measure, levels): (IntensityMeasure, &[f64]),
+        wobbling: &'a [System],
+    ) -> Result<Plan<'a>, DesignError> {
         let record = |(index, pair): (usize, &'a RecordPair)| StripeRecord {
             id: &pair.id,
             accelerogram: &pair.h1,
@@ -136,8 +171,7 @@ impl Pairs {
         };
         let records = self.all.iter().enumerate().map(record).collect();
         let stripes = stripes_of((measure, levels), records, wobbling, true)?;
-        let stripes = stripes.across(self.all.iter().map(|pair| &pair.h2).collect())?;
-        Ok(shaken_upwards(stripes, self.verticals(set, 1))?)
+        Ok(stripes.across(self.all.iter().map(|pair| &pair.h2).collect())?)
     }
 }
 
@@ -156,17 +190,24 @@ pub(super) fn in_the_plane_of_records<'a>(
     Ok(seen(stripes, set)?)
 }
 
-/// A frame by one of its models.
-///
-/// * `rest_amplitude_rad` — of the wobbling frame, as its structure file has it
-pub(super) fn modelled(
-    frame: &RockingFrame,
-    (model, restitution): (Model, f64),
-    rest_amplitude_rad: Option<f64>,
-) -> System {
-    // rest of the planar model is proved
-    let rest_amplitude_rad = rest_amplitude_rad.filter(|_| model == Model::Wobbling);
-    System::Frame(Box::new(ShakenFrame { frame: frame.clone(), model, restitution, rest_amplitude_rad }))
+/// The wobbling frame of `structure`, with the rest and the loss that its file has.
+pub(super) fn wobbling(frame: &RockingFrame, structure: &Structure) -> System {
+    System::Frame(Box::new(ShakenFrame {
+        frame: frame.clone(),
+        model: Model::Wobbling,
+        restitution: structure.wobbling_restitution.unwrap_or(1.0),
+        rest_amplitude_rad: structure.rest_amplitude_rad,
+    }))
+}
+
+/// A frame in a plane, whose rest is proved.
+pub(super) fn planar(frame: &RockingFrame, restitution: f64) -> System {
+    System::Frame(Box::new(ShakenFrame {
+        frame: frame.clone(),
+        model: Model::Planar,
+        restitution,
+        rest_amplitude_rad: None,
+    }))
 }
 
 /// The frame of a structure that can wobble, by both models.
@@ -174,8 +215,8 @@ pub(super) fn modelled(
 pub(super) struct OwnFrame {
     wobbling: Vec<System>,
     planar: Vec<System>,
-    /// Where the restitution of the planar model comes from.
-    restitution_from: &'static str,
+    /// Where the restitution of the wobbling model comes from, and that of the planar one.
+    restitution_from: [&'static str; 2],
     pairs: Pairs,
 }
 
@@ -199,16 +240,32 @@ impl OwnFrame {
         let (restitution, restitution_from) =
             own.map_or_else(|| (frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
         Ok(Self {
-            wobbling: vec![modelled(&frame, (Model::Wobbling, 1.0), structure.rest_amplitude_rad)],
-            planar: vec![modelled(&frame, (Model::Planar, restitution), None)],
-            restitution_from,
+            wobbling: vec![wobbling(&frame, structure)],
+            planar: vec![planar(&frame, restitution)],
+            restitution_from: [
+                structure.wobbling_restitution.map_or("the model loses no energy", |_| "the structure file"),
+                restitution_from,
+            ],
             pairs,
         })
     }
 
+    /// Why it cannot be shaken by a measure at `levels`: its records, scaled, let it leave the ground.
+    pub(super) fn leaves_the_ground(
+        &self,
+        set: &RecordSet,
+        at: (IntensityMeasure, &[f64]),
+    ) -> Result<Option<String>, DesignError> {
+        let verticals = self.pairs.verticals(set, 1);
+        let (System::Frame(shaken), false) = (&self.wobbling[0], verticals.is_empty()) else { return Ok(None) };
+        let stripes = self.pairs.level(set, at, &self.wobbling)?;
+        Ok(falls(&stripes.falling(&verticals, shaken.frame.gravity_m_s2())))
+    }
+
     /// Its models, each with the origin of its restitution.
     pub(super) fn models(&self) -> [(&System, &'static str); 2] {
-        [(&self.wobbling[0], "the model loses no energy"), (&self.planar[0], self.restitution_from)]
+        let [wobbling, planar] = self.restitution_from;
+        [(&self.wobbling[0], wobbling), (&self.planar[0], planar)]
     }
 
     /// Positions of the levels at which it is shaken to count what overturns: from the last one on at which no pair of

@@ -49,6 +49,9 @@ fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         Some(frame) => print_verdicts(out, report, frame)?,
         None => print_verdict(out, report)?,
     }
+    if let Some(reason) = &report.without_frame {
+        writeln!(out, "Frame     left out: {reason}")?;
+    }
     if let Some(uncertainty) = &report.uncertainty {
         print_uncertain_answers(out, uncertainty)?;
     }

@@ -67,6 +67,9 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
             .to_string()
     };
     writeln!(out, "{table}")?;
+    if let Some(reason) = &report.without_frame {
+        writeln!(out, "Frame left out: {reason}")?;
+    }
     if table.contains('*') {
         writeln!(out, "* rounding decides it: --details")?;
     }

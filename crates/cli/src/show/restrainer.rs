@@ -77,6 +77,9 @@ fn print_best(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), Com
         }
         None => writeln!(out, "Stack     none meets the target and limits")?,
     }
+    if let Some(reason) = &report.without_frame {
+        writeln!(out, "Frame     left out: {reason}")?;
+    }
     writeln!(out, "Target    {}", report.target.words)?;
     writeln!(
         out,

@@ -17,6 +17,9 @@ const APEX_RAD: f64 = 1e-10;
 /// ... if gravity deflects it by less than this, rad.
 const APEX_DEFLECTION: f64 = 1e-12;
 
+/// Part of a step in which a lean that begins to turn may turn to and fro by rounding.
+const STILL: f64 = 1e-9;
+
 /// What ends a step before its time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Cut {
@@ -26,6 +29,7 @@ enum Cut {
     Lying,
     Stop,
     TurnsBack,
+    StopsTurning,
 }
 
 impl<O: Observer> Motion<O> {
@@ -68,6 +72,11 @@ impl<O: Observer> Motion<O> {
             earliest(first_zero(step.v()), Cut::TurnsBack);
         }
 
+        let begins_still = self.momentum() == 0.0;
+        if matches!(self.lean, Lean::Space(_)) && self.constants.drag > 0.0 {
+            earliest(step.stops_turning().map(|s| if begins_still { s.max(STILL) } else { s }), Cut::StopsTurning);
+        }
+
         self.watch(step, reach, end, &time_s);
         self.follow_peaks(step, (reach, spread), end, &time_s);
         if !matches!(cut, Some(Cut::Impact)) {
@@ -102,6 +111,13 @@ impl<O: Observer> Motion<O> {
             Some(Cut::TurnsBack) => {
                 self.v = 0.0;
                 self.turn_back_after_yielding()?;
+            }
+            Some(Cut::StopsTurning) => {
+                if let Lean::Space(turning) = &mut self.lean
+                    && !(begins_still && end <= STILL)
+                {
+                    turning.momentum = 0.0;
+                }
             }
             Some(Cut::Impact) | None => {}
         }
@@ -156,6 +172,14 @@ impl<O: Observer> Motion<O> {
         }
         let across = if turning.momentum == 0.0 { 0.0 } else { self.x * turning.momentum / self.turning_inertia() };
         let speed = self.v.abs();
+        if turning.momentum != 0.0 && self.constants.drag > 0.0 {
+            let passage = self.rolling.passage(self.x, speed, across.abs())?;
+            (self.x, self.v) = (passage.rotation_rad, passage.velocity_rad_s);
+            let direction = turning.direction + turning.momentum.signum() * passage.turn_rad;
+            self.lean = Lean::Space(Turning { direction, momentum: turning.momentum * passage.momentum_kept });
+            self.impacts += 1;
+            return Some(passage.duration_s);
+        }
         let passing_s = 2.0 * self.x * speed / (speed * speed + (self.kappa * across).powi(2));
         let turn = if turning.momentum == 0.0 {
             self.v *= self.rules.restitution;

@@ -78,6 +78,9 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         let class = own.check.map(|check| if check.satisfied { "yes" } else { "no" });
         say(format!("The wobbling frame itself has a demand of {demand}{times}{verdict}."), class);
     }
+    if let Some(reason) = &report.without_frame {
+        say(format!("The frame itself is left out: {reason}."), None);
+    }
     if let Some(exact) = &report.exact {
         let overturns = in_words("It overturns", &exact.overturning, &exact.rounding.overturning_per_year, years);
         let band = exact.bands.and_then(|bands| bands.overturning_per_year).map_or_else(String::new, |bands| {
@@ -226,9 +229,13 @@ fn frame(report: &DesignReport) -> Option<TitledTable> {
         })
         .right("beyond its capacity a year", |of| of.beyond_capacity.as_ref().map_or_else(dash, per_year))
         .right("overturning a year", |of| per_year(&of.overturning));
+    let wobbling = match frame.wobbling().restitution {
+        1.0 => "loses no energy".to_owned(),
+        kept => format!("keeps {kept} of its velocity past the upright"),
+    };
     let note = format!(
-        "At {} levels. The wobbling model loses no energy; the planar one is shaken by one component alone, which is \
-         known to be unconservative (Section 6.2.3).",
+        "At {} levels. The wobbling model {wobbling}; the planar one is shaken by one component alone, which is known \
+         to be unconservative (Section 6.2.3).",
         frame.levels.len()
     );
     TitledTable::new("frame", "The frame itself", note, table).unless_empty()

@@ -36,6 +36,8 @@ pub(super) struct OwnAnalysis {
     pub(super) uncertainty: Option<UncertaintyReport>,
     /// The frame itself; none of a structure that cannot wobble.
     pub(super) frame: Option<FrameReport>,
+    /// Why a frame that can wobble is left out.
+    pub(super) without_frame: Option<String>,
     /// To be removed when the answer is given.
     pub(super) checkpoint: Checkpoint,
 }
@@ -51,11 +53,11 @@ impl OwnAnalysis {
     ) -> Result<Self, DesignError> {
         let Question { place, weights, target_per_year } = *question;
         let measure = place.measure;
-        let analysis = DesignAnalysis::from_structure(structure, source, records, options)?;
+        let at = (place, target_per_year);
+        let analysis = DesignAnalysis::from_structure(structure, source, at, (records, options))?;
         let name = job_name("design", structure);
         let job = ResultJob { result: &source.path, name: &name };
-        let (analysed, checkpoint) =
-            job.results(analysis.work(source, (place, target_per_year), &name)?, &options.shards, events)?;
+        let (analysed, checkpoint) = job.results(analysis.work(source, at, &name)?, &options.shards, events)?;
         let set = &analysis.records.set;
         let mut analysed = analysed.into_iter();
         let own = Stripes::new(&measure.plan, set, analysed.next().ok_or(JobError::Interrupted)?);
@@ -91,7 +93,7 @@ impl OwnAnalysis {
             }
             _ => None,
         };
-        Ok(Self { exact, uncertainty, frame, checkpoint })
+        Ok(Self { exact, uncertainty, frame, without_frame: analysis.without_frame, checkpoint })
     }
 }
 
@@ -100,6 +102,8 @@ pub(super) struct DesignAnalysis<'a> {
     records: ShakenRecords,
     /// The frame itself; none of a structure that cannot wobble, and of a proxy.
     frame: Option<OwnFrame>,
+    /// Why one that can wobble is left out.
+    without_frame: Option<String>,
     sweep: Sweep,
     systems: Vec<System>,
     /// The structures that it may be; none where all of it is known, and with repaired weights.
@@ -110,16 +114,21 @@ impl<'a> DesignAnalysis<'a> {
     pub(super) fn from_structure(
         structure: &'a Structure,
         source: &StudyOfResult,
-        (records, pairs): (ShakenRecords, Option<Pairs>),
-        options: &DesignOptions,
+        (place, target_per_year): (Place<'_>, f64),
+        ((records, pairs), options): ((ShakenRecords, Option<Pairs>), &DesignOptions),
     ) -> Result<Self, DesignError> {
         let sweep = Sweep::from_structure(structure, &source.study)?;
         let is_asked = !options.repaired && source.study.records.at_level.is_none();
         let restitution = restitution(structure, &source.study);
         let uncertain =
             if is_asked { Uncertain::from_structure(structure, restitution, records.count())? } else { None };
-        let frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
-        Ok(Self { systems: sweep.systems(), sweep, uncertain, frame, records })
+        let mut frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
+        let levels = frame_levels(place, target_per_year);
+        let at = (place.measure.measure(), &levels[..]);
+        let without = |frame: &OwnFrame| frame.leaves_the_ground(&records.set, at).transpose();
+        let without_frame = frame.as_ref().and_then(without).transpose()?;
+        frame = frame.filter(|_| without_frame.is_none());
+        Ok(Self { systems: sweep.systems(), sweep, uncertain, frame, without_frame, records })
     }
 
     /// Their stripes by one measure, then those of the frame for a demand of the rate `target_per_year`, then those of
@@ -135,9 +144,7 @@ impl<'a> DesignAnalysis<'a> {
         let label = measure.measure().label().to_owned();
         let mut plans = vec![LabelledPlan { label, remark: None, plan, motions: &self.records.motions, known: None }];
         if let Some(frame) = &self.frame {
-            let of_study = &measure.plan.levels;
-            let places = levels_for(measure, place.site, target_per_year);
-            let levels: Vec<f64> = places.iter().map(|&place| of_study[place]).collect();
+            let levels = frame_levels(place, target_per_year);
             plans.extend(frame.plans(&self.records, (measure.measure(), &levels))?);
         }
         if let Some(uncertain) = &self.uncertain {
@@ -146,6 +153,12 @@ impl<'a> DesignAnalysis<'a> {
         }
         Ok(Work::new(title, plans))
     }
+}
+
+/// The levels at which a frame is shaken for a demand of the rate `target_per_year`.
+fn frame_levels(place: Place<'_>, target_per_year: f64) -> Vec<f64> {
+    let places = levels_for(place.measure, place.site, target_per_year);
+    places.iter().map(|&level| place.measure.plan.levels[level]).collect()
 }
 
 /// What is asked of the structures that it may be, each with the answer for the structure as described.

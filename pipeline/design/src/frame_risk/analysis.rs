@@ -11,7 +11,7 @@ use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_stripes, shaken_upwards, stripes_of};
 
 use super::super::opening::{ShakenRecords, required};
-use super::super::own_frame::{Pairs, in_the_plane_of_records, modelled};
+use super::super::own_frame::{self, Pairs, in_the_plane_of_records};
 use super::super::sweep::{OF_STUDY, OWN, Sweep};
 use crate::error::DesignError;
 
@@ -54,11 +54,10 @@ impl FrameAnalysis {
         let frame = rocking_frame(structure)?;
         let own = structure.description.restitution;
         let restitution = own.map_or((frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
-        let of = |model: Model, restitution: f64| modelled(&frame, (model, restitution), structure.rest_amplitude_rad);
         let wobbling = match (wanted, frame.shape()) {
             (Some(Model::Wobbling), ColumnShape::Rectangle) => return Err(FrameError::RectangleWobbles.into()),
             (Some(Model::Planar), _) | (None, ColumnShape::Rectangle) => vec![],
-            (None | Some(Model::Wobbling), ColumnShape::Cylinder) => vec![of(Model::Wobbling, 1.0)],
+            (None | Some(Model::Wobbling), ColumnShape::Cylinder) => vec![own_frame::wobbling(&frame, structure)],
         };
         let sweep = Sweep::from_structure(structure, &source.study)?;
         let oscillators =
@@ -66,7 +65,7 @@ impl FrameAnalysis {
         let both = |pair: &RecordPair| [&pair.h1, &pair.h2].map(motion_key);
         let component_keys = pairs.iter().flat_map(both).collect();
         Ok(Self {
-            planar: vec![of(Model::Planar, restitution.0)],
+            planar: vec![own_frame::planar(&frame, restitution.0)],
             frame,
             restitution,
             component_keys,

@@ -262,7 +262,7 @@ pub fn frame_response(
         uplift_acceleration_g: frame.uplift_acceleration_m_s2() / frame.gravity_m_s2(),
         restitution,
         restitution_from,
-        notes: notes(model, &components, (&motions, &runs)),
+        notes: notes((model, restitution), &components, (&motions, &runs)),
         components,
         runs,
         alarms,
@@ -284,7 +284,9 @@ fn restitution(
         (Some(given), ..) => (given, "--restitution"),
         (None, Some(own), Model::Planar) => (own, "the structure file"),
         (None, None, Model::Planar) => (frame.momentum_restitution(), "momentum"),
-        (None, _, Model::Wobbling) => (1.0, "the model"),
+        (None, _, Model::Wobbling) => {
+            structure.wobbling_restitution.map_or((1.0, "the model"), |own| (own, "the structure file"))
+        }
     }
 }
 
@@ -293,11 +295,12 @@ const CLOSE_BY: f64 = 0.01;
 
 /// What the model leaves out, and what is assumed of the records.
 fn notes(
-    model: Model,
+    (model, restitution): (Model, f64),
     components: &[ShakenComponent],
     (motions, runs): (&[Option<Accelerogram>; 3], &[FrameRun]),
 ) -> Vec<String> {
     let mut notes = Vec::new();
+    let loses_nothing = restitution >= 1.0;
     for (one, other) in [(0, 1), (0, 2), (1, 2)] {
         if motions[one].is_some() && motions[one] == motions[other] {
             let [one, other] = [one, other].map(|place| ["h1", "h2", "v"][place]);
@@ -316,13 +319,18 @@ fn notes(
     }
     if model == Model::Wobbling {
         notes.push(TORSION.to_owned());
+    }
+    if model == Model::Wobbling && loses_nothing {
         notes.push(
             "a wobbling column loses no energy in this model, by impact or friction: it ends where the energy is \
              below that of the amplitude of rest (docs/frames.md)"
                 .to_owned(),
         );
     }
-    if model == Model::Wobbling && components.iter().filter(|component| component.component != "v").count() == 1 {
+    if model == Model::Wobbling
+        && loses_nothing
+        && components.iter().filter(|component| component.component != "v").count() == 1
+    {
         notes.push(
             "one horizontal component is given: the frame moves along one line and, in this model, without the loss \
              at impacts that --model planar has; give --h1 and --h2 for motion in plan"

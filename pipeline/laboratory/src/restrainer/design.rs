@@ -148,6 +148,9 @@ pub struct RestrainerDesign {
     pub frame: Option<FrameReport>,
     /// Whether the verdict is that of the proxy of a frame that can wobble.
     pub proxy: bool,
+    /// Why, where it was not asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub without_frame: Option<String>,
     /// A stopper for each of these; none was asked for where there is none.
     pub stoppers: Vec<StopperReport>,
     /// The stack that the tolerances are of, as [`stack_name`] calls it.
@@ -232,7 +235,7 @@ pub fn design(
         None => Vec::new(),
         Some(demand_m) => stacks.iter().map(|stack| at_demand(&with(stack)?, demand_m)).collect::<Result<_, _>>()?,
     };
-    let frame = with_stack(structure, &with(&stacks[0])?, &stacks[0], options, events)?;
+    let (frame, without_frame) = with_stack(structure, &with(&stacks[0])?, &stacks[0], options, events)?;
     let (duct_gap_m, tendon_length_m) = match limits.path {
         TendonPath::Shifted { duct_gap_m, tendon_length_m } => (duct_gap_m, tendon_length_m),
         TendonPath::Column | TendonPath::Foundation => {
@@ -268,6 +271,7 @@ pub fn design(
             && structure.column_shape == ColumnShape::Cylinder
             && frame.is_none(),
         frame,
+        without_frame,
         stoppers,
         tolerances_of,
         tolerances,
@@ -283,18 +287,19 @@ fn at_demand(held: &uplift_statics::RestrainedColumns, demand_m: f64) -> Result<
 }
 
 /// What the frame itself says of a structure with a stack in its columns, which are `held` by it: its demand by the
-/// result of the target, and whether the stack's capacity is enough.
+/// result of the target, and whether the stack's capacity is enough; or why it is left out.
 fn with_stack(
     structure: &Structure,
     held: &uplift_statics::RestrainedColumns,
     stack: &Candidate,
     options: &RestrainerDesignOptions,
     events: &dyn Events,
-) -> Result<Option<FrameReport>, LaboratoryError> {
-    let DesignTarget::Spectrum { result, options: design } = &options.target else { return Ok(None) };
-    let Some(capacity_m) = stack.capacity_m.filter(|_| !design.proxy) else { return Ok(None) };
+) -> Result<(Option<FrameReport>, Option<String>), LaboratoryError> {
+    let none = (None, None);
+    let DesignTarget::Spectrum { result, options: design } = &options.target else { return Ok(none) };
+    let Some(capacity_m) = stack.capacity_m.filter(|_| !design.proxy) else { return Ok(none) };
     if structure.column_shape != ColumnShape::Cylinder {
-        return Ok(None);
+        return Ok(none);
     }
     let description = StructureDescription {
         tendon_stiffness_n_m: structure.description.tendon_stiffness_for_capacity_n_m(capacity_m)?,
@@ -302,7 +307,8 @@ fn with_stack(
     };
     let stacked = resolved(structure, &description, Some(held.clone()))?;
     let design = DesignOptions { spectrum_only: false, ..(**design).clone() };
-    Ok(design_by_spectrum(&stacked, result, &design, events)?.frame)
+    let found = design_by_spectrum(&stacked, result, &design, events)?;
+    Ok((found.frame, found.without_frame))
 }
 
 /// What a stack is called: packets in alternate sense, discs in each where there are several, the disc.

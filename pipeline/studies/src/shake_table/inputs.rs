@@ -21,6 +21,8 @@ const LARGEST_BYTES: u64 = 1 << 20;
 pub struct Inputs {
     pub(crate) records: RecordSets,
     pub(crate) frame: RockingFrame,
+    /// What the frame keeps of its velocity past the upright; none where nothing is lost.
+    pub(crate) restitution: Option<f64>,
     /// SHA-256 of each input by its name.
     pub(crate) checksums: BTreeMap<String, String>,
     /// What to know of the inputs.
@@ -49,7 +51,7 @@ impl Inputs {
         study.excitations.iter().try_for_each(|table| file("excitations", table))?;
         let warnings = structure.warnings.iter().map(ToString::to_string);
         let notes = warnings.chain(records.notes.iter().cloned()).chain(missing).collect();
-        Ok(Self { records, frame, checksums, notes, chosen })
+        Ok(Self { records, frame, restitution: structure.wobbling_restitution, checksums, notes, chosen })
     }
 
     /// The excitations with their records.

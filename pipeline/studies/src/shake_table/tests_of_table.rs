@@ -70,6 +70,7 @@ fn test(study: &ShakeTableStudy, inputs: &Inputs, level: &LevelPlan, record: &Se
         return Err("its components do not move, so that it cannot be scaled".to_owned());
     };
     let options = Options {
+        restitution: inputs.restitution,
         rest_amplitude_rad: Some(study.model.rest_amplitude_rad),
         start_rotation_rad: study.model.start_rotation_rad,
         ..Options::default()
