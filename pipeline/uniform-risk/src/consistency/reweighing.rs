@@ -181,7 +181,7 @@ fn portion(
     let mut is_reached = Vec::with_capacity(samples.len());
     let stripes = solver.analysis().stripes();
     let ordinates_m = weighted_replicates(demands, stripes, targets_per_year, samples, |sample, shares| {
-        let fit = solver.solve(sample.multiplicities(), start, &mut scratch)?;
+        let fit = solver.solve_sample(sample.multiplicities(), start, &mut scratch)?;
         is_reached.push(fit.is_reached());
         Ok::<_, UniformRiskError>(solver.shares(sample.multiplicities(), &fit.exponents, &mut scratch, shares)?)
     })?;
