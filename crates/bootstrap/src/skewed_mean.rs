@@ -170,9 +170,13 @@ pub(crate) fn sums<const N: usize>(values: &[f64], terms: impl Fn(f64) -> [f64; 
         }
     };
     for chunk in chunks {
-        chunk.iter().enumerate().for_each(|(lane, &value)| add(lane, value));
+        for (lane, &value) in chunk.iter().enumerate() {
+            add(lane, value);
+        }
     }
-    rest.iter().enumerate().for_each(|(lane, &value)| add(lane, value));
+    for (lane, &value) in rest.iter().enumerate() {
+        add(lane, value);
+    }
     lanes.map(|lanes| lanes.iter().sum())
 }
 

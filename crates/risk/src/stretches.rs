@@ -148,7 +148,9 @@ impl Stretches {
         let ([begin, middle], [end, _]) = (self.parts[noted], self.parts[noted + 1]);
         let of = |places: &[u32]| {
             let mut sums = [0; LANES];
-            places.iter().for_each(|&place| add(&mut sums, &weights.running[place as usize]));
+            for &place in places {
+                add(&mut sums, &weights.running[place as usize]);
+            }
             sums
         };
         let (added, taken) = (of(&self.places[begin..middle]), of(&self.places[middle..end]));
