@@ -4,10 +4,12 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use uplift_bootstrap::{BootstrapError, Replicates, ResamplingPlan, weighted_replicates};
+use uplift_bootstrap::{
+    BootstrapError, Replicates, ResamplingPlan, inferred_limits, repaired_limits, weighted_replicates,
+};
 use uplift_fragility::Stripes;
 use uplift_hazard::{Extrapolation, HazardCurve};
-use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
+use uplift_risk::{PooledDemand, RiskCurve, RunWeights, StripeWeights};
 
 const RECORDS: usize = 105;
 const LEVELS: usize = 75;
@@ -51,9 +53,12 @@ fn benchmarks(criterion: &mut Criterion) {
     group.finish();
 
     // 40 strengths of 200 resamples, each weighed by itself: weighing is measured elsewhere
-    let strengths: Vec<PooledDemand> = (0..40)
+    let strengths: Vec<PooledDemand> = (0..40_u8)
         .map(|strength| {
-            let factor = |i: usize| 1.0 + 0.2 * ((i * (strength + 3)) % 7) as f64;
+            // a little stronger than the one before
+            let factor = |i: usize| {
+                0.97_f64.powi(i32::from(strength)) * (1.0 + 0.01 * ((i * (usize::from(strength) + 3)) % 7) as f64)
+            };
             let edp_m: Vec<f64> = edp_m.iter().enumerate().map(|(i, edp_m)| edp_m * factor(i)).collect();
             PooledDemand::new(&Stripes::new(&levels, &edp_m).unwrap()).unwrap()
         })
@@ -62,7 +67,7 @@ fn benchmarks(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("weighted resamples");
     group.throughput(Throughput::Elements(40 * 200));
     group.sample_size(20);
-    group.bench_function("walk over the pool, 40 strengths", |bencher| {
+    group.bench_function("40 strengths", |bencher| {
         bencher.iter(|| {
             weighted_replicates(&strengths, &weights, black_box(&TARGETS), plan.samples(), |sample, shares| {
                 for row in shares.chunks_exact_mut(RECORDS) {
@@ -74,6 +79,19 @@ fn benchmarks(criterion: &mut Criterion) {
             })
             .unwrap()
         });
+    });
+    group.finish();
+
+    let units: Vec<Vec<usize>> = (0..RECORDS).map(|record| vec![record]).collect();
+    let alike = RunWeights::new(&weights, &vec![1.0 / RECORDS as f64; LEVELS * RECORDS]).unwrap();
+    let asked = (&[20, 40, 60, 80, RECORDS][..], 0.9);
+    let mut group = criterion.benchmark_group("bands of the truth");
+    group.sample_size(20);
+    group.bench_function("records that count alike", |bencher| {
+        bencher.iter(|| inferred_limits(&demand, &weights, &units, black_box(&TARGETS), asked).unwrap());
+    });
+    group.bench_function("weighted records", |bencher| {
+        bencher.iter(|| repaired_limits(&demand, &alike, &units, black_box(&TARGETS), asked).unwrap());
     });
     group.finish();
 }

@@ -6,6 +6,9 @@ use crate::shared_rates::SharedRates;
 use crate::skewed_mean::{SkewedMean, StudentQuantiles};
 use crate::unit_rates::UnitRates;
 
+/// Where the deviate of a target is less, that of a larger target is below −1, whatever rounding leaves of either.
+const SURELY_BELOW: f64 = -1.0 - 1e-9;
+
 /// Limits of an ordinate beyond the set that it was computed with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InferredLimits {
@@ -79,26 +82,44 @@ fn limits(
     // [target, size] of truth and prediction
     let mut searches = vec![[Search::default(); 2]; targets_per_year.len() * sizes.len()];
     let per_year = weights.per_year();
+    let all = units.len();
+    let root = |units: usize| (units as f64).sqrt();
+    // its own scatter is added to that of the set
+    let of_sizes: Vec<(usize, f64, f64)> =
+        sizes.iter().map(|&size| (size, root(size), (1.0 + all as f64 / size as f64).sqrt())).collect();
+    // the least first: where the band of a target has not been reached, those of larger ones have not
+    let mut rising: Vec<(f64, usize)> = targets_per_year.iter().copied().zip(0..).collect();
+    rising.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let mut look = |rates: &Rates, from_m: f64, to_m: f64| {
-        // further down nothing comes back
-        if searches.iter().flatten().all(|search| search.was_beyond) {
-            return;
-        }
         let mean = rates.mean();
-        let of_set = quantiles.at(mean.degrees_of_freedom(units.len()));
-        for (target, row) in targets_per_year.iter().zip(searches.chunks_exact_mut(sizes.len().max(1))) {
-            let deviate = mean.deviate(*target, units.len());
-            for (&size, [truth, prediction]) in sizes.iter().zip(row) {
-                truth.see(deviate_of(&mean, *target, size, &quantiles), from_m, to_m);
-                // its own scatter is added to that of the set
-                let wider = (1.0 + units.len() as f64 / size as f64).sqrt();
-                prediction.see(deviate / (of_set * wider), from_m, to_m);
+        let of_set = mean.deviates(root(all));
+        let of_set = (of_set, quantiles.at(mean.degrees_of_freedom(all)));
+        let mut is_open = false;
+        for (place, &(size, root, wider)) in of_sizes.iter().enumerate() {
+            let own = (mean.deviates(root), quantiles.at(mean.degrees_of_freedom(size)));
+            for (kind, (deviates, quantile)) in [own, (of_set.0, of_set.1 * wider)].into_iter().enumerate() {
+                for &(target, row) in &rising {
+                    let search = &mut searches[row * sizes.len() + place][kind];
+                    if search.was_beyond {
+                        continue;
+                    }
+                    let deviate = deviates.of(target) / quantile;
+                    search.see(deviate, from_m, to_m);
+                    is_open |= !search.was_beyond;
+                    if deviate < SURELY_BELOW {
+                        break;
+                    }
+                }
             }
         }
+        is_open
     };
     fall(demand, |step| match step {
         Step::Between(from_m, to_m) => look(&rates, from_m, to_m),
-        Step::Run { record, level } => rates.add(record, level, per_year[level]),
+        Step::Run { record, level } => {
+            rates.add(record, level, per_year[level]);
+            true
+        }
     });
     let limits = |[truth, prediction]: &[Search; 2]| InferredLimits {
         truth_m: truth.limits_m(),
@@ -157,12 +178,14 @@ pub(crate) enum Step {
     Run { record: usize, level: usize },
 }
 
-/// Lets a displacement fall from above all runs to zero.
-pub(crate) fn fall(demand: &PooledDemand, mut take: impl FnMut(Step)) {
+/// Lets a displacement fall from above all runs to zero, as long as `take` wants to go on.
+pub(crate) fn fall(demand: &PooledDemand, mut take: impl FnMut(Step) -> bool) {
     let mut above_m = f64::INFINITY;
     let mut runs = demand.falling_runs().peekable();
     while let Some(&(edp_m, ..)) = runs.peek() {
-        take(Step::Between(edp_m, above_m));
+        if !take(Step::Between(edp_m, above_m)) {
+            return;
+        }
         while let Some((_, record, level)) = runs.next_if(|run| run.0 == edp_m) {
             take(Step::Run { record, level });
         }
@@ -227,11 +250,6 @@ pub(crate) fn check(demand: &PooledDemand, weights: &StripeWeights, units: &[Vec
     fits("stripe weights", weights.level_count(), demand.level_count())
 }
 
-/// The deviate of so many units over its quantile: within −1 and 1 where the target may be the truth.
-fn deviate_of(mean: &SkewedMean, target: f64, size: usize, quantiles: &StudentQuantiles) -> f64 {
-    mean.deviate(target, size) / quantiles.at(mean.degrees_of_freedom(size))
-}
-
 /// The displacements of a band, while they are gone through from above.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Search {
@@ -239,7 +257,8 @@ pub(crate) struct Search {
     found_m: Option<[f64; 2]>,
     /// Where the deviate leaves the band, or leaps over the whole of it.
     leap_m: f64,
-    was_beyond: bool,
+    /// Whether it has left: nothing more comes to it.
+    pub(crate) was_beyond: bool,
 }
 
 impl Search {

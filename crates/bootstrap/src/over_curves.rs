@@ -70,11 +70,13 @@ pub fn inferred_limits_over_curves(
             means.clear();
             means.extend(rates.iter().map(Rates::mean));
             search.see(mixture.place(&means, target_per_year), from_m, to_m);
+            !search.was_beyond
         }
         Step::Run { record, level } => {
             for (rates, per_year) in rates.iter_mut().zip(&per_year) {
                 rates.add(record, level, per_year[level]);
             }
+            true
         }
     });
     Ok(search.limits_m())

@@ -1,6 +1,7 @@
 //! The rates that records, or earthquakes, bring where they do not count alike.
 
 use crate::SkewedMean;
+use crate::skewed_mean::sums;
 use crate::unit_rates::unit_of;
 
 /// How units deviate from the rate λ(c) of all of them, summed while the displacement c falls.
@@ -81,15 +82,11 @@ impl SharedRates {
     /// The rate of all records, 1/yr, with the scatter of the units.
     pub(crate) fn mean(&self) -> SkewedMean {
         let units = self.deviations.len() as f64;
-        // squares and their products as powers have them, in one pass
-        let mut sums = [0.0; 3];
-        for own in &self.deviations {
+        let powers = sums(&self.deviations, |own| {
             let square = own * own;
-            for (sum, power) in sums.iter_mut().zip([square, own * square, square * square]) {
-                *sum += power;
-            }
-        }
-        let mean = SkewedMean::new(self.per_year, sums.map(|sum| sum / units), self.deviations.len());
+            [square, own * square, square * square]
+        });
+        let mean = SkewedMean::new(self.per_year, powers.map(|sum| sum / units), self.deviations.len());
         match &self.carried {
             Some(carried) => mean.carried_by(carried),
             None => mean,

@@ -63,11 +63,10 @@ impl SkewedMean {
     /// The same of units that carry as much as `carried` says, of each: they amount to (Σ a²)²/Σ a⁴ that carry alike.
     #[must_use]
     pub fn carried_by(self, carried: &[f64]) -> Self {
-        let (mut second, mut fourth) = (0.0, 0.0);
-        for square in carried.iter().map(|own| own * own) {
-            second += square;
-            fourth += square * square;
-        }
+        let [second, fourth] = sums(carried, |own| {
+            let square = own * own;
+            [square, square * square]
+        });
         let effective = second * second / fourth;
         // nothing is carried where nothing is exceeded
         Self { effective_units: if effective.is_nan() { self.effective_units } else { effective }, ..self }
@@ -76,13 +75,12 @@ impl SkewedMean {
     /// How far the mean of `units` such units lies above `value`, as the deviate of a normal variable; infinite where
     /// they do not scatter.
     pub fn deviate(&self, value: f64, units: usize) -> f64 {
-        let difference = self.mean - value;
-        if self.deviation == 0.0 {
-            return if difference == 0.0 { 0.0 } else { f64::INFINITY.copysign(difference) };
-        }
-        let root = (units as f64).sqrt();
-        let (t, a) = (difference * root / self.deviation, self.skewness / root);
-        t * (1.0 + a * t / 3.0 * (1.0 + a * t / 9.0)) + a / 6.0
+        self.deviates((units as f64).sqrt()).of(value)
+    }
+
+    /// The deviates of so many such units, of which `root` is the square root, from any value.
+    pub(crate) fn deviates(&self, root: f64) -> Deviates {
+        Deviates { mean: self.mean, deviation: self.deviation, root, a: self.skewness / root }
     }
 
     /// Degrees of freedom of the variance of `units` such units.
@@ -90,11 +88,11 @@ impl SkewedMean {
     pub fn degrees_of_freedom(&self, units: usize) -> usize {
         let most = units.saturating_sub(1).max(1);
         let own = 2.0 * units as f64 / (self.kurtosis - 1.0).max(f64::MIN_POSITIVE) - 1.0;
-        let alike = (own.clamp(0.0, most as f64).floor() as usize).clamp(LEAST_FREEDOM.min(most), most);
+        let alike = (own.clamp(0.0, most as f64) as usize).clamp(LEAST_FREEDOM.min(most), most);
         let share = self.effective_units / self.units as f64;
         // 12 units that count alike are 12, whatever rounding leaves
         let freedom = share * units as f64 - 1.0 + ROUNDING;
-        if share > 1.0 - ROUNDING { alike } else { alike.min(freedom.max(1.0).floor() as usize) }
+        if share > 1.0 - ROUNDING { alike } else { alike.min(freedom.max(1.0) as usize) }
     }
 
     /// The interval of the mean over all units there could be, at the level of `quantiles`; NaN of a single unit. The
@@ -117,6 +115,29 @@ impl SkewedMean {
     }
 }
 
+/// What the deviates of a mean need, whatever it is held against.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Deviates {
+    mean: f64,
+    deviation: f64,
+    /// √n of n units.
+    root: f64,
+    /// γ/√n.
+    a: f64,
+}
+
+impl Deviates {
+    /// That from `value`: see [`SkewedMean::deviate`].
+    pub(crate) fn of(&self, value: f64) -> f64 {
+        let difference = self.mean - value;
+        if self.deviation == 0.0 {
+            return if difference == 0.0 { 0.0 } else { f64::INFINITY.copysign(difference) };
+        }
+        let (t, a) = (difference * self.root / self.deviation, self.a);
+        t * (1.0 + a * t / 3.0 * (1.0 + a * t / 9.0)) + a / 6.0
+    }
+}
+
 /// Two-sided quantiles of Student's distribution, by whole degrees of freedom.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudentQuantiles(Vec<f64>);
@@ -135,6 +156,28 @@ impl StudentQuantiles {
     pub fn at(&self, freedom: usize) -> f64 {
         self.0[freedom.clamp(1, self.0.len()) - 1]
     }
+}
+
+/// Sums over all `values` of the `terms` of each, several side by side for the processor to do at once.
+pub(crate) fn sums<const N: usize>(values: &[f64], terms: impl Fn(f64) -> [f64; N]) -> [f64; N] {
+    const LANES: usize = 4;
+    let mut lanes = [[0.0; LANES]; N];
+    let chunks = values.chunks_exact(LANES);
+    let rest = chunks.remainder();
+    let mut add = |lane: usize, value: f64| {
+        for (lanes, term) in lanes.iter_mut().zip(terms(value)) {
+            lanes[lane] += term;
+        }
+    };
+    for chunk in chunks {
+        for (lane, &value) in chunk.iter().enumerate() {
+            add(lane, value);
+        }
+    }
+    for (lane, &value) in rest.iter().enumerate() {
+        add(lane, value);
+    }
+    lanes.map(|lanes| lanes.iter().sum())
 }
 
 #[cfg(test)]

@@ -11,8 +11,8 @@ use uplift_risk::{PooledDemand, REPLICATES_AT_ONCE, RecordSample, ReplicateWeigh
 /// - `stripes`: the hazard of the site, as weights of the stripes.
 /// - `targets_per_year`: target rates, 1/yr.
 /// - `samples`: replicates, or the records less one ([`left_out`]).
-/// - `weigh`: fills in the shares of the records for a sample, `[level, record]`, which come as they were left by the
-///   sample before.
+/// - `weigh`: fills in the shares of the records for a sample, `[level, record]`, which come as any sample before left
+///   them.
 ///
 /// # Errors
 /// Those of `weigh`; shares that do not add up to 1 at a level; parts with different numbers of levels or records; a
@@ -27,17 +27,19 @@ pub fn weighted_replicates<E: From<RiskError>>(
     let (targets, count) = (targets_per_year.len(), samples.len());
     let records = samples.first().map_or(0, |sample| sample.multiplicities().len());
     let mut ordinates_m = vec![0.0; demands.len() * targets * count];
-    let mut shares = vec![0.0; stripes.level_count() * records];
+    let runs = stripes.level_count() * records;
+    let mut shares = vec![0.0; runs * REPLICATES_AT_ONCE];
     let mut weights = ReplicateWeights::new(stripes, records);
     let mut found_m = vec![0.0; targets * REPLICATES_AT_ONCE];
     for (portion, samples) in samples.chunks(REPLICATES_AT_ONCE).enumerate() {
-        for (replicate, sample) in samples.iter().enumerate() {
-            weigh(sample, &mut shares)?;
-            weights.weigh(replicate, &shares)?;
+        let shares = &mut shares[..runs * samples.len()];
+        for (sample, shares) in samples.iter().zip(shares.chunks_exact_mut(runs.max(1))) {
+            weigh(sample, shares)?;
         }
+        weights.weigh(shares)?;
         let found_m = &mut found_m[..targets * samples.len()];
         for (strength, demand) in demands.iter().enumerate() {
-            weights.ordinates(demand, samples.len(), targets_per_year, found_m)?;
+            weights.ordinates(demand, targets_per_year, found_m)?;
             for (place, &ordinate_m) in found_m.iter().enumerate() {
                 let (replicate, target) = (place / targets, place % targets);
                 ordinates_m[(strength * targets + target) * count + portion * REPLICATES_AT_ONCE + replicate] =

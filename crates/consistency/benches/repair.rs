@@ -48,7 +48,7 @@ fn benchmarks(criterion: &mut Criterion) {
         group.bench_function(format!("100 samples of {size}"), |bencher| {
             bencher.iter(|| {
                 for multiplicities in &samples {
-                    let fit = solver.solve(multiplicities, &of_set.exponents, &mut scratch).unwrap();
+                    let fit = solver.solve_sample(multiplicities, &of_set.exponents, &mut scratch).unwrap();
                     solver.shares(multiplicities, &fit.exponents, &mut scratch, &mut shares).unwrap();
                     black_box(&shares);
                 }

@@ -3,7 +3,8 @@
 
 use proptest::prelude::*;
 use uplift_consistency::{
-    ConsistencyError, KNOTS, NoRepair, RecordSet, RepairOptions, ScaledAnalysis, Scratch, Seismology, SetRecord, Solver,
+    ConsistencyError, Fit, KNOTS, NoRepair, RecordSet, RepairOptions, ScaledAnalysis, Scratch, Seismology, SetRecord,
+    Solver,
 };
 use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_risk::{RunWeights, StripeWeights};
@@ -101,6 +102,40 @@ proptest! {
         let deviation = after.deviation.as_ref().unwrap();
         prop_assert!(deviation.rms <= before.deviation.unwrap().rms + 1e-9);
         prop_assert!(deviation.max < 0.12, "{deviation:?}");
+    }
+
+    /// Nothing more can be had of the sum of squares than the method leaves open.
+    #[test]
+    fn a_sample_is_solved_as_well_as_the_set(
+        (scales, ln_ratios) in sets(), factor in 0.6..1.6_f64, draws in prop::collection::vec(0..60_usize, 60),
+    ) {
+        let set = set(&scales, &ln_ratios);
+        let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, factor));
+        let analysis = analysis(&set, &x, &y);
+        let solver = Solver::new(&analysis, 0.05).unwrap();
+        let mut scratch = Scratch::default();
+        let of_set = solver.solve(&set.once(), &[0.0; KNOTS], &mut scratch).unwrap();
+        let mut multiplicities = vec![0; set.len()];
+        for draw in draws {
+            multiplicities[draw % set.len()] += 1;
+        }
+        let [sample, care] = [Solver::solve_sample, Solver::solve]
+            .map(|solve| solve(&solver, &multiplicities, &of_set.exponents, &mut scratch).unwrap());
+        let squares = |fit: &Fit| {
+            let curvatures = fit.exponents.windows(3).map(|b| 0.05 * (b[0] - 2.0 * b[1] + b[2]));
+            fit.residuals.iter().copied().chain(curvatures).map(|value| value * value).sum::<f64>()
+        };
+        assert_close(&sample.residuals, &care.residuals, 1e-6)?;
+        prop_assert_eq!(sample.is_reached(), care.is_reached());
+        // what stands there, computed with care, and the best that is found from there on
+        let best = solver.solve(&multiplicities, &sample.exponents, &mut scratch).unwrap();
+        prop_assert!((squares(&sample) - squares(&best)).abs() <= 1e-10 * squares(&best), "{sample:?} {best:?}");
+        let shares = |fit: &Fit, scratch: &mut Scratch| {
+            let mut shares = analysis.own_shares();
+            solver.shares(&multiplicities, &fit.exponents, scratch, &mut shares).unwrap();
+            shares
+        };
+        assert_close(&shares(&sample, &mut scratch), &shares(&care, &mut scratch), 1e-6)?;
     }
 
     #[test]

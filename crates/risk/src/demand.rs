@@ -1,8 +1,11 @@
 //! All demands of one oscillator in one sorted pool.
 
+use std::sync::OnceLock;
+
 use uplift_fragility::Stripes;
 
 use crate::RiskError;
+use crate::stretches::Stretches;
 
 /// One run: which record at which level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,6 +31,17 @@ pub struct PooledDemand {
     level_count: u16,
     /// `[level, record]`; none where all records count alike.
     shares: Option<Vec<f64>>,
+    stretches: WhenAsked,
+}
+
+/// What follows from the runs, made where it is first asked for.
+#[derive(Debug, Clone, Default)]
+struct WhenAsked(OnceLock<Stretches>);
+
+impl PartialEq for WhenAsked {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl PooledDemand {
@@ -63,6 +77,7 @@ impl PooledDemand {
             record_count,
             level_count,
             shares: stripes.shares().map(<[f64]>::to_vec),
+            stretches: WhenAsked::default(),
         })
     }
 
@@ -107,6 +122,12 @@ impl PooledDemand {
     /// The runs in the order of [`PooledDemand::edp_m`].
     pub(crate) fn runs(&self) -> &[Run] {
         &self.runs
+    }
+
+    /// The runs as stretches of levels.
+    pub(crate) fn stretches(&self) -> &Stretches {
+        let make = || Stretches::new(&self.runs, self.record_count(), self.level_count());
+        self.stretches.0.get_or_init(make)
     }
 
     /// Number of runs with a demand above `threshold_m`: they are the first ones.

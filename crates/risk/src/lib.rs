@@ -53,6 +53,7 @@ mod resampling;
 mod risk_targeted;
 mod run_weights;
 mod sample;
+mod stretches;
 mod weights;
 
 pub use curve::RiskCurve;

@@ -1,52 +1,64 @@
-//! The ordinates of a few replicates at once, where every run of each has a weight of its own.
+//! The ordinates of a few replicates, where every run of each has a weight of its own.
 //!
 //! A replicate whose records are weighed anew has no table that could be shared with others, as
-//! [`ResamplingTable`](crate::ResamplingTable) is. So its runs are walked in the order of falling demand, until the
-//! last target is crossed; that order is shared by [`REPLICATES_AT_ONCE`] replicates, whose weights lie side by side
-//! for the processor to add at once. Weights are whole numbers, so the ordinates are those of
-//! [`RiskCurve::weighted`](crate::RiskCurve::weighted), to the bit.
+//! [`ResamplingTable`](crate::ResamplingTable) is. Its weights are summed up once, over the levels of each record, and
+//! with these sums an ordinate of any oscillator is found by few additions (`stretches.rs`). Weights are whole numbers,
+//! so the ordinates are those of [`RiskCurve::weighted`](crate::RiskCurve::weighted), to the bit.
 
 use crate::run_weights::UnitScale;
+use crate::stretches::{LANES, LaneWeights};
 use crate::{PooledDemand, RiskError, StripeWeights};
 
 /// Replicates whose weights lie side by side.
-pub const REPLICATES_AT_ONCE: usize = 8;
+pub const REPLICATES_AT_ONCE: usize = LANES;
 
-/// Runs that are added before the limits are looked at.
-const BLOCK: usize = 16;
+/// Runs by which the first ordinate of a target may lie earlier than that of the strength before, most often.
+const MARGIN: usize = 32;
 
 /// The weights of all runs for up to [`REPLICATES_AT_ONCE`] replicates at one site: room that is used again and again.
 #[derive(Debug, Clone)]
 pub struct ReplicateWeights {
     scale: UnitScale,
     record_count: usize,
-    /// Weights in units, `[level, record][replicate]`.
-    units: Vec<[u64; REPLICATES_AT_ONCE]>,
+    /// How many replicates have been weighed.
+    replicates: usize,
+    /// Their weights, in units.
+    weights: LaneWeights,
+    /// Where the first ordinate of each target was found last, `[target]`: that of the next strength is near.
+    first: Vec<usize>,
 }
 
 impl ReplicateWeights {
     /// Room for replicates of `record_count` records at the stripes of one site.
     pub fn new(stripes: &StripeWeights, record_count: usize) -> Self {
-        let units = vec![[0; REPLICATES_AT_ONCE]; stripes.level_count() * record_count];
-        Self { scale: UnitScale::new(stripes), record_count, units }
+        let weights = LaneWeights::new(record_count, stripes.level_count());
+        Self { scale: UnitScale::new(stripes), record_count, replicates: 0, weights, first: Vec::new() }
     }
 
-    /// Weighs one of the replicates by its shares, `[level, record]`, as [`RunWeights::new`](crate::RunWeights::new)
+    /// Weighs replicates by their shares, `[replicate, level, record]`, as [`RunWeights::new`](crate::RunWeights::new)
     /// does.
     ///
     /// # Errors
     /// As there.
     ///
     /// # Panics
-    /// Unless `replicate` is below [`REPLICATES_AT_ONCE`], which is a bug of the caller.
-    pub fn weigh(&mut self, replicate: usize, shares: &[f64]) -> Result<(), RiskError> {
-        assert!(replicate < REPLICATES_AT_ONCE, "replicate {replicate} of {REPLICATES_AT_ONCE}");
-        let units = &mut self.units;
-        self.scale.weigh(shares, self.record_count, |cell, weight| units[cell][replicate] = weight)
+    /// If there are more than [`REPLICATES_AT_ONCE`], which is a bug of the caller.
+    pub fn weigh(&mut self, shares: &[f64]) -> Result<(), RiskError> {
+        let (levels, records) = (self.scale.level_count(), self.record_count);
+        let of_replicates: Vec<&[f64]> = shares.chunks(levels * records).collect();
+        self.replicates = of_replicates.len();
+        assert!(self.replicates <= REPLICATES_AT_ONCE, "{} replicates of {REPLICATES_AT_ONCE}", self.replicates);
+        of_replicates.iter().try_for_each(|shares| self.scale.check(shares, records))?;
+        let scale = &self.scale;
+        self.weights.fill(|record, level| {
+            let of = |shares: &&[f64]| scale.units(level, shares[level * records + record]);
+            std::array::from_fn(|replicate| of_replicates.get(replicate).map_or(0, of))
+        });
+        Ok(())
     }
 
-    /// Exact ordinates of the first `replicates` replicates, m, `[replicate, target]`: 0 where nothing is exceeded so
-    /// often, +∞ where overturning alone is.
+    /// Exact ordinates of the weighed replicates, m, `[replicate, target]`: 0 where nothing is exceeded so often, +∞
+    /// where overturning alone is.
     ///
     /// - `targets_per_year`: target rates, 1/yr, `[target]`.
     /// - `ordinates_m`: receives the ordinates, `[replicate, target]`.
@@ -57,15 +69,13 @@ impl ReplicateWeights {
     /// # Panics
     /// Unless there is space for one ordinate a replicate and target, which is a bug of the caller.
     pub fn ordinates(
-        &self,
+        &mut self,
         demand: &PooledDemand,
-        replicates: usize,
         targets_per_year: &[f64],
         ordinates_m: &mut [f64],
     ) -> Result<(), RiskError> {
         let targets = targets_per_year.len();
-        assert!(replicates <= REPLICATES_AT_ONCE, "{replicates} replicates of {REPLICATES_AT_ONCE}");
-        assert_eq!(ordinates_m.len(), replicates * targets, "one ordinate a replicate and target");
+        assert_eq!(ordinates_m.len(), self.replicates * targets, "one ordinate a replicate and target");
         for (what, found, expected) in [
             ("records with shares", self.record_count, demand.record_count()),
             ("stripe weights", self.scale.level_count(), demand.level_count()),
@@ -74,49 +84,18 @@ impl ReplicateWeights {
                 return Err(RiskError::Count { what, found, expected });
             }
         }
-        let mut limits = targets_per_year
-            .iter()
-            .enumerate()
-            .map(|(position, &target)| Ok((self.scale.limit(target)?, position)))
-            .collect::<Result<Vec<_>, RiskError>>()?;
-        // demands fall during the walk and rates rise: the rarest target is met first
-        limits.sort_unstable();
-        ordinates_m.fill(0.0);
-
-        let limit_of = |met: usize| limits.get(met).map_or(u64::MAX, |limit| limit.0);
-        let mut met = [0; REPLICATES_AT_ONCE];
-        let mut limit = [u64::MAX; REPLICATES_AT_ONCE];
-        limit[..replicates].fill(limit_of(0));
-        let mut open = replicates * targets;
-        let mut sums = [0_u64; REPLICATES_AT_ONCE];
-        for (runs, demands_m) in demand.runs().chunks(BLOCK).zip(demand.edp_m().chunks(BLOCK)) {
-            if open == 0 {
-                break;
+        let limits =
+            targets_per_year.iter().map(|&target| self.scale.limit(target)).collect::<Result<Vec<_>, RiskError>>()?;
+        let (runs, demands_m, stretches) = (demand.runs(), demand.edp_m(), demand.stretches());
+        self.first.resize(targets, 0);
+        for (target, (&limit, first)) in limits.iter().zip(&mut self.first).enumerate() {
+            let (asked, near) = ((limit, self.replicates), first.saturating_sub(MARGIN));
+            let found = stretches.crossings(runs, &self.weights, asked, near);
+            let found = &found[..self.replicates];
+            for (replicate, &position) in found.iter().enumerate() {
+                ordinates_m[replicate * targets + target] = demands_m.get(position).copied().unwrap_or(0.0);
             }
-            let units_of = |run: &crate::demand::Run| {
-                &self.units[usize::from(run.level) * self.record_count + usize::from(run.record)]
-            };
-            let mut after = sums;
-            for run in runs {
-                for (sum, units) in after.iter_mut().zip(units_of(run)) {
-                    *sum += units;
-                }
-            }
-            if after.iter().zip(&limit).any(|(sum, limit)| sum > limit) {
-                // the same block again, one run after the other
-                for (run, &demand_m) in runs.iter().zip(demands_m) {
-                    for (replicate, units) in units_of(run).iter().enumerate() {
-                        sums[replicate] += units;
-                        while sums[replicate] > limit[replicate] {
-                            ordinates_m[replicate * targets + limits[met[replicate]].1] = demand_m;
-                            met[replicate] += 1;
-                            limit[replicate] = limit_of(met[replicate]);
-                            open -= 1;
-                        }
-                    }
-                }
-            }
-            sums = after;
+            *first = found.iter().copied().min().unwrap_or(0);
         }
         Ok(())
     }

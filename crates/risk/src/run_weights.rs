@@ -39,8 +39,10 @@ impl RunWeights {
     pub fn new(stripes: &StripeWeights, shares: &[f64]) -> Result<Self, RiskError> {
         let record_count = (shares.len() / stripes.level_count()).max(1);
         let scale = UnitScale::new(stripes);
-        let mut units = vec![0; record_count * stripes.level_count()];
-        scale.weigh(shares, record_count, |cell, weight| units[cell] = weight)?;
+        scale.check(shares, record_count)?;
+        let of_level =
+            |(level, row): (usize, &[f64])| row.iter().map(|&share| scale.units(level, share)).collect::<Vec<_>>();
+        let units = shares.chunks_exact(record_count).enumerate().flat_map(of_level).collect();
         Ok(Self { stripes: stripes.clone(), record_count, shares: shares.to_vec(), units, scale })
     }
 
@@ -104,29 +106,26 @@ impl UnitScale {
         self.stripes.len()
     }
 
-    /// Hands out the weight of every run, in units, with its place in `[level, record]`.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 2^62")]
-    pub(crate) fn weigh(
-        &self,
-        shares: &[f64],
-        record_count: usize,
-        mut place: impl FnMut(usize, u64),
-    ) -> Result<(), RiskError> {
+    /// Refuses shares, `[level, record]`, that are none.
+    pub(crate) fn check(&self, shares: &[f64], record_count: usize) -> Result<(), RiskError> {
         let expected = self.stripes.len() * record_count;
         if shares.len() != expected {
             return Err(RiskError::Count { what: "shares of records", found: shares.len(), expected });
         }
-        for (level, (row, &stripe)) in shares.chunks_exact(record_count).zip(&self.stripes).enumerate() {
+        for (level, row) in shares.chunks_exact(record_count).enumerate() {
             let sum: f64 = row.iter().sum();
             let possible = row.iter().all(|&share| share >= 0.0);
             if !(possible && (sum - 1.0).abs() <= SUM_TOLERANCE) {
                 return Err(RiskError::Shares { level, sum });
             }
-            for (record, &share) in row.iter().enumerate() {
-                place(level * record_count + record, (stripe * share).round() as u64);
-            }
         }
         Ok(())
+    }
+
+    /// The weight in units of a run at `level` with a share of its runs.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 2^62")]
+    pub(crate) fn units(&self, level: usize, share: f64) -> u64 {
+        (self.stripes[level] * share).round() as u64
     }
 
     /// The most units that meet a target rate, 1/yr.

@@ -46,13 +46,14 @@ fn refuses_weights_of_other_records_or_levels() {
     let other = StripeWeights::new(&[0.5, 0.25], None).unwrap();
     let weights = RunWeights::new(&other, &[0.5; 4]).unwrap();
     assert!(matches!(RiskCurve::weighted(&pool, &weights), Err(RiskError::Count { found: 2, expected: 3, .. })));
-    let mut room = [0.0];
     for (stripes, records) in [(&stripes, 1), (&other, 2)] {
-        let error = ReplicateWeights::new(stripes, records).ordinates(&pool, 1, &[0.1], &mut room).unwrap_err();
+        let error = ReplicateWeights::new(stripes, records).ordinates(&pool, &[0.1], &mut []).unwrap_err();
         assert!(matches!(error, RiskError::Count { .. }), "{error}");
     }
-    let weights = ReplicateWeights::new(&stripes, 2);
-    assert!(matches!(weights.ordinates(&pool, 1, &[0.0], &mut room), Err(RiskError::Target { .. })));
+    let mut weights = ReplicateWeights::new(&stripes, 2);
+    assert!(matches!(weights.weigh(&[0.5; 5]), Err(RiskError::Count { found: 5, expected: 6, .. })));
+    weights.weigh(&[0.5; 6]).unwrap();
+    assert!(matches!(weights.ordinates(&pool, &[0.0], &mut [0.0]), Err(RiskError::Target { .. })));
 }
 
 /// Demands of a few records at many levels, with zeros, ties and overturned runs, and shares of the records.
@@ -133,15 +134,13 @@ proptest! {
     fn many_at_once_are_each_alone(case in case(), targets in prop::collection::vec(1e-4..1.0_f64, 0..4)) {
         let (pool, stripes) = (case.pool(), case.stripes());
         let mut together = ReplicateWeights::new(&stripes, case.records);
-        for (replicate, shares) in case.shares.iter().enumerate() {
-            together.weigh(replicate, shares).unwrap();
-        }
+        together.weigh(&case.shares.concat()).unwrap();
         // a target that is met exactly, too
         let first = RunWeights::new(&stripes, &case.shares[0]).unwrap();
         let exact = RiskCurve::weighted(&pool, &first).unwrap().mean_annual_frequency(0.5).unwrap();
         let targets: Vec<f64> = targets.into_iter().chain((exact > 0.0).then_some(exact)).collect();
         let mut found = vec![f64::NAN; case.shares.len() * targets.len()];
-        together.ordinates(&pool, case.shares.len(), &targets, &mut found).unwrap();
+        together.ordinates(&pool, &targets, &mut found).unwrap();
         for (replicate, shares) in case.shares.iter().enumerate() {
             let weights = RunWeights::new(&stripes, shares).unwrap();
             let alone = RiskCurve::weighted(&pool, &weights).unwrap().exact_ordinates(&targets).unwrap();

@@ -3,7 +3,9 @@
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
-use uplift_bootstrap::{InferredLimits, ResamplingPlan, Unit, inferred_limits, repaired_limits, units_in_sample};
+use uplift_bootstrap::{
+    InferredLimits, Interval, ResamplingPlan, Unit, inferred_limits, repaired_limits, units_in_sample,
+};
 use uplift_ida::Watch;
 use uplift_job::events::{Events, Progress};
 use uplift_job::{Array, JobError, is_stopped};
@@ -152,7 +154,8 @@ fn repaired_bands(
         if left.is_empty() {
             continue;
         }
-        let progress = Progress::begin(events, &format!("{} repaired", im.label()), "sites", left.len() as u64);
+        let samples = left.iter().map(|&site| samples_left((reweighing, (im, site)), source, finished)).sum();
+        let progress = Progress::begin(events, &format!("{} repaired", im.label()), "samples", samples);
         let demand = |strength| measure.demand(strength);
         let demands: Vec<PooledDemand> = (0..stored.strengths.len())
             .into_par_iter()
@@ -160,8 +163,7 @@ fn repaired_bands(
             .collect::<Result<_, _>>()
             .map_err(|error| uplift_job::in_file(error, &stored.path))?;
         for of in left.into_iter().map(|site| (im, site)) {
-            let is_cancelled = || progress.cancelled();
-            match finish_site((reweighing, of), &demands, source, finished, &is_cancelled) {
+            match finish_site((reweighing, of), &demands, source, finished, &progress) {
                 Ok(()) => {}
                 Err(error) if is_stopped(&error) => {
                     let done = all.iter().filter(|&&of| !is_left(finished, of)).count();
@@ -169,11 +171,26 @@ fn repaired_bands(
                 }
                 Err(error) => return Err(uplift_job::in_file(error, &stored.path)),
             }
-            progress.finished(1);
             keeper.keep_now_and_then(finished)?;
         }
     }
     Ok(())
+}
+
+/// Samples that are weighed to finish a repaired site.
+fn samples_left(
+    (reweighing, of @ (im, site)): (&Reweighing, (IntensityMeasure, usize)),
+    source: &Source<'_>,
+    finished: &Finished,
+) -> u64 {
+    let Source { plan, settings, .. } = source;
+    let place = (im.key(), site);
+    let left_out = if settings.interval == Interval::Bca { plan.unit_count() } else { 0 };
+    let is_left = reweighing.site(of).is_some() && !finished.sites.contains_key(&place);
+    let own = if is_left { plan.samples().len() + left_out } else { 0 };
+    let branches = reweighing.branches(of).filter(|_| !finished.joint.contains_key(&place)).unwrap_or_default();
+    let solved = branches.iter().take_while(|branch| branch.analysis.is_ok()).count();
+    (own + solved * plan.samples().len()) as u64
 }
 
 /// Finishes what is left of the bands of a repaired site.
@@ -182,16 +199,16 @@ fn finish_site(
     demands: &[PooledDemand],
     source: &Source<'_>,
     finished: &mut Finished,
-    is_cancelled: &(dyn Fn() -> bool + Sync),
+    watch: &dyn Watch,
 ) -> Result<(), QuestionsError> {
     let Source { stored, plan, settings, .. } = source;
     let (place, demands) = ((im.key(), site), (demands, &stored.targets_per_year[..]));
     if let Some(analysis) = reweighing.site(of).filter(|_| !finished.sites.contains_key(&place)) {
-        finished.sites.insert(place, bands_of_site(&analysis, demands, (plan, settings), is_cancelled)?);
+        finished.sites.insert(place, bands_of_site(&analysis, demands, (plan, settings), watch)?);
     }
     if let Some(branches) = reweighing.branches(of).filter(|_| !finished.joint.contains_key(&place)) {
         let how = (*plan, settings.confidence);
-        finished.joint.insert(place, joint_bands_of_site(&branches, demands, how, is_cancelled)?);
+        finished.joint.insert(place, joint_bands_of_site(&branches, demands, how, watch)?);
     }
     Ok(())
 }

@@ -182,8 +182,8 @@ pub(super) fn announce(
 /// A demand of the result has 8 bytes; a sample 12 bytes a record and some for itself, and 4 more where the draws are
 /// written; a replicate 8 bytes an ordinate of the one site that a thread is at, and where whole spectra are wanted of
 /// all of them, twice while they are put in order or kept. Repaired spectra are made of all demands of a measure, 12
-/// bytes each in the order of their size, and of all replicates of a site, twice while they are gathered; of one with
-/// weighted hazard curves by each of these, and once more while they are gathered.
+/// bytes each in the order of their size and as much for their sums, and of all replicates of a site, twice while they
+/// are gathered; of one with weighted hazard curves by each of these, and once more while they are gathered.
 pub(super) fn needs(
     stored: &StoredStripes,
     sizes: usize,
@@ -204,7 +204,7 @@ pub(super) fn needs(
     let repaired = if is_repaired {
         let times = (2 * (1 + usize::from(settings.simultaneous))).max(1 + branches);
         let of_site = product(&[8, strengths, poes, samples, times]);
-        product(&[12, records, strengths, most_levels]).saturating_add(of_site)
+        product(&[24, records, strengths, most_levels]).saturating_add(of_site)
     } else {
         0
     };

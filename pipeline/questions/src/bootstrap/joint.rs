@@ -3,6 +3,7 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{Band, BootstrapError, Replicates, ResamplingPlan, weighted_quantile};
+use uplift_ida::Watch;
 use uplift_job::Array;
 use uplift_risk::{PooledDemand, StripeWeights};
 use uplift_uniform_risk::consistency::{Reweighed, ReweighedBranch};
@@ -115,7 +116,7 @@ pub(super) fn joint_bands_of_site(
     branches: &[ReweighedBranch<'_>],
     (demands, targets_per_year): (&[PooledDemand], &[f64]),
     (plan, confidence): (&ResamplingPlan, f64),
-    is_cancelled: &(dyn Fn() -> bool + Sync),
+    watch: &dyn Watch,
 ) -> Result<JointSiteBands, QuestionsError> {
     let shape = SiteShape { poes: targets_per_year.len(), sizes: plan.sizes().len(), strengths: demands.len() };
     let mut drawn: Vec<(f64, Reweighed)> = Vec::with_capacity(branches.len());
@@ -124,7 +125,7 @@ pub(super) fn joint_bands_of_site(
             let none = Band { lower_m: f64::NAN, median_m: f64::NAN, upper_m: f64::NAN };
             return Ok(JointSiteBands { bands: vec![none; shape.cells()], failed: vec![f64::NAN; shape.sizes] });
         };
-        drawn.push((branch.weight, analysis.ordinates(demands, targets_per_year, plan.samples(), is_cancelled)?));
+        drawn.push((branch.weight, analysis.ordinates(demands, targets_per_year, plan.samples(), watch)?));
     }
     let of_cell = |cell: usize| {
         let branches = drawn.iter().map(|(weight, own)| (*weight, replicates_m(own, plan, shape, cell)));

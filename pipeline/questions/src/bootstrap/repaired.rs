@@ -5,6 +5,7 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{Band, Interval, ResamplingPlan, simultaneous_bands};
+use uplift_ida::Watch;
 use uplift_job::Array;
 use uplift_result::InferredBands;
 use uplift_risk::{PooledDemand, RecordSample};
@@ -78,9 +79,9 @@ pub(super) fn bands_of_site(
     analysis: &RepairedAnalysis<'_>,
     (demands, targets_per_year): (&[PooledDemand], &[f64]),
     (plan, settings): (&ResamplingPlan, &BandSettings),
-    is_cancelled: &(dyn Fn() -> bool + Sync),
+    watch: &dyn Watch,
 ) -> Result<SiteBands, QuestionsError> {
-    let weighed_anew = |samples: &[RecordSample]| analysis.ordinates(demands, targets_per_year, samples, is_cancelled);
+    let weighed_anew = |samples: &[RecordSample]| analysis.ordinates(demands, targets_per_year, samples, watch);
     let of_set_m = analysis.ordinates_of_set(demands, targets_per_year)?;
     let drawn = weighed_anew(plan.samples())?;
     let without_each = match settings.interval {

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use uplift_bootstrap::{left_out_together, without_each};
 use uplift_job::Array;
-use uplift_job::events::Events;
+use uplift_job::events::{Events, Progress};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{PooledDemand, RiskCurve};
 use uplift_uniform_risk::consistency::Reweighing;
@@ -97,19 +97,21 @@ pub(super) fn influence_on_repaired(
     reweighing: &Reweighing,
     events: &dyn Events,
 ) -> Result<Influence, QuestionsError> {
-    let is_cancelled = || events.cancelled();
     let (sites, poes, strengths) = (stored.sites.len(), stored.poes.len(), stored.strengths.len());
     let (records, bins) = (stored.records.len(), measure.levels.len() + 1);
     let demand = |strength| measure.demand(strength);
     let demands: Vec<PooledDemand> = (0..strengths).into_par_iter().map(demand).collect::<Result<_, _>>()?;
     let (samples, targets) = (left_out_together(records, &stored.units.records)?, &stored.targets_per_year);
+    let repaired_sites = (0..sites).filter(|&site| reweighing.site((measure.measure, site)).is_some()).count();
+    let label = format!("{} repaired", measure.measure.label());
+    let progress = Progress::begin(events, &label, "samples", (repaired_sites * samples.len()) as u64);
     let mut of_sites = Vec::with_capacity(sites);
     for site in 0..sites {
         let Some(repaired) = reweighing.site((measure.measure, site)) else {
             of_sites.push(None);
             continue;
         };
-        let anew = repaired.ordinates(&demands, targets, &samples, &is_cancelled)?;
+        let anew = repaired.ordinates(&demands, targets, &samples, &progress)?;
         let of_set_m = repaired.ordinates_of_set(&demands, targets)?;
         // [strength][poe][bin]
         let shares_at = |(demand, of_set_m): (&PooledDemand, &Vec<f64>)| -> Result<Vec<Vec<f64>>, QuestionsError> {

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use uplift_bootstrap::weighted_replicates;
 use uplift_consistency::{Exponents, Repaired, Scratch, Solver};
 use uplift_hazard::HazardCurve;
+use uplift_ida::Watch;
 use uplift_job::JobError;
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
@@ -144,7 +145,7 @@ impl<'a> RepairedAnalysis<'a> {
     ///
     /// - `demands`: all runs of the oscillators, `[strength]`.
     /// - `targets_per_year`: target rates, 1/yr, whatever those of the study are.
-    /// - `is_cancelled`: asked now and then.
+    /// - `watch`: told of the samples that are done.
     ///
     /// # Errors
     /// [`JobError::Interrupted`]; demands of other records or levels, in a file that was changed.
@@ -153,17 +154,19 @@ impl<'a> RepairedAnalysis<'a> {
         demands: &[PooledDemand],
         targets_per_year: &[f64],
         samples: &[RecordSample],
-        is_cancelled: &(dyn Fn() -> bool + Sync),
+        watch: &dyn Watch,
     ) -> Result<Reweighed, UniformRiskError> {
         let Finding { scaled_to, other, .. } = *self.finding;
         let set = self.question.set(scaled_to, other)?;
         let analysis = self.question.analysis(self.question.levels(scaled_to), &set, self.curves)?;
         let solver = Solver::new(&analysis, self.question.settings.smoothness)?;
-        let of_portion = |samples: &[RecordSample]| {
-            if is_cancelled() {
+        let of_portion = |samples: &[RecordSample]| -> Result<Reweighed, UniformRiskError> {
+            if watch.cancelled() {
                 return Err(JobError::Interrupted.into());
             }
-            portion(&solver, &self.repaired.fit.exponents, demands, targets_per_year, samples)
+            let done = portion(&solver, &self.repaired.fit.exponents, demands, targets_per_year, samples)?;
+            watch.finished(samples.len() as u64);
+            Ok(done)
         };
         let portions: Vec<Reweighed> = samples.par_chunks(PORTION).map(of_portion).collect::<Result<_, _>>()?;
         Ok(Reweighed::joined(portions, demands.len() * targets_per_year.len()))
@@ -181,7 +184,7 @@ fn portion(
     let mut is_reached = Vec::with_capacity(samples.len());
     let stripes = solver.analysis().stripes();
     let ordinates_m = weighted_replicates(demands, stripes, targets_per_year, samples, |sample, shares| {
-        let fit = solver.solve(sample.multiplicities(), start, &mut scratch)?;
+        let fit = solver.solve_sample(sample.multiplicities(), start, &mut scratch)?;
         is_reached.push(fit.is_reached());
         Ok::<_, UniformRiskError>(solver.shares(sample.multiplicities(), &fit.exponents, &mut scratch, shares)?)
     })?;

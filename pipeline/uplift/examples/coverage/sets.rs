@@ -198,7 +198,7 @@ impl Place<'_> {
             };
             let samples = plan.samples().iter().map(of_population).collect::<Result<Vec<_>, _>>()?;
             let weigh = |sample: &RecordSample, shares: &mut [f64]| -> Result<(), Failed> {
-                let own = solver.solve(sample.multiplicities(), &fit.exponents, &mut scratch)?;
+                let own = solver.solve_sample(sample.multiplicities(), &fit.exponents, &mut scratch)?;
                 Ok(solver.shares(sample.multiplicities(), &own.exponents, &mut scratch, shares)?)
             };
             weighted_replicates(self.demands, stripes, targets, &samples, weigh)
