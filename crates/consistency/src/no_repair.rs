@@ -52,8 +52,8 @@ impl NoRepair {
                 let side = |count: usize, side: &str, missing: &str| match count {
                     0 => String::new(),
                     count => format!(
-                        "at {count} of {FIT_RATES} rates every record brings {y} {side} often than the site's hazard: \
-                         {missing} are missing"
+                        "at {count} of {FIT_RATES} rates every record exceeds {y} {side} often than the site's \
+                         hazard: {missing} are missing"
                     ),
                 };
                 let sides = [side(reach.set_above, "more", &lower), side(reach.set_below, "less", &higher)];
@@ -103,11 +103,11 @@ mod tests {
                 ),
                 (
                     NoRepair::OutOfReach(Reach { set_above: 12, set_below: 0 }),
-                    ["at 12 of 12 rates every record brings PGA more often", "records of lower PGA/PGV are missing"],
+                    ["at 12 of 12 rates every record exceeds PGA more often", "records of lower PGA/PGV are missing"],
                 ),
                 (
                     NoRepair::OutOfReach(Reach { set_above: 1, set_below: 2 }),
-                    ["at 1 of 12", "at 2 of 12 rates every record brings PGA less often"],
+                    ["at 1 of 12", "at 2 of 12 rates every record exceeds PGA less often"],
                 ),
                 (NoRepair::Runaway { exponents: [0.0, -61.0, 3.0, 0.0] }, ["exponent -61", "add records of lower"]),
                 (NoRepair::NotReached { largest_residual: 0.2 }, ["22 %", "records of higher PGA/PGV"]),

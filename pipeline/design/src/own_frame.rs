@@ -34,8 +34,8 @@ const TIMES_TARGET: f64 = 30.0;
 
 /// What the models of a frame leave out.
 pub(super) const OF_FRAME: &str = "the wobbling model loses no energy by impact or friction, and its deck does not \
-                                   turn; the planar one is shaken by one component alone, which is known to be \
-                                   unconservative (Section 6.2.3)";
+                                   turn; the planar one is shaken by one component alone, which is unconservative \
+                                   (Section 6.2.3)";
 
 /// Why a frame that can wobble is left out.
 pub(super) const STOPPED: &str = "the frame itself is not analysed: its motion ends where flat springs stop the \

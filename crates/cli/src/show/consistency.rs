@@ -21,9 +21,14 @@ pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal)
         print_details(out, report)?;
     }
     if !terminal.is_quiet() {
-        print_end(out, report, terminal)?;
+        print_end(out, report)?;
     }
-    print_more(out, terminal)
+    match report.warnings.len() {
+        count if count > 0 && !terminal.shows_details() && !terminal.is_quiet() => {
+            Ok(writeln!(out, "Warnings {count}: --details")?)
+        }
+        _ => print_more(out, terminal),
+    }
 }
 
 /// How far each set of scaled records is from the site's hazard of the other measure.
@@ -61,7 +66,7 @@ fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(),
 }
 
 /// What to do next, and where everything is.
-fn print_end(out: &mut impl Write, report: &ConsistencyReport, terminal: &Terminal) -> Result<(), CommandError> {
+fn print_end(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     let Some(result) = report.result.as_ref().map(|result| shown_path(result).display()) else { return Ok(()) };
     let is_repaired = |row: &&ConsistencyRow| row.repair.as_ref().is_some_and(|repair| repair.failed.is_none());
     if let Some(repaired) = report.rows.iter().find(is_repaired) {
@@ -71,9 +76,6 @@ fn print_end(out: &mut impl Write, report: &ConsistencyReport, terminal: &Termin
         writeln!(out, "\nRepaired spectra: uplift spectrum {result} --repaired{measure}")?;
     } else if report.rows.iter().any(|row| row.verdict == Some("inconsistent") && row.repair.is_none()) {
         writeln!(out, "\nRepair: uplift consistency {result} --repair")?;
-    }
-    if !report.warnings.is_empty() && !terminal.shows_details() {
-        writeln!(out, "\nWarnings\n  {} more: --details", report.warnings.len())?;
     }
     writeln!(out, "Result   /consistency in {result}")?;
     if let Some(path) = &report.table {
@@ -130,8 +132,8 @@ fn probabilities(report: &ConsistencyReport) -> String {
 fn print_levels(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     writeln!(
         out,
-        "\nLevel of the other measure: that of the scaled records over the site's, at {};\n\
-         how many times too often the site's level is reached; mean and largest deviation over the rates compared",
+        "\nLevel of the other measure: scaled records over the site, at {};\nrate of reaching the site's level over \
+         its target; mean and largest deviation over the rates compared",
         probabilities(report)
     )?;
     let repaired = report.rows.iter().any(|row| row.repair.is_some());
@@ -182,7 +184,7 @@ fn print_scale_factors(out: &mut impl Write, report: &ConsistencyReport) -> Resu
     let [least, largest] = report.scale_factors;
     writeln!(
         out,
-        "\nScale factors, 5 / 50 / 95 % of them, at each probability; how many lie outside {least} to {largest}; \
+        "\nScale factors, 5 / 50 / 95 %, at each probability; share outside {least} to {largest}; \
          effective\nearthquakes of {}",
         report.events.map_or_else(|| "unknown number".to_owned(), |events| events.to_string())
     )?;
@@ -204,8 +206,8 @@ fn print_two_sided(out: &mut impl Write, report: &ConsistencyReport) -> Result<(
     }
     writeln!(
         out,
-        "\nBoth analyses together: where the set lies between the measures, which other records can cure, and what no\n\
-         single set can avoid; factors of the level"
+        "\nBoth analyses together, factors of the level: location of the set (other records can correct it), and \
+         spread\n(no single set avoids it)"
     )?;
     let table = Table::of(&report.two_sided)
         .left("site", |row| &row.site)

@@ -10,7 +10,7 @@ use uplift_structure::relative_error;
 use super::super::weights::SiteWeights;
 use crate::error::DesignError;
 
-/// Displacements at which a risk curve is told.
+/// Displacements at which a risk curve is reported.
 const POINTS: usize = 60;
 
 /// A number with its band; NaN where replicates have none.
