@@ -119,7 +119,7 @@ fn archives_that_are_refused_leave_nothing_behind() {
         (encrypted, &["RSN1_A.AT2", "is encrypted", "with its password"]),
         (damaged, &["RSN1_A.AT2", "damaged or not complete"]),
         (one[..one.len() - 30].to_vec(), &["damaged or not complete", "download it again"]),
-        (bomb, &["RSN1_A.AT2", "goes beyond what is read, 64 MiB a file"]),
+        (bomb, &["RSN1_A.AT2", "exceeds 64 MiB a file"]),
         (archive(&[("a.pdf", b"%PDF")]), &["no files that could be records"]),
         (archive(&[]), &["no files that could be records"]),
     ] {

@@ -129,7 +129,7 @@ fn every_level_has_its_own_records_and_these_their_factors_and_weights() {
     let said = run(&study, &rows);
     assert!(said.contains("a set for each of 5 levels (4 to 6 a level, which count as"), "{said}");
     let warnings = study.uplift(&["warnings", "sets.h5"]).ok().stdout;
-    for words in ["4 of 22 factors do not bring", "by more"] {
+    for words in ["4 of 22 factors miss the level", "by more"] {
         assert!(warnings.contains(words), "{words}: {warnings}");
     }
     let stored = array(&at("sets.h5"), "/ida/pgv/share");
@@ -237,10 +237,9 @@ fn what_can_be_asked_is_answered_and_the_rest_refused_in_words() {
     let said = study.uplift(&["consistency", "sets.h5"]).ok().stdout;
     assert!(said.contains("no site has hazard curves of two measures"), "{said}");
     // a sample of one has no record of some level
-    study.uplift(&["bootstrap", "sets.h5", "--sizes", "1", "--replicates", "50", "-q", "--force"]).fails(
-        4,
-        &["none of its records is in the sample", "let more records be drawn, or give the level more of them"],
-    );
+    study
+        .uplift(&["bootstrap", "sets.h5", "--sizes", "1", "--replicates", "50", "-q", "--force"])
+        .fails(4, &["none of its records is in the sample", "draw more records, or give the level more of them"]);
     study.uplift(&["overturning", &pier(), "--urs", "sets.h5"]).fails(4, &words);
     // the spectrum serves a design all the same, and the structure itself is not analysed
     let sheet = study.uplift(&["design", &pier(), "--urs", "sets.h5", "--details"]).ok().stdout;
@@ -252,7 +251,7 @@ fn pier() -> String {
 }
 
 #[test]
-fn mistakes_are_all_told_with_their_numbers() {
+fn all_mistakes_are_reported_with_their_numbers() {
     let study = study();
     let refused = |rows: &str, words: &[&str]| {
         study.write("sets.csv", rows);

@@ -203,7 +203,7 @@ fn factors_of_another_unit_and_levels_of_few_records_are_raised() {
     study.write("sets.csv", &rows);
     let set = ["--set", "records.at_level=sets.csv", "--set", "consistency.repair=none"];
     let check = study.uplift(&[&["check", "study.toml"], &set[..]].concat()).ok().stdout;
-    let words = "factors of records.at_level are more than 3 times PGV of the level over PGV of the record";
+    let words = "factors of records.at_level are more than 3 times off the PGV of their level over that of the record";
     assert!(check.contains(words) && check.contains("100 times too large. Check the units of levels"), "{check}");
     let run = study.uplift(&[&["run", "study.toml", "-o", "sets.h5"], &set[..]].concat()).ok().stdout;
     for words in [words, "mistake?"] {

@@ -139,7 +139,7 @@ impl SmallStudy {
         study
     }
 
-    /// A result `r.h5` of records that do not bring the hazard of all sites: by PGV the first cannot be repaired, and
+    /// A result `r.h5` of records that miss the hazard of all sites: by PGV the first cannot be repaired, and
     /// the second is; its name is markup.
     pub fn repaired() -> Self {
         let hazard = |file: &str| repository().join("hazard").join(file).display().to_string();

@@ -62,13 +62,13 @@ fn the_bound_of_what_no_run_shows_counts_pairs() {
         (bound, few["what"].as_str().unwrap().to_owned())
     };
     let (one, few) = of("one.h5", &component("h1"));
-    assert!(one.as_f64().is_some_and(|bound| bound > 0.0) && few.starts_with("4; below about"), "{one} {few}");
+    assert!(one.as_f64().is_some_and(|bound| bound > 0.0) && few.starts_with("4 (40 advised)"), "{one} {few}");
     for (name, more, records) in
         [("both.h5", component("both"), 8), ("each.h5", rotation(&["take=each", "azimuths=3"]), 12)]
     {
         let (bound, few) = of(name, &more);
         assert_eq!(bound, one, "{name}");
-        assert!(few.starts_with(&format!("4 pairs ({records} records); below about")), "{few}");
+        assert!(few.starts_with(&format!("4 pairs, {records} records (40 advised)")), "{few}");
     }
 }
 
@@ -124,7 +124,7 @@ fn percentiles_go_on_and_are_shared_like_any_other_study() {
     assert!(check["record_set"].as_str().unwrap().ends_with("component rotated (percentile 60 of 3 azimuths)"));
 }
 
-/// A drawn azimuth depends on the seed and the pair alone, and is told.
+/// A drawn azimuth depends on the seed and the pair alone, and is reported.
 #[test]
 fn a_random_azimuth_follows_from_seed_and_pair() {
     let study = SmallStudy::new();

@@ -117,7 +117,7 @@ fn from_any_checkpoint_it_ends_with_the_same_bits() {
             std::fs::remove_file(study.path().join("r.h5")).ok();
             let threads = ["1", "3"][share % 2];
             let done = study.uplift(&["run", "study.toml", "-o", "r.h5", "--threads", threads]).ok();
-            assert_eq!(done.stderr.contains("analyses from before"), share > 0, "{share}: {}", done.stderr);
+            assert_eq!(done.stderr.contains("analyses resumed"), share > 0, "{share}: {}", done.stderr);
             assert_eq!(content(&study.path().join("r.h5")), whole, "{share}");
             assert!(left(study.path()).is_empty(), "{:?}", left(study.path()));
         }
@@ -127,7 +127,7 @@ fn from_any_checkpoint_it_ends_with_the_same_bits() {
 #[cfg(unix)]
 #[test]
 #[ignore = "long: make test-long"]
-fn an_interrupted_run_says_so_and_goes_on() {
+fn an_interrupted_run_says_so_and_resumes() {
     // a study of some seconds of work on one thread
     let text = OSCILLATORS.replace("pairs = 3", "pairs = 30").replace("0.1:0.1:0.3", "0.1:0.004:0.5");
     let study = SmallStudy::with(&text);
@@ -151,7 +151,7 @@ fn an_interrupted_run_says_so_and_goes_on() {
     let status = study.uplift(&["status", "r.h5"]).ok().stdout;
     assert!(status.contains("checkpoint of an unfinished run") && status.contains("few"), "{status}");
     let done = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
-    assert!(done.stderr.contains("analyses from before"), "{}", done.stderr);
+    assert!(done.stderr.contains("analyses resumed"), "{}", done.stderr);
     study.uplift(&["run", "study.toml", "-o", "fresh.h5", "-q", "--threads", "3"]).ok();
     assert_eq!(content(&study.path().join("r.h5")), content(&study.path().join("fresh.h5")));
 }

@@ -300,8 +300,8 @@ fn each_kind_is_refused_where_the_other_is_wanted() {
         study.uplift(command).fails(4, &["displacement spectra", "uplift table"]);
     }
     study.uplift(&["bootstrap", "study.toml"]).fails(3, &["kind", "of displacement spectra"]);
-    study.uplift(&["plot", "study.toml"]).fails(3, &["kind", "`plot` and `report` its result"]);
-    // a result of the other kind gives way like that of any other study
+    study.uplift(&["plot", "study.toml"]).fails(3, &["kind", "`plot` and `report` on its result"]);
+    // a result of the other kind is overwritten like that of any other study
     let risk = SmallStudy::new();
     risk.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     risk.write("other.toml", BLOCKS);

@@ -135,7 +135,7 @@ fn repaired_spectra_are_exported_where_there_are_some() {
         assert!(sheets(&study).contains(&format!("name=\"{name}\"")), "{name}");
     }
 
-    // of other probabilities they are made anew, and without a repair nothing is said of them
+    // of other probabilities they are made again, and without a repair nothing is said of them
     study.uplift(&[&EXPORT[..], &["--poe", "0.02,0.05,0.3"]].concat()).ok();
     study.uplift(&["run", "study.toml", "-o", "plain/r.h5", "-q", "--set", "consistency.repair=\"none\""]).ok();
     study.uplift(&[&["export", "plain/r.h5"], &EXPORT[2..]].concat()).ok();

@@ -178,7 +178,7 @@ fn report_and_exports_tell_what_was_printed() {
     let mat = std::fs::read(study.path().join("r.mat")).unwrap();
     assert!(mat.windows(13).any(|bytes| bytes == b"finding_value"));
     let said = study.uplift(&["table", "r.h5"]).ok();
-    assert!(said.stderr.contains("asked    4 answer(s) on block"), "{}", said.stderr);
+    assert!(said.stderr.contains("asked    4 answer(s) for block"), "{}", said.stderr);
 }
 
 /// A search among uncertain structures keeps the bands with structures drawn, beside the narrower one of the records.

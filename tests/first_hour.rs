@@ -39,18 +39,18 @@ fn a_study_in_place_of_a_result_is_named_as_one() {
 #[test]
 fn samples_far_larger_than_the_set_are_refused() {
     let study = study();
-    let words = ["--sizes: samples of 100000 records from a set of 4", "at most 1000"];
+    let words = ["--sizes: 1000 samples of 100000 records from a set of 4", "the largest size is 1000"];
     study.uplift(&["bootstrap", "r.h5", "--sizes", "2,100000"]).fails(2, &words);
     study.uplift(&["bootstrap", "r.h5", "--sizes", "400", "--replicates", "3", "-q"]).ok();
 }
 
 #[test]
-fn the_result_of_a_changed_study_is_not_made_anew_unasked() {
+fn the_result_of_a_changed_study_is_not_recomputed_unasked() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-q", "--set", "records.first=3"]).ok();
     let before = std::fs::read(study.path().join("results/study.h5")).unwrap();
     let refused = study.uplift(&["bootstrap", "study.toml", "--replicates", "20", "--sizes", "2"]);
-    assert!(!refused.stderr.contains("made first"), "{}", refused.stderr);
+    assert!(!refused.stderr.contains("computing "), "{}", refused.stderr);
     refused.fails(2, &["with --set records.first=3", "give", "in place of the study file", "--force"]);
     assert_eq!(std::fs::read(study.path().join("results/study.h5")).unwrap(), before);
     let same = ["bootstrap", "study.toml", "--replicates", "20", "--sizes", "2", "-q", "--set", "records.first=3"];

@@ -237,7 +237,7 @@ fn slips_of_files_and_units() {
     shaken(folder.path(), "held.toml", &["--h1", "a.AT2", "--h2", "b.txt"]).ok();
     for system in [&["--strength", "0.1"][..], &["--block", "--width-m", "0.2", "--height-m", "1.6"]] {
         let ask = |more: &[&str]| uplift(folder.path(), &[&["response", "a.AT2"], system, more].concat());
-        ask(&["--unit", "g"]).fails(2, &["--unit of a record that says its own"]);
+        ask(&["--unit", "g"]).fails(2, &["--unit of a record that states its own"]);
         ask(&[]).ok();
     }
 }

@@ -317,7 +317,7 @@ fn a_case_known_by_hand() {
     let found = number(&report["overturning"]["per_year"]);
     assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
     assert_eq!(report["direction"]["wobbling_overturns"], 0);
-    assert!(report["alarms"].to_string().contains("of the risk lies above the last level, 0.8 g"));
+    assert!(report["alarms"].to_string().contains("of the risk is above the last level, 0.8 g"));
 }
 
 #[test]

@@ -42,7 +42,7 @@ fn a_site_of_an_export_becomes_a_study() {
     let near = ["hazard", "import", "export.csv", "-o", "mine", "--near", "11.8,45.0", "--component", "RotD50"];
     let done = study.uplift(&near).ok();
     // a degree of longitude at 45° is 78.6 km
-    assert!(done.stderr.contains("nearest site: there, 15.7 km away: is that near enough?"), "{}", done.stderr);
+    assert!(done.stderr.contains("nearest site: there, 15.7 km away: is that close enough?"), "{}", done.stderr);
     let swapped = study.uplift(&["hazard", "show", "export.csv", "--near", "45.0,11.8"]).ok().stderr;
     assert!(swapped.contains("--near takes longitude, then latitude"), "{swapped}");
     assert!(done.stdout.contains("[[sites]]\nname = \"there\"\npgv = \"mine/pgv.csv\""), "{}", done.stdout);
@@ -130,7 +130,7 @@ fn realizations_become_branches() {
         alone.stderr
     );
     assert!(
-        alone.stderr.contains("the default stripes do not") && alone.stderr.contains("in [pgv], levels_cm_s = "),
+        alone.stderr.contains("less than the default levels") && alone.stderr.contains("[pgv] levels_cm_s = "),
         "{}",
         alone.stderr
     );
@@ -139,6 +139,19 @@ fn realizations_become_branches() {
     study
         .uplift(&["hazard", "import", "one.csv", "copy.csv", "-o", "again"])
         .fails(4, &["two curves", "realization 0"]);
+}
+
+/// The curve of a wrong unit is warned of where it is looked at, as in a check.
+#[test]
+fn a_hardly_possible_curve_is_warned_of_when_it_is_shown() {
+    let study = SmallStudy::new();
+    study.write("odd.csv", "# IM: PGV [cm/s]\niml,maf\n0.001,0.5\n0.01,0.05\n0.1,1e-5\n");
+    let shown = study.uplift(&["hazard", "show", "odd.csv"]).ok().stdout;
+    let words =
+        "\nWarnings\n  odd: 0.3 cm/s is exceeded only 1.0e-5 times a year, which is hardly possible: check the unit";
+    assert!(shown.contains("0.001 to 0.1") && shown.contains(words), "{shown}");
+    let usual = study.uplift(&["hazard", "show", "here-pgv.csv", "--measure", "PGV", "--unit", "cm/s"]).ok().stdout;
+    assert!(!usual.contains("Warnings"), "{usual}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Joint bands of repaired spectra: over resampled records and weighted hazard curves, with weights solved anew for
+//! Joint bands of repaired spectra: over resampled records and weighted hazard curves, with weights solved again for
 //! every pair of a sample and a curve.
 
 use std::path::Path;

@@ -137,7 +137,7 @@ fn records_that_no_instrument_wrote() {
     // one that hardly moves needs factors that make noise of it
     record(&study, "quiet.txt", 0.01, 1e-30);
     study.write("manifest.csv", "record_id,file_h1,file_h2,unit\nA,quiet.txt,quiet.txt,g\n");
-    study.uplift(&["run", "study.toml"]).fails(4, &["record A", "does it move at all"]);
+    study.uplift(&["run", "study.toml"]).fails(4, &["record A", "is the unit of the record right"]);
 }
 
 #[test]

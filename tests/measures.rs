@@ -65,7 +65,7 @@ fn a_study_of_spectral_acceleration_alone() {
     assert!(status.contains("SA(0.5)  48 analyses"), "{status}");
     // what was computed is not computed again
     let again = study.uplift(&["run", "study.toml", "-o", "r.h5", "--again"]).ok().stderr;
-    assert!(again.contains("48 of 48 analyses from before"), "{again}");
+    assert!(again.contains("48 of 48 analyses resumed"), "{again}");
 }
 
 // The Arias intensity grows with the square of the factor: at the squares of levels of PGV the runs are the same.
@@ -93,7 +93,7 @@ fn levels_of_arias_intensity_are_squares() {
 // PGA told of the runs by PGV, against the runs by PGA itself.
 #[test]
 #[ignore = "long: make test-long"]
-fn a_measure_told_of_others_runs_scatters_as_in_its_own() {
+fn a_measure_scatters_alike_in_its_own_and_in_other_runs() {
     let both = "[records.synthetic]\npairs = 40\n[strengths]\nvalues = [0.1]\n";
     let levels = "levels_cm_s = [\"0.1:0.1:0.9\", \"1:1:20\", \"25:5:200\"]\n";
     let site = "[[sites]]\nname = \"Here\"\npgv = \"here-pgv.csv\"\npga = \"pga.csv\"\n[risk]\n\

@@ -216,7 +216,7 @@ fn help_names_every_command() {
     }
 }
 
-// A slip of the keyboard must not cost an input: only an HDF5 file gives way to a result.
+// A slip of the keyboard must not cost an input: a result overwrites only an HDF5 file.
 #[test]
 fn inputs_are_never_overwritten() {
     let study = with_manifest("A,a.AT2,a.AT2,,,\n");
@@ -244,10 +244,10 @@ fn numbers_of_a_manifest() {
     study.uplift(&["check", "study.toml"]).fails(4, &["record A", "magnitude", "decimal comma", "semicolons"]);
     check("17. Jan").fails(4, &["magnitude is \"17. Jan\"", "0 to 10"]);
     check("99").fails(4, &["magnitude is \"99\""]);
-    check("-999").fails(4, &["1 of 1 records have no number for magnitude"]);
+    check("-999").fails(4, &["1 of 1 records have no magnitude in the manifest"]);
 }
 
-// Nobody reads what is told on the way: the work goes on.
+// Nobody reads what is reported on the way: the work goes on.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_closed_error_output_ends_nothing() {
@@ -279,6 +279,10 @@ fn files_in_the_wrong_place() {
         (&["table", "r.urs.csv"], 4, &["r.urs.csv: is a table, not a result"]),
         (&["design", "block.toml", "--urs", "study.toml", "--site", "Here"], 4, &["study.toml: is a study"]),
         (&["run", "absent.toml"], 3, &["absent.toml", "there is no such file"]),
+        (&["records", "show", "absent.AT2"], 4, &["absent.AT2: there is no such file"]),
+        (&["hazard", "show", "absent.csv"], 4, &["absent.csv: there is no such file"]),
+        (&["validate", "absent.csv", "a.AT2"], 4, &["absent.csv: cannot read the file: there is no such file"]),
+        (&["verify", "absent.h5"], 4, &["absent.h5: cannot open the file: there is no such file"]),
         (&["table", "absent.h5"], 4, &["absent.h5: there is no such file", "`uplift run STUDY.toml`"]),
     ] {
         let failed = study.uplift(arguments).fails(code, words);
@@ -301,7 +305,7 @@ fn probabilities_as_they_are_typed() {
 
 /// Records in cm/s² whose files say g.
 #[test]
-fn units_that_cannot_be_right_are_told() {
+fn impossible_units_are_reported() {
     let study = with_manifest("A,gal.AT2,gal.AT2,,,\n");
     let wave: Vec<f64> = (0..200).map(|i| 200.0 * (f64::from(i) * 0.1).sin() * (-f64::from(i) * 0.01).exp()).collect();
     study.write("gal.AT2", &at2(&wave, wave.len()));

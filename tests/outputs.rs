@@ -144,7 +144,7 @@ fn other_values_than_the_file_s_replace_nothing_unasked() {
     refused(&study, &run, "r.h5", "with --set records.first=3, and this run is as the file stands");
     // what changes no number is no other result
     study.uplift(&[&fewer[..], &["--set", "title=\"another\""]].concat()).ok();
-    // a study that is only looked at is told what its run would meet
+    // a study that is only looked at is reported what its run would meet
     study.uplift(&["run", "study.toml", "--set", "records.first=3"]).ok();
     let check = study.uplift(&["check", "study.toml"]).ok();
     assert!(check.stdout.contains("results/study.h5 is the result of this study with --set"), "{}", check.stdout);
@@ -229,7 +229,7 @@ fn what_was_made_of_a_replaced_result_goes_with_it() {
     // and by whoever takes numbers of the result
     for command in [&["table", "r.h5"][..], &["report", "r.h5"], &["export", "r.h5", "--json"], &["plot", "r.h5"]] {
         let said = study.uplift(command).ok().stderr;
-        assert!(said.contains("r.bands.csv beside r.h5 is of another result of that name"), "{command:?}: {said}");
+        assert!(said.contains("r.bands.csv beside r.h5 is from another result of that name"), "{command:?}: {said}");
     }
     std::fs::remove_file(study.path().join("r.bands.csv")).unwrap();
     std::fs::remove_file(study.path().join("r.bands.csv-metadata.json")).unwrap();
@@ -252,7 +252,7 @@ fn what_a_killed_run_left_goes_to_the_result_that_it_is_of() {
     for (name, bytes) in tables.iter().zip(&kept) {
         study.write_bytes(name, bytes);
     }
-    // of the second nothing was made but its own tables, which are written anew
+    // of the second nothing was made but its own tables, which are written again
     study.write("study.toml", &SMALL_STUDY.replace("first = 4", "first = 2"));
     study.uplift(&run).ok();
     let earlier = study.path().join("r.earlier");

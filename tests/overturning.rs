@@ -74,7 +74,7 @@ fn a_case_known_by_hand() {
         assert_eq!(site["lower_tail_share"], 0.0);
         assert_eq!(site["site"], "Here");
     }
-    assert!(found["alarms"].to_string().contains("of the risk lies above the last level, 0.8 g"), "{found}");
+    assert!(found["alarms"].to_string().contains("of the risk is above the last level, 0.8 g"), "{found}");
 }
 
 const WITH_PGA: &str = "title = \"small\"\n[records.synthetic]\npairs = 20\n[strengths]\nvalues = [0.05, 0.1]\n\
@@ -239,7 +239,7 @@ fn what_rounding_decides_is_marked() {
     let answer = study.uplift(&arguments).ok().stdout;
     assert!(answer.contains(&format!("  {value:.1e}")), "{value:.1e}\n{answer}");
     let is_moved = [lowest, highest].iter().any(|end| format!("{end:.1e}") != format!("{value:.1e}"));
-    assert!(!is_moved || answer.contains("\n* rounding decides it: --details\n"), "{answer}");
+    assert!(!is_moved || answer.contains("\n* the last digits are not significant (rounding)\n"), "{answer}");
     let shown = study.uplift(&[&arguments[..], &["--details"]].concat()).ok().stdout;
     let mark = if [lowest, highest].map(|end| format!("{end:.3e}")) == [value; 2].map(|own| format!("{own:.3e}")) {
         ""

@@ -1,4 +1,4 @@
-//! `--progress json`: what a program that starts this one is told, and studies on standard input.
+//! `--progress json`: what a program that starts this one is reported, and studies on standard input.
 
 use std::io::Write;
 use std::process::Stdio;
@@ -17,7 +17,7 @@ fn of_kind<'a>(events: &'a [Value], kind: &str) -> Vec<&'a Value> {
 }
 
 #[test]
-fn a_run_tells_its_phases_and_remarks() {
+fn a_run_reports_its_phases_and_remarks() {
     let study = SmallStudy::new();
     let run = study.uplift(&["run", "study.toml", "-o", "r.h5", "--progress", "json", "--json"]).ok();
     let told = events(&run.stderr);

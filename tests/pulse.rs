@@ -189,7 +189,7 @@ fn a_base_of_roughly_nine_length_scales_is_enough() {
 }
 
 #[test]
-fn mistakes_are_told_before_the_work() {
+fn mistakes_are_reported_before_the_work() {
     let folder = tempfile::tempdir().unwrap();
     for (arguments, words) in [
         (&["--frequencies", "0:1:5"][..], &["--frequencies", "above zero"][..]),

@@ -143,7 +143,7 @@ fn nothing_but_what_was_asked_for() {
         }
         seen.push(arguments.to_owned());
     }
-    // errors are told
+    // errors are reported
     quiet("run absent.toml").fails(3, &["absent.toml"]);
     // a run and a merge print their table alone, which is that of the result
     let [run, merged] = ["run study.toml -o again.h5", "merge study.toml 1.part 2.part -o merged.h5"];

@@ -159,7 +159,7 @@ fn a_study_runs_on_what_was_imported() {
     let done = study.uplift(&["run", "study.toml"]).ok();
     assert!(done.stderr.contains("1 recorded pair (set.csv, magnitude 6:7)"), "{}\n{}", done.stdout, done.stderr);
     let warnings = study.uplift(&["warnings", "results/study.h5"]).ok().stdout;
-    assert!(warnings.contains("1 of 2 records have no number for magnitude"), "{warnings}");
+    assert!(warnings.contains("1 of 2 records have no magnitude in the manifest"), "{warnings}");
     // a manifest that was moved does not find its files, and says so
     let moved = study.path().join("moved.csv");
     study

@@ -114,7 +114,7 @@ fn results_of_version_0_1_are_read() {
 
 /// An array that does not run over its axes is named, with its file.
 #[test]
-fn damaged_files_are_told_and_not_believed() {
+fn damaged_files_are_refused() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     study.uplift(&["bootstrap", "r.h5", "--replicates", "5", "--sizes", "2,4", "-q"]).ok();

@@ -100,7 +100,7 @@ fn killed(times: u32) {
 
 #[test]
 #[ignore = "long: make test-long"]
-fn killed_at_any_moment_it_goes_on_and_ends_with_the_same_bits() {
+fn killed_at_any_moment_it_resumes_and_ends_with_the_same_bits() {
     killed(30);
 }
 
@@ -112,7 +112,7 @@ fn torture_kills() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupted_run_says_what_is_finished_and_goes_on_from_there() {
+fn an_interrupted_run_reports_its_progress_and_resumes() {
     let study = study();
     let mut run = study.start(&["run", "study.toml", "--threads", "1"]);
     let checkpoint = study.path().join("results/study.h5.part");
@@ -188,7 +188,9 @@ fn shards_make_the_same_result() {
     study.uplift(&["merge", "study.toml", &one, &three]).fails(4, &["1 shard(s) missing: 2/3"]);
     study.uplift(&["merge", "study.toml", &one, &one, &two, &three]).fails(4, &["shard 1 of 3", "too"]);
     study.uplift(&["run", "study.toml", "--shard", "1/2", "-o", "half"]).ok();
-    study.uplift(&["merge", "study.toml", &one, &two, &three, "half"]).fails(4, &["half", "one division"]);
+    study
+        .uplift(&["merge", "study.toml", &one, &two, &three, "half"])
+        .fails(4, &["half", "merge shards of the same number"]);
     study.uplift(&["run", "study.toml", "--shard", "1/3", "-o", "foreign", "--set", "oscillator.restitution=0.9"]).ok();
     study
         .uplift(&["merge", "study.toml", "foreign", &two, &three])
@@ -215,7 +217,7 @@ fn every_flipped_byte_is_found() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml"]).ok();
     let sound = study.uplift(&["verify", "results/study.h5"]).ok().stdout;
-    assert!(sound.contains("arrays as they were written, and every byte of the file"), "{sound}");
+    assert!(sound.contains("arrays and every byte"), "{sound}");
     let bytes = std::fs::read(study.path().join("results/study.h5")).unwrap();
     for part in 0..97 {
         let mut damaged = bytes.clone();
@@ -271,7 +273,7 @@ fn a_damaged_axis_is_no_source_of_numbers() {
     assert_eq!(content(&study.path().join("a.h5")), content(&study.path().join("fresh.h5")));
     // and nothing is added to a damaged result
     study.write_bytes("b.h5", &bytes);
-    study.uplift(&["bootstrap", "b.h5", "--replicates", "20"]).fails(4, &["b.h5", "not as it was written"]);
+    study.uplift(&["bootstrap", "b.h5", "--replicates", "20"]).fails(4, &["b.h5", "has changed since it was written"]);
     assert_eq!(std::fs::read(study.path().join("b.h5")).unwrap(), bytes);
 }
 
@@ -291,7 +293,7 @@ fn bands_are_not_written_into_another_result() {
     let written = content(&study.path().join("other.h5"));
     std::fs::rename(study.path().join("other.h5"), study.path().join("results/study.h5")).unwrap();
     bootstrap.release();
-    bootstrap.end().fails(4, &["written anew meanwhile"]);
+    bootstrap.end().fails(4, &["overwritten it meanwhile"]);
     assert_eq!(content(&study.path().join("results/study.h5")), written);
 }
 
@@ -428,7 +430,7 @@ fn what_is_in_the_way_is_left_alone() {
     study.write("results/study.h5.part", "my own notes\n");
     study.uplift(&["run", "study.toml"]).fails(4, &["study.h5.part", "not a file of finished analysis rows"]);
     assert_eq!(std::fs::read_to_string(study.path().join("results/study.h5.part")).unwrap(), "my own notes\n");
-    // an earlier result that only begins as one knows nothing, and gives way
+    // an earlier result that only begins as one is empty, and is overwritten
     std::fs::remove_file(study.path().join("results/study.h5.part")).unwrap();
     study.write_bytes("results/study.h5", EARLIER);
     study.uplift(&["run", "study.toml"]).ok();
@@ -456,9 +458,9 @@ fn a_full_disk_loses_nothing() {
     }
     let run = ["run", "study.toml", "--again", "-o", "small/a.h5", "--set", "output.csv=false"];
     // found before anything is computed, unless whoever asks knows better
-    study.uplift(&run).fails(4, &["of disk are needed", "make room"]);
+    study.uplift(&run).fails(4, &["of disk are needed", "free some, write elsewhere"]);
     let full = common::uplift_where(study.path(), ("UPLIFT_LIMITS", "warn"), &run);
-    let full = full.fails(4, &["small/a.h5.part", "make room"]);
+    let full = full.fails(4, &["small/a.h5.part", "free some space"]);
     assert!(full.stderr.contains("No space left"), "{}", full.stderr);
     assert!(mount("remount,size=16m").unwrap().status.success());
     let (computed, all) = computed(&study, &run);

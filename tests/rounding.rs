@@ -177,7 +177,7 @@ fn the_table_of_spectra_has_the_range() {
 }
 
 #[test]
-fn a_check_tells_what_the_repetition_costs() {
+fn a_check_estimates_the_cost_of_the_repetition() {
     let study = SmallStudy::with(STUDY);
     let plan: serde_json::Value =
         serde_json::from_str(&study.uplift(&["check", "study.toml", "--json"]).ok().stdout).unwrap();

@@ -138,7 +138,7 @@ fn components_and_series_that_are_scaled_already_stand_as_what_they_are() {
     };
     let said = at_level(&["one_summary_selection.txt", "--both", "-o", "one.csv"]);
     assert!(said.stdout.contains("component = \"both\""), "{}", said.stdout);
-    assert!(said.stderr.contains("1 component known by 1 or 2 in the tool's database alone"), "{}", said.stderr);
+    assert!(said.stderr.contains("1 component named only by 1 or 2 of the tool's database"), "{}", said.stderr);
     let column = |name: &str| rows(&study.path().join("one.csv")).iter().map(|r| r[name].clone()).collect::<Vec<_>>();
     assert_eq!(column("record_id"), ["r2:h1", "r3:h1", "r3:h2"]);
     assert_eq!(column("factor"), ["0.50", "0.70", "0.70"]);
@@ -184,12 +184,12 @@ fn selections_that_do_not_fit_are_refused_at_once_and_nothing_is_written() {
         &[
             "a.txt: 2 of 3 records are not in set.csv: RSN 77 (line 4), RSN 78 (line 5): import them, too",
             "b.txt: haselREC does not write the PGV that it was selected for: give --level, in cm/s",
-            "c.txt: it is none of what is known",
+            "c.txt: unknown format",
         ],
     );
     refused(&["b.txt", "--level", "3"], 4, &["line 3: r2 is in line 2 already"]);
     refused(&["a.txt", "--level", "12"], 4, &["says that it was selected for 10 cm/s, and --level is 12 cm/s"]);
-    refused(&["a.txt", "b.txt", "--level", "10,10"], 4, &["are both of 10 cm/s"]);
+    refused(&["a.txt", "b.txt", "--level", "10,10"], 4, &["both have the level 10 cm/s"]);
     refused(&["a.txt", "--level", "10,30"], 2, &["2 levels for 1 file"]);
     refused(&["a.txt", "--level", "0"], 2, &["--level is 0: give numbers above 0, in cm/s"]);
     let twice =

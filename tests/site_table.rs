@@ -362,7 +362,7 @@ fn mistakes_in_the_files() {
     study.write("pga-export.csv", &read(study.path(), "pga-export.csv").replace(",0.00000,", ","));
     study.uplift(&["check", "study.toml"]).fails(
         4,
-        &["pgv-export.csv: holds PGA, and no PGV", "pga-export.csv, line 3: 7 columns where the column names are 8"],
+        &["pgv-export.csv: has PGA, but no PGV", "pga-export.csv, line 3: 7 columns where the column names are 8"],
     );
     study.write("pgv-export.csv", "");
     study.uplift(&["check", "study.toml"]).fails(4, &["pgv-export.csv", "empty"]);

@@ -217,7 +217,7 @@ fn repaired_spectra_are_those_of_the_result() {
     assert!(same_bits(&own, &u_m[12..]), "{own:?} {u_m:?}");
     assert_eq!(found["repaired"], true);
     let said = ask(&study, &["--repaired"]).ok().stdout;
-    assert!(said.contains("Repaired uniform risk spectra, 2 sites, ") && said.contains("confidence band"), "{said}");
+    assert!(said.contains("Repaired uniform risk spectra, 2 sites, ") && said.contains("(90 % band)"), "{said}");
     for [u_m, lower_m, upper_m] in numbers(&found) {
         assert!(lower_m <= u_m && u_m <= upper_m && lower_m < upper_m, "{found}");
     }

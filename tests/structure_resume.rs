@@ -48,7 +48,7 @@ fn shards_give_the_same_answer() {
         let files: Vec<String> = (1..=3).map(|shard| format!("r.h5.{job}-block.shard-{shard}-of-3")).collect();
         let files: Vec<&str> = files.iter().map(String::as_str).collect();
         let joined = study.uplift(&[&ask[..], &["--shards"], &files].concat()).ok();
-        assert!(joined.stderr.contains("analyses from before"), "{}", joined.stderr);
+        assert!(joined.stderr.contains("analyses resumed"), "{}", joined.stderr);
         assert_eq!(joined.stdout, whole);
         study.uplift(&[&ask[..], &["--shards"], &files[1..]].concat()).fails(4, &["1 shard(s) missing: 1/3"]);
         // of another structure they are of no use
@@ -74,7 +74,7 @@ fn from_any_checkpoint_the_answer_is_the_same() {
         for (share, threads) in [(2, "1"), (3, "3"), (4, "1")] {
             study.write_bytes(&checkpoint, &rows[..rows.len() * share / 4]);
             let done = study.uplift(&[&ask[..], &["--threads", threads]].concat()).ok();
-            assert!(done.stderr.contains("analyses from before"), "{}", done.stderr);
+            assert!(done.stderr.contains("analyses resumed"), "{}", done.stderr);
             assert_eq!(done.stdout, whole, "{job} {share}");
             assert!(left(study.path()).is_empty(), "{:?}", left(study.path()));
         }
@@ -116,6 +116,6 @@ fn ctrl_c_leaves_a_checkpoint() {
     std::io::Read::read_to_string(child.stderr.as_mut().unwrap(), &mut said).unwrap();
     assert!(said.contains("are in the checkpoint") && said.contains("r.h5.design-block.part"), "{said}");
     let resumed = study.uplift(&ask).ok();
-    assert!(resumed.stderr.contains("analyses from before"), "{}", resumed.stderr);
+    assert!(resumed.stderr.contains("analyses resumed"), "{}", resumed.stderr);
     assert_eq!(resumed.stdout, study.uplift(&ask).ok().stdout);
 }

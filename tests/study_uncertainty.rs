@@ -132,7 +132,7 @@ fn one_draw_is_another_structure_for_each_record() {
     for ask in [&["report", "r.h5", "-q"][..], &["export", "r.h5", "--csv", "-q"]] {
         both.uplift(ask).ok();
     }
-    both.uplift(&["measures", "r.h5"]).fails(4, &["not known exactly", "of one structure"]);
+    both.uplift(&["measures", "r.h5"]).fails(4, &["not known exactly", "for one structure"]);
 }
 
 /// All records shake the same structures: each has its spectrum, and the frequency of all is the mean of theirs.
@@ -181,7 +181,7 @@ fn structures_are_branches() {
     assert!(finite.len() > 5 && same_bits(&numbers, &finite), "{first}");
     let details = uncertain.uplift(&["run", "study.toml", "-o", "again.h5", "--details"]).ok().stdout;
     let (_, spread) =
-        details.split_once("\nSpread over the structures that may be").unwrap_or_else(|| panic!("{details}"));
+        details.split_once("\nSpread over the possible structures").unwrap_or_else(|| panic!("{details}"));
     // the first row of strength 0.4 is of the rarest probability
     let row = spread.lines().find(|line| line.starts_with("Here") && line.contains("  0.400  ")).unwrap();
     let cells: Vec<&str> = row.split_whitespace().rev().take(3).collect();
@@ -193,7 +193,7 @@ fn structures_are_branches() {
     let read = |name: &str| std::fs::read_to_string(uncertain.path().join(name)).unwrap();
     let page = read("r.html");
     let cell = format!("{:.4} to {:.4}", low[2], high[2]);
-    assert!(page.contains("Spectra over the structures that may be, by PGV") && page.contains(&cell), "{cell}");
+    assert!(page.contains("Spectra over the possible structures, by PGV") && page.contains(&cell), "{cell}");
     // structures are no observations
     uncertain.uplift(&["plot", "r.h5", "--only", "measures"]).fails(2, &["no figure is called measures"]);
     let json: Value = serde_json::from_str(&read("r.json")).unwrap();
@@ -231,7 +231,7 @@ fn threads_shards_and_earlier_results_change_no_bit() {
     }
 }
 
-/// What a pair tells is told once: it is drawn, and left out, with all the structures that it shakes.
+/// What a pair tells is reported once: it is drawn, and left out, with all the structures that it shakes.
 #[test]
 fn structures_stay_with_their_pair() {
     let uncertain = study(&scattering("epistemic", "samples = 8"));
@@ -281,7 +281,7 @@ fn structures_of_their_own_files_are_shaken_once_a_motion() {
 }
 
 #[test]
-fn mistakes_are_told_at_once() {
+fn mistakes_are_reported_at_once() {
     let uncertain = study(
         "[uncertainty]\nkind = \"aleatory\"\nsamples = 8\n[uncertainty.strength]\ndistribution = \"normal\"\n\
          mean = 0.3\ncoefficient_of_variation = 0.1\n[uncertainty.capacity_m]\ndistribution = \"normal\"\n\
@@ -309,8 +309,8 @@ fn mistakes_are_told_at_once() {
     let cut = "[uncertainty]\nsamples = 8\n[uncertainty.restitution]\ndistribution = \"normal\"\n\
         coefficient_of_variation = 0.05\n";
     let check = study(cut).uplift(&["check", "study.toml", "--details"]).ok();
-    assert!(check.stdout.contains("14.6 % of the restitution are cut off"), "{}", check.stdout);
+    assert!(check.stdout.contains("14.6 % of the restitution are outside the possible range"), "{}", check.stdout);
     let many = study(&scattering("epistemic", "samples = 4096"));
     many.uplift(&["check", "study.toml", "--set", "records.synthetic.pairs=20", "--set", "records.first=20"])
-        .fails(4, &["4096 structures under each of 20 records are 81920", "take fewer structures"]);
+        .fails(4, &["4096 structures under each of 20 records are 81920", "use fewer structures"]);
 }

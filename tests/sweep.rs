@@ -73,13 +73,13 @@ fn what_one_variant_computed_no_other_computes_again() {
     let over = ["--over", "strengths.values=[0.1, 0.3],[0.1]", "--over", "risk.poe=0.1,0.02"];
     let run = study.uplift(&[&["sweep", "study.toml", "-o", "s"][..], &over].concat()).ok();
     // 4 records, 2 strengths, 5 levels of PGV and 4 of PGA: the first computes 72, and nobody else any
-    let known: Vec<&str> = run.stderr.lines().filter(|line| line.contains("analyses from before")).collect();
+    let known: Vec<&str> = run.stderr.lines().filter(|line| line.contains("analyses resumed")).collect();
     let expected = ["72 of 72", "36 of 36", "36 of 36"];
     assert!(known.len() == 3 && known.iter().zip(expected).all(|(line, all)| line.contains(all)), "{}", run.stderr);
     // variants of another oscillator take nothing
     let other = ["sweep", "study.toml", "-o", "t", "--over", "oscillator.restitution=0.7,0.8"];
     let run = study.uplift(&other).ok();
-    assert!(!run.stderr.contains("analyses from before"), "{}", run.stderr);
+    assert!(!run.stderr.contains("analyses resumed"), "{}", run.stderr);
     // a second sweep finds every result, and runs none
     let again = study.uplift(&other).ok();
     assert_eq!(again.stderr.matches("is that of the study").count(), 2, "{}", again.stderr);
@@ -120,7 +120,7 @@ fn a_table_of_cases_names_its_results() {
 }
 
 #[test]
-fn all_mistakes_of_all_variants_are_told_before_anything_is_computed() {
+fn all_mistakes_of_all_variants_are_reported_before_anything_is_computed() {
     let study = SmallStudy::new();
     let over = ["--over", "oscillator.restitution=0.9,1.5,95", "--over", "records.frist=3,4"];
     study.uplift(&[&["sweep", "study.toml", "-o", "s"][..], &over].concat()).fails(
@@ -150,7 +150,7 @@ fn variants_that_compare_nothing_are_refused_in_words() {
         let over = over.iter().flat_map(|over| ["--over", over]).collect::<Vec<_>>();
         study.uplift(&[&["sweep", "study.toml", "-o", "s"][..], &over].concat()).fails(2, &[words]);
     };
-    refused(&["seed=1,2"], "spectra are the same for all its values");
+    refused(&["seed=1,2"], "has the same spectra for all its values");
     refused(&["output.file=\"a.h5\",\"b.h5\""], "lie in its folder (-o)");
     refused(&["oscillator.restitution=0.9,0.90"], "are the same study");
     refused(&["oscillator.restitution=0.8,0.9", "sites=[]"], "the study names none");

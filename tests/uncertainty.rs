@@ -253,7 +253,7 @@ fn target_and_risk_are_inverses_of_uncertain_structures() {
 }
 
 #[test]
-fn it_is_told_in_sentences_and_refused_in_words() {
+fn it_is_reported_in_sentences_and_refused_in_words() {
     let study = study();
     study.write("block.toml", &format!("{BLOCK}{}", scattering("epistemic", "samples = 16\n", 0.05)));
     let run = study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "-q", "--details"]).ok();
@@ -268,9 +268,9 @@ fn it_is_told_in_sentences_and_refused_in_words() {
         format!("Uncertain overturning, Here, PGA: {mean:.1e} per year (90 % band {lower:.1e} to {upper:.1e})\n");
     assert!(answer.contains(&short), "{short}{answer}");
     for words in [
-        "What is not known of the structure (epistemic, every structure a branch): 64 structures, sobol, seed 1, 2,304 \
+        "Uncertain structure (epistemic, every structure a branch): 64 structures, sobol, seed 1, 2,304 \
          analyses",
-        "of the distribution lies where it cannot be, and is cut off",
+        "of the distribution is outside the possible range, and is cut off",
         "overturning, Here, PGA: ",
         "it owes that to ",
         "strength and capacity ",
@@ -313,7 +313,7 @@ fn zero_counts_are_reported_as_a_bound() {
                 assert_eq!((&of["at_most_per_year"], &result["as_described_at_most_per_year"]), (plain, plain));
             }
             let line = told.lines().find(|line| line.starts_with("overturning, Here, PGA: ")).unwrap();
-            let bound = format!("at most {:.1e} per year, for no run shows it", plain.as_f64().unwrap());
+            let bound = format!("at most {:.1e} per year: no run shows it", plain.as_f64().unwrap());
             assert_eq!(line.matches(&bound).count(), 2, "{line}");
             let short = format!("Uncertain overturning, Here, PGA: < {:.1e} per year\n", plain.as_f64().unwrap());
             assert!(answer.contains(&short), "{short}{answer}");
@@ -435,7 +435,7 @@ fn a_slip_that_makes_a_structure_impossible_is_named() {
         let overturning = ["overturning", "slip.toml", "--urs", "r.h5"];
         for (ask, code) in [(&overturning[..], 4), (&target[..], 2)] {
             let run = study.uplift(ask);
-            run.fails(code, &[&["cannot be (", "slip.toml", "mistake?"], &words[..]].concat());
+            run.fails(code, &[&["a sampled structure is invalid (", "slip.toml", "mistake?"], &words[..]].concat());
         }
     }
 }

@@ -179,7 +179,7 @@ fn samples_tables_and_figures() {
         .uplift(&["validate", "measured.csv", "computed.csv", "--by", "level", "--plot-pairs", "pairs.png", "-q"])
         .ok();
     assert!(std::fs::read(study.path().join("pairs.png")).unwrap().starts_with(b"\x89PNG"));
-    // nobody else's table gives way
+    // nobody else's table is overwritten
     study.uplift(&[&arguments[..], &["-o", "measured.csv"]].concat()).fails(2, &["measured.csv is there already"]);
     study
         .uplift(&["validate", "measured.csv", "computed.csv", "--by", "level", "-o", "computed.csv", "--force"])
@@ -233,7 +233,7 @@ fn very_many_motions() {
     assert_eq!((&group["kolmogorov_smirnov"]["is_exact"], &group["replicates"]), (&false.into(), &1000.into()));
     close(&group["kolmogorov_smirnov"]["distance"], 0.004_005);
     let notes = texts(&found["notes"]);
-    for words in ["p is Kolmogorov's", "bands are of 1000 replicates"] {
+    for words in ["p is Kolmogorov's", "the bands have only 1000 replicates"] {
         assert!(notes.iter().any(|note| note.contains(words)), "{notes:?}");
     }
     // and Ctrl-C takes a moment

@@ -69,7 +69,7 @@ impl Block {
             (Some(slenderness_rad), None, None, Some(size_m)) => RockingBlock::new(size_m, slenderness_rad),
             _ => {
                 return Err(PyValueError::new_err(
-                    "two numbers make a block: width_m and height_m, or slenderness_rad and one of width_m, height_m \
+                    "a block needs two numbers: width_m and height_m, or slenderness_rad and one of width_m, height_m \
                      and size_m",
                 ));
             }

@@ -34,7 +34,7 @@ impl Numbers {
         ])?;
         let post_uplift = match (self.capacity_m, self.post_uplift_stiffness_per_s2) {
             (Some(_), Some(_)) => {
-                let message = "capacity_m is of negative stiffness after uplift, and post_uplift_stiffness_per_s2 of a \
+                let message = "capacity_m needs a negative stiffness after uplift, post_uplift_stiffness_per_s2 is a \
                                positive one: give one of them";
                 return Err(PyValueError::new_err(message));
             }

@@ -1,7 +1,7 @@
 """Uniform risk spectra for rocking structures.
 
 The science in memory: records and hazard curves, the oscillator that uplifts, incremental dynamic analysis, fragility,
-risk and the spectra themselves, structures and frames, as arrays of numpy. And studies: `run` and `open_result`, whose
+risk and the spectra themselves, structures and frames, as arrays of numpy. Studies: `run` and `open_result`, whose
 results are datasets of xarray. Names, defaults and units are those of the study file; the numbers are those of the
 program ``uplift``, to the bit.
 

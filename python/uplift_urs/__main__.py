@@ -8,7 +8,7 @@ from ._program import find_program
 
 
 def main() -> None:
-    """The program in the place of this one."""
+    """Replace this process by the program."""
     program = os.fspath(find_program())
     if sys.platform == "win32":
         sys.exit(subprocess.run([program, *sys.argv[1:]]).returncode)

@@ -1,4 +1,4 @@
-"""What the program says of structures under the records and the hazard of a result."""
+"""Commands that assess structures with the records and the hazard of a result."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ StructureLike = _PathLike | Mapping[str, Any]
 
 
 class StructureCommands:
-    """The commands that ask a result of a structure; each returns what ``--json`` prints.
+    """The commands that assess a structure; each returns what ``--json`` prints.
 
     They compute the structure's own stripes under the result's records, and keep the answer in the file:
     ``result["structures/pier/design/..."]``, `Result.groups` has the places.
@@ -47,29 +47,29 @@ class StructureCommands:
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> dict[str, Any]:
-        """Designs a structure by the spectrum, and tests it by its own risk, as ``uplift design`` does.
+        """Checks a structure against the spectrum and by its own risk, as ``uplift design`` does.
 
         Parameters
         ----------
         structure : str, os.PathLike or mapping
             A structure file, or its keys.
         site, measure : str, optional
-            Without them the only site, and PGV if the result has it.
+            Default: the only site; PGV if the result has it.
         poe, return_period : float, optional
-            A probability of exceedance in `years`, or a return period in years; without them the smallest probability
+            A probability of exceedance in `years`, or a return period in years; default: the smallest probability
             of the study.
         repaired : bool
             Whether the repaired spectrum is read, after ``compute_consistency(repair=True)``.
         safety_factor : float, optional
-            FS of Eq. 3.15; 2.5 without it.
+            FS of Eq. 3.15; 2.5 by default.
         spectrum_only : bool
-            Whether the structure itself is not analysed.
+            Whether to apply the rules without analysing the structure.
         proxy : bool
-            Whether the frame that wobbles is left out, so that the verdict is that of its proxy.
+            Whether to judge the proxy alone, without the wobbling frame.
         manifest : str or os.PathLike, optional
-            The records' manifest, where it is no longer where the study says.
+            The records' manifest, if it was moved.
         report : str or os.PathLike, optional
-            A page to hand over (HTML), which is replaced with `force` only.
+            A design sheet to write (HTML); overwritten only with `force`.
 
         Returns
         -------
@@ -79,7 +79,7 @@ class StructureCommands:
         Raises
         ------
         StudyError, OSError, Cancelled
-            As of `run`.
+            As for `run`.
         """
         options = {
             "site": site,
@@ -110,19 +110,19 @@ class StructureCommands:
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> dict[str, Any]:
-        """Says how often a structure overturns, by oscillator, rigid block and frame, as ``uplift overturning`` does.
+        """Computes how often a structure overturns, as ``uplift overturning`` does: oscillator, rigid block, frame.
 
         Parameters
         ----------
         structure : str, os.PathLike or mapping
         site, measure : str, optional
-            Without them all of the result.
+            Default: all of the result.
         restitution : float, optional
-            One for both models, in place of their own.
+            Coefficient of restitution of both models, in place of their own.
         proxy : bool
-            Whether the frame that wobbles is left out.
+            Whether to leave out the wobbling frame.
         manifest
-            As of `compute_design`.
+            As for `compute_design`.
 
         Returns
         -------
@@ -167,27 +167,27 @@ class StructureCommands:
         ----------
         structure : str, os.PathLike or mapping
         vary : {"strength", "size", "width", "capacity", "tendon-stiffness"}
-            All else is kept.
+            Everything else is kept.
         overturning : float, optional
-            Overturning may happen so often a year.
+            Target annual rate of overturning.
         exceed : float or "capacity", optional
-            In place of it a displacement in m, or the structure's own capacity, that may be exceeded as rarely as one
-            of these says: `per_year` (1/yr), `poe` in `years`, `return_period` (years).
+            Target displacement, m, or the structure's own capacity, instead of overturning; with one of `per_year`
+            (1/yr), `poe` in `years`, `return_period` (years).
         between : tuple of float
-            Least and largest value tried, in SI units; without them a quarter and four times the structure's own.
+            Least and largest value tried, in SI units; default: a quarter and four times the structure's own.
         tolerance : float, optional
-            How near the values that meet and miss the target must lie, as a share; 0.005 without it.
+            Relative tolerance of the value; 0.005 by default.
         at : sequence of float, optional
-            Return periods, years, at whose levels the structure that was found is looked at.
+            Return periods, years, at whose levels the fragility is reported.
         generic_dispersion, generic_probability : float, optional
-            A generic lognormal fragility beside it: the risk-targeted motion.
+            A generic lognormal fragility to compare with: the risk-targeted motion.
         site, measure, manifest
-            As of `compute_design`.
+            As for `compute_design`.
 
         Returns
         -------
         dict
-            "value" and its "band", every crossing, what was tried.
+            "value" and its "band", every crossing, and every value tried.
         """
         options = {
             "vary": vary,
@@ -224,16 +224,16 @@ class StructureCommands:
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> dict[str, Any]:
-        """The risk of a rocking frame itself beside what its proxies say, as ``uplift risk`` does (Chapter 6).
+        """Computes the risk of a rocking frame, compared with its proxies, as ``uplift risk`` does (Chapter 6).
 
         Parameters
         ----------
         structure : str, os.PathLike or mapping
             With columns and a deck.
         model : {"wobbling", "planar"}, optional
-            Without it by the shape of the columns.
+            Default: by the shape of the columns.
         site, measure, poe, return_period, years, manifest
-            As of `compute_design`.
+            As for `compute_design`.
 
         Returns
         -------

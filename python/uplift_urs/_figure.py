@@ -22,7 +22,7 @@ class Figure:
         return self.svg
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the SVG to a file, which it replaces."""
+        """Writes the SVG to a file, overwriting it."""
         Path(path).write_text(self.svg, encoding="utf-8")
 
     def __repr__(self) -> str:

@@ -63,7 +63,7 @@ class Arrays(Mapping[str, np.ndarray[Any, Any]]):
     units : dict
         Unit of each array of numbers.
     arrays : dict
-        The arrays as they stand in the file, not read.
+        The arrays of the file, unread.
     """
 
     def __init__(self, arrays: dict[str, Array], attrs: dict[str, Any]) -> None:

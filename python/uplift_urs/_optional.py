@@ -1,4 +1,4 @@
-"""Modules that not everybody needs."""
+"""Optional modules."""
 
 from __future__ import annotations
 

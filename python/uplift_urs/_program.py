@@ -1,4 +1,4 @@
-"""The program ``uplift``: where it is, how it is called, and what it tells."""
+"""The program ``uplift``: find it, call it, and read its events."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ _GRACE_S = 1.0
 
 @dataclass(frozen=True)
 class Event:
-    """What a study tells while it is computed.
+    """An event of a computation.
 
     Attributes
     ----------
     kind : str
-        "begin", "advance" and "end" of a phase; "remark", "note" or "line", a text; "checkpoint", a file that holds
-        from now on what is finished.
+        "begin", "advance" and "end" of a phase; "remark", "note" or "line", a text; "checkpoint", the file of
+        what is finished.
     label, unit : str
         What the phase works on, and what its steps are called; empty before the first.
     done, total : int
@@ -37,7 +37,7 @@ class Event:
     text : str
         The text, or the path of the checkpoint.
     topic : str
-        Of a remark, in a word.
+        Topic of a remark, one word.
     """
 
     kind: Literal["begin", "advance", "end", "remark", "note", "line", "checkpoint"]
@@ -57,11 +57,11 @@ class Mistake:
     ----------
     message : str
     key : str
-        The key of the study, dotted; empty where it is none.
+        The key of the study, dotted; may be empty.
     line, column : int or None
         Its line in the study file, from 1.
     override : str or None
-        The override in which it is.
+        The override that contains it.
     help : str or None
         What to do about it.
     """
@@ -80,12 +80,12 @@ class Mistake:
 
 
 class StudyError(ValueError):
-    """What is asked for cannot be computed: a study with mistakes, input data that cannot be used, a wrong choice.
+    """The request cannot be computed: a mistake in the study, unusable input data, or a wrong choice.
 
     Attributes
     ----------
     mistakes : list of Mistake
-        All that was found at once, where there can be several.
+        All mistakes found.
     """
 
     def __init__(self, message: str, mistakes: Sequence[Mistake] = ()) -> None:
@@ -99,7 +99,7 @@ class Cancelled(RuntimeError):
 
 
 class UpliftWarning(UserWarning):
-    """What whoever uses the numbers should know."""
+    """A warning about the numbers."""
 
 
 Progress = Callable[[Event], object]
@@ -112,7 +112,7 @@ _FILE_ERRORS: dict[str, type[OSError]] = {
 
 
 def find_program() -> Path:
-    """Where the program is: as ``UPLIFT_PROGRAM`` says, in the scripts of this installation, or on the path.
+    """The path of the program: ``UPLIFT_PROGRAM``, the scripts of this installation, or the search path.
 
     Returns
     -------
@@ -121,7 +121,7 @@ def find_program() -> Path:
     Raises
     ------
     FileNotFoundError
-        If it is nowhere; the message says what to do.
+        If there is none; the message says what to do.
     """
     named = os.environ.get("UPLIFT_PROGRAM")
     if named:
@@ -154,20 +154,20 @@ def call(arguments: Sequence[str | os.PathLike[str]], *, progress: Progress | No
     ----------
     arguments : sequence of str or os.PathLike
     progress : callable, optional
-        Called with every `Event`; False stops the program, and so does what it raises.
+        Called with every `Event`; returning False or raising stops the program.
     text : str
         Its standard input.
 
     Raises
     ------
     StudyError, OSError
-        What the program refuses.
+        Requests that the program refuses.
     Cancelled
         If `progress` returned False, or something else stopped it.
     KeyboardInterrupt
         For Ctrl-C, once the program has stopped.
     RuntimeError
-        If the program ended without a reason of its own.
+        If the program ended without a message.
     """
     command = [find_program(), "--progress", "json", *arguments]
     pipe = subprocess.PIPE

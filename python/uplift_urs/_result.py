@@ -1,4 +1,4 @@
-"""Results: files that ``uplift run`` wrote, and what the program makes of them."""
+"""Results of ``uplift run``, and the commands on them."""
 
 from __future__ import annotations
 
@@ -48,9 +48,9 @@ def open_result(path: _PathLike, measure: str | None = None, *, verify: bool = T
     path : str or os.PathLike
         A file that ``uplift run`` wrote.
     measure : str, optional
-        The intensity measure that `Result.urs` and the like are of, "pga"; without it "pgv", or the first there is.
+        The intensity measure of `Result.urs` and the like, "pga"; by default "pgv", or the first of the result.
     verify : bool
-        Whether the bytes are checked. HDF5 may hang or crash on a damaged file that is not.
+        Whether the bytes are checked. HDF5 may hang or crash on a damaged file.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def open_result(path: _PathLike, measure: str | None = None, *, verify: bool = T
     Raises
     ------
     OSError
-        For a file that is not there, is no HDF5 file or is damaged.
+        For a file that is missing, damaged, or not HDF5.
     ValueError
         For a file of another program, or a measure that it does not have.
     ImportError
@@ -74,11 +74,11 @@ def _has_arrays(group: Mapping[str, Any]) -> bool:
 
 
 class Result(StructureCommands):
-    """A result file, seen by one of its intensity measures.
+    """A result file, with one of its intensity measures selected.
 
     The groups of the file are `xarray.Dataset`, or `Arrays` where xarray is not installed; names, units and attributes
-    are those of the file (docs/hdf5-layout.md). A group that the file does not have is a `ValueError` that says what
-    adds it.
+    are those of the file (docs/hdf5-layout.md). A missing group is a `ValueError` that names the command to
+    add it.
 
     Attributes
     ----------
@@ -88,10 +88,10 @@ class Result(StructureCommands):
     measures : list of str
         Intensity measures that the records were scaled to.
     measure : str
-        The one that `urs`, `ida` and so on are of.
+        The one selected for `urs`, `ida` and so on.
     sites : list of str
     summary : dict or None
-        What `run` told of it, with its "alarms"; none for a file that was opened.
+        The report of `run`, with its "alarms"; None for a file that was opened.
     """
 
     def __init__(
@@ -117,7 +117,7 @@ class Result(StructureCommands):
         self.measure = measure or ("pgv" if "pgv" in self.measures else next(iter(self.measures), ""))
 
     def of(self, measure: str) -> Result:
-        """The same result, seen by another intensity measure: ``result.of("pga").urs``."""
+        """The same result with another intensity measure: ``result.of("pga").urs``."""
         return Result(self.path, measure, summary=self.summary, verify=self._file.verify)
 
     def __getitem__(self, group: str) -> Dataset:
@@ -144,7 +144,7 @@ class Result(StructureCommands):
 
     @property
     def risk(self) -> Dataset:
-        """Annual frequencies of exceedance, ``maf_per_year``."""
+        """Annual rates of exceedance, ``maf_per_year``."""
         return self._of_measure("risk")
 
     @property
@@ -169,12 +169,12 @@ class Result(StructureCommands):
 
     @property
     def disaggregation(self) -> Dataset:
-        """Which intensities the risk comes from, after `compute_influence`."""
+        """Shares of the risk by intensity, after `compute_influence`."""
         return self._of_measure("disaggregation")
 
     @property
     def efficiency(self) -> Dataset:
-        """How well the measure tells the demand, after `compute_measures`."""
+        """Efficiency of the measure, after `compute_measures`."""
         return self._of_measure("efficiency")
 
     @property
@@ -235,7 +235,7 @@ class Result(StructureCommands):
         name : str
             "urs", "ida", "fragility", "consistency", ...: as the files of ``uplift plot`` are named.
         width : {"single", "double"}
-            That of a journal's column or page.
+            Width of a journal's column or page.
         """
         found = self.figures(name, width=width)
         for wanted in (name, f"{name}-{self.measure}"):
@@ -267,17 +267,17 @@ class Result(StructureCommands):
         ----------
         *formats : {"csv", "json", "mat", "xlsx"}
         output : str or os.PathLike, optional
-            The file, if one format is asked for; without it beside the result.
+            The file, for one format; by default beside the result.
         poe, return_period, years
-            Any probabilities, or return periods in years; without them those of the study.
+            Any probabilities, or return periods in years; by default those of the study.
         force : bool
-            Whether a file that the program did not write may be replaced.
+            Whether to overwrite existing files.
         """
         options = {"output": output, "poe": poe, "return_period": return_period, "years": years, "force": force}
         call(["export", self.path, *(f"--{name}" for name in formats), *command_options(options)])
 
     def report(self, output: _PathLike | None = None, *, force: bool = False) -> None:
-        """Writes one page with everything; without `output` beside the result, with the ending .html."""
+        """Writes a page with figures and tables; by default beside the result, with the ending .html."""
         call(["report", self.path, *command_options({"output": output, "force": force})])
 
     def verify(self) -> None:
@@ -307,7 +307,7 @@ class Result(StructureCommands):
         capacity_m : float, optional
             Displacement capacity, m: stiffness is negative after uplift (equal energy).
         repaired : bool
-            Whether the spectra repaired for hazard consistency are read, which have no band.
+            Whether to read the spectra repaired for hazard consistency.
 
         Returns
         -------
@@ -340,7 +340,7 @@ class Result(StructureCommands):
         force: bool = False,
         progress: Progress | None = None,
     ) -> list[dict[str, Any]]:
-        """Adds confidence bands to the file, as ``uplift bootstrap`` does; what is left out is the study's.
+        """Adds confidence bands to the file, as ``uplift bootstrap`` does; defaults are the study's.
 
         Returns
         -------
@@ -366,14 +366,14 @@ class Result(StructureCommands):
         force: bool = False,
         progress: Progress | None = None,
     ) -> list[dict[str, Any]]:
-        """Holds the records against the hazard of the other measure, as ``uplift consistency`` does.
+        """Checks the records against the hazard of the other measure, as ``uplift consistency`` does.
 
         Parameters
         ----------
         repair : bool
-            Whether weights are sought by which they agree; `consistency` has the spectra of these.
+            Whether to weight the records until they agree; `consistency` then has the repaired spectra.
         keep_weights : bool
-            Whether the weight of every run is kept.
+            Whether to keep the weight of every run.
 
         Returns
         -------
@@ -384,11 +384,11 @@ class Result(StructureCommands):
         return self._compute("consistency", options, progress)
 
     def compute_influence(self, *, force: bool = False, progress: Progress | None = None) -> list[dict[str, Any]]:
-        """Adds which records and which intensities carry the spectra, as ``uplift influence`` does."""
+        """Adds the influence of records and intensities on the spectra, as ``uplift influence`` does."""
         return self._compute("influence", {"force": force}, progress)
 
     def compute_measures(self, *, force: bool = False, progress: Progress | None = None) -> list[dict[str, Any]]:
-        """Adds how efficient and sufficient the intensity measures are, as ``uplift measures`` does."""
+        """Adds the efficiency and sufficiency of the intensity measures, as ``uplift measures`` does."""
         return self._compute("measures", {"force": force}, progress)
 
     def __repr__(self) -> str:

@@ -39,7 +39,7 @@ class SealedFile:
         Raises
         ------
         OSError
-            For a file that is not there, is no HDF5 file or is damaged.
+            For a file that is missing, damaged, or not HDF5.
         """
         h5py = optional("h5py", "results")
         found = os.stat(self.path)
@@ -54,7 +54,7 @@ class SealedFile:
 
 
 def _require_whole(path: Path) -> None:
-    """Refuses a file whose bytes are not those that were written."""
+    """Refuses a file that has changed since it was written."""
     with open(path, "rb") as file:
         if file.read(len(_SIGNATURE)) != _SIGNATURE:
             raise OSError(f"{path}: is not an HDF5 file: give the result that `uplift run` wrote")
@@ -63,8 +63,8 @@ def _require_whole(path: Path) -> None:
         seal = _SEAL.fullmatch(file.read())
         if seal is None:
             raise OSError(
-                f"{path}: the checksum at its end is missing: another program has written to it, or its end is lost: "
-                "take another copy or repeat the run; verify=False opens it unchecked"
+                f"{path}: the checksum at its end is missing: another program has changed it, or it is cut short: "
+                "use another copy or repeat the run; verify=False opens it unchecked"
             )
         file.seek(0)
         digest = hashlib.sha256()
@@ -75,4 +75,4 @@ def _require_whole(path: Path) -> None:
             digest.update(read)
             covered -= len(read)
     if digest.hexdigest().encode() != seal[1]:
-        raise OSError(f"{path}: some byte has changed, the file is damaged: take another copy or repeat the run")
+        raise OSError(f"{path}: it has changed since it was written: use another copy or repeat the run")

@@ -24,7 +24,7 @@ def structure(**keys: Any) -> Structure:
     Raises
     ------
     StudyError
-        A `ValueError`: for what is no structure, with all its mistakes.
+        A `ValueError` with all mistakes of the keys.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Studies: run by the program, so that the numbers are its own."""
+"""Studies, run by the program."""
 
 from __future__ import annotations
 
@@ -27,17 +27,16 @@ def run(
     Parameters
     ----------
     study : str, os.PathLike or mapping
-        A study file, whose paths start from its folder; or what would stand in one, ``{"pgv": {}, "records": {...}}``,
+        A study file, whose paths start from its folder; or its content, ``{"pgv": {}, "records": {...}}``,
         whose paths start from the current folder.
     output : str or os.PathLike, optional
-        The result file; without it the study's, which is results/<study>.h5 where it names none.
+        The result file; by default the study's, else results/<study>.h5.
     progress : callable, optional
-        Called with every `Event`; what it returns stops the run if it is False. What is finished then is kept, and the
-        same call goes on from there; so it is with Ctrl-C.
+        Called with every `Event`; returning False stops the run, as Ctrl-C does. The same call resumes it.
     threads : int, optional
-        Without it all cores; the numbers do not depend on it.
+        All cores by default; the numbers do not depend on it.
     force : bool
-        Whether the result of another study may be replaced.
+        Whether to overwrite the result of another study.
     **overrides
         Keys of the study that change: ``records={"first": 20}``, or dotted, ``**{"records.first": 20}``.
 
@@ -49,13 +48,13 @@ def run(
     Raises
     ------
     StudyError
-        A `ValueError`: for a study with mistakes or data that cannot be used; all of them, in `mistakes`.
+        A `ValueError` for a study with mistakes or unusable data; `mistakes` has all of them.
     OSError
-        For a file that cannot be read or written, or no program.
+        For a file that cannot be read or written, or a missing program.
     Cancelled
-        A `RuntimeError`: if `progress` returned False.
+        A `RuntimeError`, if `progress` returned False.
     KeyboardInterrupt
-        For Ctrl-C, with what is kept.
+        For Ctrl-C; what is finished is kept.
     ImportError
         If h5py is not installed.
     """
@@ -68,22 +67,22 @@ def run(
 
 
 def check(study: str | os.PathLike[str] | Mapping[str, Any], **overrides: Any) -> dict[str, Any]:
-    """Checks a study and its input data, and says what it would cost, as ``uplift check`` does.
+    """Checks a study and its input data, and estimates its cost, as ``uplift check`` does.
 
     Parameters
     ----------
     study, **overrides
-        As of `run`.
+        As for `run`.
 
     Returns
     -------
     dict
-        What the program would do, with "alarms" and "notes".
+        The plan of a run, with "alarms" and "notes".
 
     Raises
     ------
     StudyError, OSError
-        As of `run`.
+        As for `run`.
     """
     arguments, text = _arguments(study, overrides)
     plan: dict[str, Any] = json.loads(call(["check", "--json", *arguments], text=text))

@@ -67,23 +67,23 @@ def sweep(
     force: bool = False,
     **overrides: Any,
 ) -> Sweep:
-    """Runs variants of a study and compares them, as ``uplift sweep`` does; what two have in common is computed once.
+    """Runs variants of a study and compares them, as ``uplift sweep`` does; shared responses are computed once.
 
     Parameters
     ----------
     study : str or os.PathLike
         A study file of uniform risk spectra.
     over : mapping, str or os.PathLike
-        Values of keys, every combination of which is a variant: ``{"oscillator.restitution": [0.85, 0.95]}``; or a
+        Values of keys; every combination is a variant: ``{"oscillator.restitution": [0.85, 0.95]}``; or a
         table of variants (CSV), a column a key, a row a variant.
     output : str or os.PathLike, optional
-        The folder; results/<study>.sweep without it.
+        The folder; results/<study>.sweep by default.
     progress, threads
-        As of `run`.
+        As for `run`.
     force : bool
-        Whether files that this sweep did not write may be replaced.
+        Whether to overwrite existing files.
     **overrides
-        Keys that change for all variants, as of `run`.
+        Keys that change for all variants, as for `run`.
 
     Returns
     -------
@@ -92,7 +92,7 @@ def sweep(
     Raises
     ------
     StudyError, OSError, Cancelled
-        As of `run`.
+        As for `run`.
 
     Examples
     --------

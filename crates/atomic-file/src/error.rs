@@ -34,8 +34,11 @@ pub enum FileError {
     },
 }
 
-/// The operating system's reason, without its number.
+/// The operating system's reason in plain words, without its number.
 pub fn reason(error: &io::Error) -> String {
+    if error.kind() == io::ErrorKind::NotFound {
+        return "there is no such file or folder".to_owned();
+    }
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or_default().to_owned()
 }

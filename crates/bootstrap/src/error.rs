@@ -46,10 +46,10 @@ pub enum BootstrapError {
         found: u64,
     },
     /// Records of a single earthquake, which are to be drawn with their earthquakes.
-    #[error("all records are of one earthquake: there is no other choice of earthquakes to draw")]
+    #[error("all records are of one earthquake: there are no earthquakes to resample")]
     OneEvent,
     /// Records of a single pair, which are to be drawn with their pairs.
-    #[error("all records are of one pair: there is no other choice of pairs to draw")]
+    #[error("all records are of one pair: there are no pairs to resample")]
     OnePair,
     /// Demand and hazard that do not belong together.
     #[error(transparent)]

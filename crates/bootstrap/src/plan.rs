@@ -15,10 +15,10 @@ const EVENTS: &[u8; 24] = b"uplift bootstrap  events";
 /// The same for draws of pairs.
 const PAIRS: &[u8; 24] = b"uplift bootstrap   pairs";
 
-/// The same for samples that are drawn anew.
+/// The same for samples that are drawn again.
 const ANEW: &[u8; 24] = b"uplift bootstrap    anew";
 
-/// How often a sample is drawn anew, at most.
+/// How often a sample is drawn again, at most.
 const MOST_DRAWS: u32 = 1000;
 
 /// Largest sample size.
@@ -110,8 +110,8 @@ impl ResamplingPlan {
         Ok(Some(Self { record_count: records, replicates, sizes: sizes.to_vec(), samples, groups }))
     }
 
-    /// The same with every sample that `is_whole` refuses, given how often it draws each record, drawn anew until it is
-    /// taken, from a stream of its own; and how many these are. One that is refused 1000 times stays as it is.
+    /// The same with every sample that `is_whole` refuses, given how often it draws each record, drawn again until it
+    /// is taken, from a stream of its own; and how many these are. One that is refused 1000 times stays as it is.
     ///
     /// # Errors
     /// None is known: the samples are those of a plan.

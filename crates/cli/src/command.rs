@@ -54,7 +54,7 @@ pub(crate) struct Arguments {
     /// Print only results and errors
     #[arg(long, short, global = true, help_heading = GENERAL)]
     pub(crate) quiet: bool,
-    /// Show every table
+    /// Show every table and warning
     #[arg(long, global = true, help_heading = GENERAL)]
     pub(crate) details: bool,
     /// Form of progress and errors on standard error

@@ -28,7 +28,7 @@ const EXIT_INTERRUPTED: u8 = 5;
 /// How long an interrupted program may take to come to a good end by itself.
 const GRACE: Duration = Duration::from_millis(800);
 
-/// How people or programs are told what a command does.
+/// How people or programs are reported what a command does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Form {
     /// Lines and a bar, for people
@@ -86,7 +86,7 @@ impl Terminal {
         terminal
     }
 
-    /// Whether only results and errors are told.
+    /// Whether only results and errors are reported.
     pub(crate) fn is_quiet(&self) -> bool {
         self.quiet
     }
@@ -184,7 +184,7 @@ impl Events for Terminal {
 
     fn writing_into(&self, folder: &Path) {
         self.set_interruption_message(format!(
-            "interrupted: files in {} are of this run or an earlier one. Run the same command again",
+            "interrupted: files in {} may be from an earlier run. Run the same command again",
             folder.display()
         ));
     }

@@ -11,7 +11,7 @@ use crate::NoRepair;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ConsistencyError {
     /// A set of no records.
-    #[error("the record set is empty: consistency needs one record at least, and 20 to be repaired")]
+    #[error("the record set is empty: give at least one record, and 20 for a repair")]
     NoRecords,
     /// An intensity that cannot be scaled.
     #[error("record {record}, counted from 0: its {what} is {value}: it must be finite and above 0")]
@@ -49,7 +49,7 @@ pub enum ConsistencyError {
         expected: usize,
     },
     /// A sample that draws no record.
-    #[error("the sample draws no record: one multiplicity at least must be above 0")]
+    #[error("the sample draws no record: at least one multiplicity must be above 0")]
     NothingDrawn,
     /// The set cannot be repaired; [`NoRepair::sentence`] says it in the words of a site.
     #[error("the records cannot be weighted to the site's hazard: {0:?}")]

@@ -9,7 +9,7 @@ use crate::{ConsistencyError, Diagnosis, NoRepair, ScaledAnalysis, Warning};
 /// Fewer effective records than this are no repair.
 const TOO_FEW: f64 = 5.0;
 
-/// What a repair may be told.
+/// What a repair may be reported.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RepairOptions {
     /// Weight of the second differences of the exponents in the fit.

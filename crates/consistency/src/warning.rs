@@ -12,7 +12,7 @@ const LARGEST_EVENT_SHARE: f64 = 0.5;
 /// ln q should scatter by this much at least at the stripes of the targets.
 const LEAST_SCATTER: f64 = 0.35;
 
-/// A larger share of resamples that do not reach the curve is told.
+/// A larger share of resamples that do not reach the curve is reported.
 const MOST_FAILED_RESAMPLES: f64 = 0.05;
 
 /// Something about a repaired set that its reader should know; the limits are judgement, not calibrated.
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn failed_resamples_are_told_above_five_per_cent() {
+    fn failed_resamples_are_reported_above_five_per_cent() {
         assert_eq!(Warning::of_resamples(20, 50, 1000), None);
         let warning = Warning::of_resamples(20, 250, 1000).unwrap();
         assert_eq!(warning, Warning::FailedResamples { size: 20, share: 0.25 });

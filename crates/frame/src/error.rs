@@ -37,7 +37,7 @@ pub enum FrameError {
         /// The vertical ground acceleration, m/s².
         acceleration_m_s2: f64,
     },
-    /// The springs are flat, and nothing else gives way.
+    /// The springs are flat, and nothing else yields.
     #[error(
         "at {time_s:.4} s the columns have turned by {rotation_rad:.5} rad, where their springs are flat and stop them \
          (`when_flat` = \"stop\"): what follows is an impact that this model does not describe"

@@ -1,4 +1,4 @@
-//! Restrainers in motion: kinks are steps' ends, stoppers yield once, events are told.
+//! Restrainers in motion: kinks are steps' ends, stoppers yield once, events are reported.
 
 use uplift_frame::{
     ColumnShape, FrameState, GroundMotion, Model, Options, PulseShape, RockingFrame, Start, Until, respond,
@@ -75,7 +75,7 @@ fn a_loose_tendon_does_nothing_until_it_is_taut() {
     assert_eq!(between.events.iter().filter(|event| event.event == EventKind::SlackTaken).count(), 1);
 }
 
-/// A spring and a tendon in series are one spring, whether the law is told as one or as two.
+/// A spring and a tendon in series are one spring, whether the law is reported as one or as two.
 #[test]
 fn a_linear_spring_behind_a_tendon() {
     let tendon = Tendon { stiffness_n_m: 13e6, yield_n: Some(10e3), failure_n: None };

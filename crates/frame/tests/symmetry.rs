@@ -33,7 +33,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     /// A turned pair turns the path: the largest travel stays. Swapped components swap the travels. How much less than
-    /// exactly depends on the tilt at uplift, from which the direction is told.
+    /// exactly depends on the tilt at uplift, from which the direction is reported.
     #[test]
     fn turned_and_swapped_components(
         x in 2.0..3.5_f64, y in 0.6..2.5_f64, tx in 0.4..0.9_f64, ty in 0.4..0.9_f64, angle in 0.1..6.2_f64,

@@ -124,10 +124,7 @@ pub enum HazardError {
         expected: &'static str,
     },
     /// No conversion is known between two units.
-    #[error(
-        "hazard curve of {measure}: cannot convert \"{from}\" to \"{to}\"; known are cm/s and m/s, and g, m/s2 and \
-         cm/s2"
-    )]
+    #[error("hazard curve of {measure}: cannot convert \"{from}\" to \"{to}\"; use cm/s or m/s, or g, m/s2 or cm/s2")]
     Conversion {
         /// The measure.
         measure: String,
@@ -269,7 +266,7 @@ pub enum HazardError {
     // Names and exports
     /// A way to combine horizontal components that is not known.
     #[error(
-        "component definition {found} is not known; use one of {accepted}",
+        "unknown component definition {found}; use one of {accepted}",
         accepted = crate::ComponentDefinition::ACCEPTED
     )]
     Component {

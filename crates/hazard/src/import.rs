@@ -30,7 +30,7 @@ use std::path::Path;
 
 use crate::curve::HazardCurve;
 use crate::error::{HazardError, Place};
-use crate::input::{self, Input};
+use crate::input::{self, Input, unreadable_because};
 pub use disaggregation::{Disaggregation, read_disaggregation};
 use entry::Entry;
 pub use realizations::{RealizationWeight, read_realization_weights};
@@ -264,7 +264,7 @@ impl Iterator for ExportedCurves {
 }
 
 fn unreadable(name: &str, error: &io::Error) -> HazardError {
-    HazardError::File { file: name.to_owned(), reason: format!("cannot be read: {error}") }
+    HazardError::File { file: name.to_owned(), reason: unreadable_because(error) }
 }
 
 /// Coordinates that can be ones.

@@ -17,11 +17,19 @@ pub(crate) type Input = Box<dyn BufRead + Send>;
 /// [`HazardError::File`] for what is missing or no file.
 pub(crate) fn open(path: &Path) -> Result<Input, HazardError> {
     let fail = |reason: &str| HazardError::File { file: path.display().to_string(), reason: reason.to_owned() };
-    let unreadable = |error: io::Error| fail(&format!("cannot be read: {error}"));
+    let unreadable = |error: io::Error| fail(&unreadable_because(&error));
     if !std::fs::metadata(path).map_err(unreadable)?.is_file() {
         return Err(fail("not a file; name a file that holds hazard curves"));
     }
     unpacked(BufReader::new(File::open(path).map_err(unreadable)?)).map_err(unreadable)
+}
+
+/// Why a file cannot be read, without the number that the operating system has for it.
+pub(crate) fn unreadable_because(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => format!("cannot be read: {}", error.to_string().split(" (os error").next().unwrap_or_default()),
+    }
 }
 
 /// The content of `reader`, which gzip may have packed.
@@ -47,7 +55,7 @@ pub(crate) fn peek(reader: &mut impl BufRead, count: u64) -> io::Result<Vec<u8>>
 pub(crate) fn text(input: Input, name: &str, limit: u64, advice: &str) -> Result<String, HazardError> {
     let fail = |reason: String| HazardError::File { file: name.to_owned(), reason };
     let mut bytes = Vec::new();
-    input.take(limit + 1).read_to_end(&mut bytes).map_err(|error| fail(format!("cannot be read: {error}")))?;
+    input.take(limit + 1).read_to_end(&mut bytes).map_err(|error| fail(unreadable_because(&error)))?;
     if bytes.len() as u64 > limit {
         return Err(fail(format!("larger than {limit} bytes: {advice}")));
     }

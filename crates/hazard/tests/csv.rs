@@ -134,7 +134,7 @@ fn every_broken_line_is_named() {
             "iml;maf\n0,1;0.2\n",
             "site.csv: line 2: 0,1 has a decimal comma, and 0.2 (line 2) a decimal point: write one of them throughout",
         ),
-        ("iml;maf\n1,500;3\n", "site.csv: line 2: 1,500 may be 1.500 or 1500, and no other number tells"),
+        ("iml;maf\n1,500;3\n", "site.csv: line 2: 1,500 may be 1.500 or 1500: write decimal points"),
         ("iml,maf\n1,0.2\n2,x\n", "site.csv, line 3: \"x\" is not a number"),
         ("iml,maf\n1,0.2\n2,nan\n", "site.csv, line 3: \"nan\" is not a finite number"),
         ("iml,maf\n1,0.2\n2\n", "site.csv, line 3: 1 columns where 2 are expected; keep one column"),

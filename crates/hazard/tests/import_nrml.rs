@@ -100,7 +100,7 @@ fn what_is_wrong_is_named() {
         (one("IMT=\"PGA\"", good), "x.xml, line 3: hazardCurves without attribute investigationTime"),
         (one("investigationTime=\"1\"", good), "x.xml, line 3: hazardCurves without attribute IMT"),
         (one("IMT=\"SA\" investigationTime=\"1\"", good), "x.xml, line 3: IMT SA without saPeriod"),
-        (one("IMT=\"MMI\" investigationTime=\"1\"", good), "x.xml, line 3: the unit of intensity measure \"MMI\""),
+        (one("IMT=\"MMI\" investigationTime=\"1\"", good), "x.xml, line 3: unknown unit of intensity measure \"MMI\""),
         (one(&MEAN.replace("mean", "std"), good), "x.xml, line 3: statistics \"std\" is neither mean nor quantile"),
         (one(&MEAN.replace("mean", "quantile"), good), "x.xml, line 3: statistics \"quantile\" is neither"),
         (

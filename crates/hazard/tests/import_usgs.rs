@@ -129,7 +129,7 @@ fn what_is_wrong_is_named() {
         (changed("/response/hazardCurves/0", json!(7)), "x.json: a block: it does not say its measure"),
         (
             changed("/response/hazardCurves/0/imt/value", json!("CAV")),
-            "x.json, \"CAV\": the unit of intensity measure \"CAV\"",
+            "x.json, \"CAV\": unknown unit of intensity measure \"CAV\"",
         ),
         (changed("/response/hazardCurves/0/data", json!([])), "x.json: \"PGA\": no curve of the component \"Total\""),
         (changed(&format!("{total}/component"), json!("Slab")), "x.json: \"PGA\": no curve of the component \"Total\""),

@@ -101,7 +101,7 @@ pub fn complete(
             }
             known.fill(true);
             keep(&AnalysisRow { motion, system, displacement_m, impacts });
-            // what is run one by one is told one by one
+            // what is run one by one is reported one by one
             let told = if shaken.is_swept() { 0 } else { missing.len() * grounds.len() };
             watch.finished((plan.histories_of(motion) - told) as u64);
             Ok(())

@@ -46,7 +46,7 @@ pub enum IdaError {
         expected: usize,
     },
     /// A motion that is run at no scale.
-    #[error("record {motion}: is run at no scale: leave it out")]
+    #[error("record {motion}: has no scale factor: leave it out")]
     NoRun {
         /// The motion.
         motion: String,
@@ -64,8 +64,7 @@ pub enum IdaError {
     /// A scale factor that makes noise of a record, or a motion that no ground has.
     #[error(
         "record {motion}: its scale factor {index} is {value:e}, which makes its largest acceleration {peak_m_s2:e} \
-         m/s2: at most {MOST_SCALE:e} and {MOST_PEAK_M_S2:e} m/s2 are computed; is the unit of the record right, and \
-         does it move at all?"
+         m/s2: at most {MOST_SCALE:e} and {MOST_PEAK_M_S2:e} m/s2 are allowed; is the unit of the record right?"
     )]
     Implausible {
         /// The motion.
@@ -80,7 +79,7 @@ pub enum IdaError {
     /// The arithmetic of a run left the numbers: its peak is NaN, or infinite for a system that cannot overturn.
     #[error(
         "record {motion}, scale factor {scale}, {system}: the displacement comes out as {displacement_m} m, which is \
-         no number: the record or the system is beyond what can be computed; leave it out, and please report it"
+         not a number: leave the record or the system out, and please report it"
     )]
     NotFinite {
         /// The motion.
@@ -143,8 +142,8 @@ pub enum IdaError {
     },
     /// Azimuths that no percentile can be taken of.
     #[error(
-        "percentile {percentile} of azimuths: it must be from 0 to 100, every motion must be seen from as many \
-         azimuths, and a model that feels both components has no azimuth"
+        "percentile {percentile} of azimuths: it must be from 0 to 100, every motion needs the same number of \
+         azimuths, and a model shaken by both components has none"
     )]
     Azimuths {
         /// The percentile.

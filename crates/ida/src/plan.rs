@@ -141,7 +141,7 @@ impl<'a> Plan<'a> {
         systems: &'a [System],
         (with_free_peak, with_gaps): (bool, bool),
     ) -> Result<Self, IdaError> {
-        // whoever asks for other instructions than there are is told, before anything is computed
+        // whoever asks for other instructions than there are is reported, before anything is computed
         InstructionSet::chosen().map_err(IdaError::Instructions)?;
         let expected = motions.first().ok_or(IdaError::Empty { what: called })?.scales.len();
         for (what, length) in [("systems", systems.len()), ("scale factors", expected)] {
@@ -240,7 +240,7 @@ impl<'a> Plan<'a> {
             Some(format!("{} by {:.4} (scale factor {first})", motion.id, motion.scales[first]))
         };
         let mut falling: Vec<String> = self.motions.iter().zip(upwards).filter_map(falls).collect();
-        // both components of a pair are told once
+        // both components of a pair are reported once
         falling.dedup();
         falling
     }

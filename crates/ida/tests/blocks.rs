@@ -90,7 +90,7 @@ impl Watch for Counting {
 }
 
 #[test]
-fn it_counts_its_runs_and_stops_when_told() {
+fn it_counts_its_runs_and_can_be_stopped() {
     let (records, systems) = (records(), systems());
     let plan = plan(&records, &systems, true);
     let patient = Counting(AtomicU64::new(0), u64::MAX);

@@ -267,7 +267,7 @@ fn systems_of_one_identity_are_the_same() {
 }
 
 #[test]
-fn the_time_of_any_plan_can_be_told() {
+fn the_time_of_any_plan_can_be_estimated() {
     let case = Case::of_both_kinds();
     let found = estimate(&case.plan(), std::time::Duration::ZERO);
     assert!(found.rows_timed == 12 && found.seconds_one_thread > 0.0, "{found:?}");

@@ -39,7 +39,7 @@ from!(
     Vec<String> => TextArray, &[String] => TextArray,
 );
 
-/// Writes an attribute; one of the same name gives way.
+/// Writes an attribute; one of the same name is overwritten.
 pub(super) fn write(location: &Location, name: &str, value: &AttributeValue) -> hdf5::Result<()> {
     if location.attr(name).is_ok() {
         location.delete_attr(name)?;

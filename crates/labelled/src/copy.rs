@@ -1,7 +1,7 @@
 //! Carrying a file over into a new one: how an existing file is extended.
 //!
 //! A file is never changed in place: a failure, or a full disk, would leave neither the old nor the new one. It is
-//! written anew, with what is added, and then takes the place of the old one at once.
+//! written again, with what is added, and then takes the place of the old one at once.
 
 use std::collections::BTreeSet;
 

@@ -28,14 +28,14 @@ pub enum LabelledError {
         bytes: u64,
     },
     /// The file does not end with its checksum.
-    #[error("{}: the checksum at its end is missing: another program has written to it, or its end is lost: take \
-             another copy or repeat the run", path.display())]
+    #[error("{}: the checksum at its end is missing: another program has changed it, or it is cut short. Use another \
+             copy or repeat the run", path.display())]
     Unsealed {
         /// The file.
         path: PathBuf,
     },
     /// The file is not as it was written.
-    #[error("{}: {}is not as it was written, the file is damaged: take another copy or repeat the run", path.display(),
+    #[error("{}: {}has changed since it was written: use another copy or repeat the run", path.display(),
             object.as_ref().map(|object| format!("{object} ")).unwrap_or_default())]
     Damaged {
         /// The file.

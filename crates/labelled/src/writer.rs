@@ -83,7 +83,7 @@ impl LabelledWriter {
         Ok(())
     }
 
-    /// Sets the attribute `name` of the group or array `object`; one of the same name gives way.
+    /// Sets the attribute `name` of the group or array `object`; one of the same name is overwritten.
     ///
     /// # Errors
     /// [`LabelledError::Misuse`] where `object` does not exist yet or the name or text cannot be stored,

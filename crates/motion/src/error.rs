@@ -4,6 +4,19 @@ use std::path::PathBuf;
 
 use crate::recording::RecordFormat;
 
+/// Why a file cannot be read, without the number that the operating system has for it.
+fn unreadable_because(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => format!("cannot be read: {}", error.to_string().split(" (os error").next().unwrap_or_default()),
+    }
+}
+
+/// A number with six digits.
+fn six_digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
 /// What can be wrong with ground motions given from outside.
 ///
 /// In every variant `name` is the file (or record) as the caller called it, and `line` counts
@@ -70,7 +83,7 @@ pub enum MotionError {
         accepted: &'static str,
     },
     /// A file cannot be opened or read.
-    #[error("cannot read {}: {reason}", path.display())]
+    #[error("{}: {}", path.display(), unreadable_because(reason))]
     Unreadable {
         /// The file.
         path: PathBuf,
@@ -256,8 +269,10 @@ pub enum MotionError {
     },
     /// The times of a two-column file are not equally spaced.
     #[error(
-        "{name}, line {line}: time {time_s} s, expected {expected_s} s at a uniform step of \
-         {dt_s} s (tolerance a quarter of it); resample the record to a uniform step{hint}"
+        "{name}, line {line}: time {time_s} s, expected {} s at a uniform step of {} s (within a quarter of it); \
+         resample the record to a uniform step{hint}",
+        six_digits(*expected_s),
+        six_digits(*dt_s)
     )]
     UnevenTime {
         /// The file.

@@ -13,7 +13,7 @@ pub use period::Period;
 /// A further measure is a further variant; whatever depends on the measure is a `match` over all of them, so that
 /// nothing compiles until the new one is given its names, its value of a component and its place elsewhere.
 ///
-/// They rise in the order in which they are told: PGV first, as in Chapter 4.
+/// They rise in the order in which they are reported: PGV first, as in Chapter 4.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum IntensityMeasure {
     /// Peak ground velocity \[cm/s\] (Eq. 4.6).

@@ -152,7 +152,7 @@ pub fn selection_from(bytes: &[u8], name: &str, measure: IntensityMeasure) -> Re
         Err(wrong(
             name,
             None,
-            "it is none of what is known: haselREC's …_summary_selection.txt, CS_Selection's Output_File.dat, EzGM's \
+            "unknown format; supported: haselREC's …_summary_selection.txt, CS_Selection's Output_File.dat, EzGM's \
              GMR_H1_names.txt or GMR_names.txt, Djura's records_….json",
         ))
     }?;

@@ -46,7 +46,7 @@ fn assert_is(
 }
 
 #[test]
-fn every_tool_is_told_by_its_content_and_read_as_it_writes() {
+fn every_tool_is_detected_and_read() {
     use SelectedComponent::{Numbered, OfFile, Pair};
     let of_esm = SelectedName::EventStation { event: "XX-2001-0001".into(), station: "STB".into() };
     let rsn = SelectedName::SequenceNumber(12);
@@ -121,7 +121,7 @@ fn the_level_is_that_of_the_measure() {
 }
 
 #[test]
-fn mistakes_are_told_with_their_line() {
+fn mistakes_are_reported_with_their_line() {
     for (bytes, from, to, words) in [
         (HASELREC, "1.25", "0.00", "line 5: the scale factor is \"0.00\""),
         (HASELREC, " 12 ", " twelve ", "line 5: recID is \"twelve\""),
@@ -139,7 +139,7 @@ fn mistakes_are_told_with_their_line() {
         (DJURA, "\"sf\": [1.25, 0.8]", "\"sf\": [1.25, NaN]", "the scale factor is \"null\""),
         (DJURA, "\"H2\"]", "\"V\"]", "record 2: gm_components is \"V\""),
         (DJURA, "\"sf\"", "\"factors\"", "missing field `sf`"),
-        (b"record_id,pgv_cm_s\n", "", "", "none of what is known"),
+        (b"record_id,pgv_cm_s\n", "", "", "unknown format"),
         (b"num source recID scale_factor\n", "", "", "it names no record"),
     ] {
         let text = std::str::from_utf8(bytes).unwrap().replacen(from, to, 1);

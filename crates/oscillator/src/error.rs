@@ -31,9 +31,9 @@ pub enum OscillatorError {
     },
     /// The oscillator is so stiff, or falls so steeply, that no motion resolves it and no run of it ends in time.
     #[error(
-        "the stiffness {branch} is {stiffness_per_s2:e} 1/s²: it must be {most_per_s2:e} 1/s² at most (16 kHz); \
-         strength {strength}, gravity_m_s2 = {gravity_m_s2} and uplift_displacement_m = {uplift_displacement_m} make \
-         it, with the capacity or the stiffness after uplift: is one of them in another unit?"
+        "the stiffness {branch} is {stiffness_per_s2:e} 1/s²: it must be {most_per_s2:e} 1/s² at most (16 kHz); it \
+         follows from strength {strength}, gravity_m_s2 = {gravity_m_s2} and uplift_displacement_m = \
+         {uplift_displacement_m}, with the capacity or the stiffness after uplift: is one of them in another unit?"
     )]
     TooStiff {
         /// While attached or after uplift.

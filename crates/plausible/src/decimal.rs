@@ -63,8 +63,7 @@ impl<P: fmt::Display> DecimalMarks<P> {
             (Some((at, comma)), None) if !self.is_certain => {
                 let [point, whole] = [".", ""].map(|mark| comma.replace(',', mark));
                 Err(AmbiguousMarks(format!(
-                    "{at}: {comma} may be {point} or {whole}, and no other number tells: write decimal points, and \
-                     nothing between thousands"
+                    "{at}: {comma} may be {point} or {whole}: write decimal points, and nothing between thousands"
                 )))
             }
             (comma, _) => Ok(comma.is_some()),

@@ -16,7 +16,7 @@ use crate::sheet::elevation;
 /// Name of the drawing of a structure, .svg.
 const ELEVATION: &str = "elevation";
 
-/// Draws a pushover as `file`, whose ending tells the format.
+/// Draws a pushover as `file`, in the format of its ending.
 ///
 /// # Errors
 /// A file that cannot be written.
@@ -24,7 +24,7 @@ pub fn plot_pushover(report: &PushoverReport, file: &Path) -> Result<(), UpliftE
     write_figure_file(&pushover_figure(report), file)
 }
 
-/// Draws a restrainer as `file`, whose ending tells the format.
+/// Draws a restrainer as `file`, in the format of its ending.
 ///
 /// # Errors
 /// A file that cannot be written.
@@ -32,7 +32,7 @@ pub fn plot_restrainer(report: &RestrainerCurve, file: &Path) -> Result<(), Upli
     write_figure_file(&restrainer_figure(report), file)
 }
 
-/// Draws a loading protocol as `file`, whose ending tells the format.
+/// Draws a loading protocol as `file`, in the format of its ending.
 ///
 /// # Errors
 /// A file that cannot be written.

@@ -83,7 +83,7 @@ pub fn check_figure_file(file: &Path, inputs: &[impl AsRef<Path>], force: bool) 
     Ok(outputs::check(&[Output::new(file, OutputKind::Figure)], inputs, force)?)
 }
 
-/// Writes `figure`, as wide as a page, to `file`, whose ending tells the format.
+/// Writes `figure`, as wide as a page, to `file`, in the format of its ending.
 ///
 /// # Errors
 /// A file that cannot be written, and no font for a PNG.

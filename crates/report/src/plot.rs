@@ -20,7 +20,7 @@ use crate::figures::{
 };
 use crate::files::{FigureOptions, check_figure_file, write_figure_file};
 
-/// Curves that a figure can tell apart, and then some.
+/// Curves that a figure can distinguish, and then some.
 const MOST_CURVES: usize = 50;
 
 /// Which figures of a result are drawn, and where.
@@ -34,7 +34,7 @@ pub struct PlotOptions {
     pub only: Option<String>,
     /// How they are written.
     pub figures: FigureOptions,
-    /// Whether whatever is at the places of the figures gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 
@@ -75,7 +75,7 @@ pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, Up
         }
         files.extend(options.figures.write(figure, &folder, &mark)?);
     }
-    // after what was drawn anew
+    // after what was drawn again
     result.tell_made_of_another(events)?;
     Ok(PlotReport { files })
 }
@@ -135,7 +135,7 @@ pub fn plot_frame_response(report: &FrameResponseReport, file: &Path) -> Result<
 }
 
 fn no_history() -> UpliftError {
-    JobError::Usage("the response was computed without its time history: ask for it".to_owned()).into()
+    JobError::Usage("the response was computed without its time history: request it".to_owned()).into()
 }
 
 /// The record and its scale, for a title.
@@ -143,7 +143,7 @@ fn shaken(by: &ShakenBy) -> String {
     format!("{} times {}", by.record.file_name().unwrap_or_default().to_string_lossy(), by.scale)
 }
 
-/// Draws the collapse fragility of a structure as `file`, whose ending tells the format.
+/// Draws the collapse fragility of a structure as `file`, in the format of its ending.
 ///
 /// # Errors
 /// As [`write_figure_file`].
@@ -166,15 +166,14 @@ pub fn plot_validation(report: &ValidateReport, file: &Path) -> Result<(), Uplif
 pub fn plot_validation_pairs(report: &ValidateReport, file: &Path) -> Result<(), UpliftError> {
     if report.key.is_empty() {
         return Err(JobError::Usage(
-            "computed over measured peaks are drawn of pairs: name by --key the column that says which rows are of the \
-             same motion"
-                .to_owned(),
-        ).into());
+            "computed over measured peaks needs pairs: name the column that identifies the motion by --key".to_owned(),
+        )
+        .into());
     }
     write_figure_file(&pairs_figure(report), file)
 }
 
-/// Draws the risk of a frame beside its proxies as `file`, whose ending tells the format.
+/// Draws the risk of a frame beside its proxies as `file`, in the format of its ending.
 ///
 /// # Errors
 /// As [`write_figure_file`].
@@ -182,7 +181,7 @@ pub fn plot_frame_risk(report: &FrameRiskReport, file: &Path) -> Result<(), Upli
     write_figure_file(&frame_risk_figure(report), file)
 }
 
-/// Draws the spectra of all variants of a study as `file`, whose ending tells the format.
+/// Draws the spectra of all variants of a study as `file`, in the format of its ending.
 ///
 /// # Errors
 /// As [`write_figure_file`].
@@ -199,7 +198,7 @@ pub struct HazardPlotOptions {
     pub curves: CurveOptions,
     /// The figure, .svg or .png.
     pub output: PathBuf,
-    /// Whether whatever is at the place of the figure gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 

@@ -20,7 +20,7 @@ pub struct ReportOptions {
     pub output: Option<PathBuf>,
     /// The risks of the spectra.
     pub risk: AskedRisk,
-    /// Whether whatever is at the place of the page gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 
@@ -37,19 +37,19 @@ pub struct PageReport {
 /// A result that is missing, damaged or without sites; a file that cannot be written.
 pub fn report(options: &ReportOptions, events: &dyn Events) -> Result<PageReport, UpliftError> {
     let Some(first) = options.results.first() else {
-        return Err(JobError::Usage("a report is of one result or more: give one".to_owned()).into());
+        return Err(JobError::Usage("give at least one result".to_owned()).into());
     };
     let file = options.output.clone().unwrap_or_else(|| beside(first, "html"));
     let output = Output::new(&file, OutputKind::Page).with_result(first);
     outputs::check(&[output], &options.results, options.force)?;
-    // what is no result at all is told as what it is
+    // what is no result at all is reported as what it is
     for other in options.results.iter().filter(|path| !is_hdf5(path)) {
         ResultFile::open(other)?;
     }
     // what is handed over says nothing of a file that is not as it was written, even where it would not show
     require_whole(&options.results)?;
     write_atomically(&file, page(&options.results, &options.risk, events)?.as_bytes())?;
-    // after the page itself was written anew
+    // after the page itself was written again
     for result in &options.results {
         ResultFile::open(result)?.tell_made_of_another(events)?;
     }

@@ -77,10 +77,7 @@ pub enum RiskError {
         sum: f64,
     },
     /// None of the records of a level is in a sample.
-    #[error(
-        "level {level}: none of its records is in the sample, so nothing is known there: let more records be drawn, or \
-         give the level more of them"
-    )]
+    #[error("level {level}: none of its records is in the sample: draw more records, or give the level more of them")]
     EmptyLevel {
         /// Position of the level, counted from 0.
         level: usize,

@@ -100,7 +100,7 @@ pub enum StaticsError {
         ratio: f64,
     },
     /// The prestress is more than the tendon carries.
-    #[error("`prestress_n` is {prestress_n} N, not below the tendon's {key} = {limit_n} N: take less of it")]
+    #[error("`prestress_n` is {prestress_n} N, not below the tendon's {key} = {limit_n} N: reduce it")]
     PrestressAboveYield {
         /// Prestress `T0`, N.
         prestress_n: f64,
@@ -111,8 +111,8 @@ pub enum StaticsError {
     },
     /// The prestress is more than presses the springs flat.
     #[error(
-        "`prestress_n` is {prestress_n} N, not below the {flat_n:.0} N that press the springs flat: the springs \
-         would do nothing; take less prestress or stronger springs"
+        "`prestress_n` is {prestress_n} N, not below the {flat_n:.0} N that press the springs flat: the springs would \
+         do nothing; use less prestress or stronger springs"
     )]
     PrestressBeyondFlat {
         /// Prestress `T0`, N.
@@ -179,7 +179,7 @@ pub enum StaticsError {
         /// The largest that the column has before its diagonal lies level, m.
         largest_m: f64,
     },
-    /// The springs are flat and nothing else gives way.
+    /// The springs are flat and nothing else yields.
     #[error(
         "an elongation of {elongation_m:.6} m is beyond the {flat_m:.6} m at which the springs are flat{at}: \
          there the restrainer stops the column (`when_flat` = \"stop\", or no tendon to stretch on)"
@@ -193,7 +193,7 @@ pub enum StaticsError {
         at: String,
     },
     /// More columns are restrained than there are.
-    #[error("{restrained} restrained columns of {columns}: there cannot be more")]
+    #[error("{restrained} restrained columns of {columns}: give at most {columns}")]
     Restrained {
         /// Columns with a restrainer.
         restrained: u32,

@@ -147,7 +147,7 @@ impl Restrainer {
         self.flexibility_m_n
     }
 
-    /// Elongation beyond which nothing gives way, m: springs flat, and stopped there.
+    /// Elongation beyond which nothing yields, m: springs flat, and stopped there.
     pub fn limit_m(&self) -> Option<f64> {
         self.limit_m
     }

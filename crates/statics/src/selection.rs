@@ -378,7 +378,7 @@ pub fn stopper_yield_force_n(
         return Err(StaticsError::Missing {
             key: "tendon_yield_n",
             kind: "disc-springs",
-            advice: "a stopper protects a tendon whose yield force is known; give it in N",
+            advice: "a stopper protects a tendon up to its yield force; give it in N",
         });
     };
     let limit_n = tendon_n / tendon_factor;

@@ -69,7 +69,7 @@ fn mistakes_of_unit() {
 }
 
 #[test]
-fn keys_that_lack_or_mean_nothing_are_told_together() {
+fn missing_and_meaningless_keys_are_reported_together() {
     let found = mistakes(&json!({"springs": null, "thickness_m": null, "stiffness_n_m": 1e6, "duct_gap_m": 0.008,
         "tendon_area_m2": 1e-4}));
     for words in [

@@ -167,7 +167,7 @@ fn unlikely(text: &str) -> Vec<&'static str> {
 }
 
 #[test]
-fn numbers_in_other_units_are_taken_and_told() {
+fn numbers_in_other_units_are_accepted_and_reported() {
     // centimetres and tonnes
     let pier = "kind = \"block\"\nwidth_m = 40\nheight_m = 220\nmass_kg = 145\n";
     assert_eq!(unlikely(pier), ["height_m", "mass_kg over the square of the width and the height"]);

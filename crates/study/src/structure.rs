@@ -1,10 +1,11 @@
 //! A structure file: a rocking structure as TOML, checked as a study is.
 //!
-//! Which keys belong to which kind is told in [`uplift_structure::description`], and those of its table `[restrainer]`
-//! in [`uplift_statics::description`]. A restrained frame gives `tendon_stiffness_n_m` and `tendon_anchorage`, a linear
-//! restrainer, or that table: then the equivalent oscillator gets the stiffness with which it has the displacement
-//! capacity of the exact law, and the same file serves statics, design and risk. `column_shape` and `f_cd_pa` are of
-//! the columns' section. A table `[uncertainty]` says what of the equivalent oscillator is not known exactly.
+//! Which keys belong to which kind is reported in [`uplift_structure::description`], and those of its table
+//! `[restrainer]` in [`uplift_statics::description`]. A restrained frame gives `tendon_stiffness_n_m` and
+//! `tendon_anchorage`, a linear restrainer, or that table: then the equivalent oscillator gets the stiffness with which
+//! it has the displacement capacity of the exact law, and the same file serves statics, design and risk. `column_shape`
+//! and `f_cd_pa` are of the columns' section. A table `[uncertainty]` says what of the equivalent oscillator is not
+//! known exactly.
 
 use std::path::{Path, PathBuf};
 

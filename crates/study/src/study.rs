@@ -94,8 +94,8 @@ impl Study {
                 if let Some(field) = root.field("kind") {
                     field.mistake(
                         format!("this study is of {}, and has no {}", other.key(), Kind::UniformRisk.key()),
-                        "`uplift check`, `run` and `status` take it, and `uplift table`, `plot` and `report` its \
-                         result; for the rest a study of uniform risk is needed",
+                        "use `uplift check`, `run` and `status`, and `uplift table`, `plot` and `report` on its \
+                         result; other commands need a study of uniform risk",
                     );
                 }
                 None

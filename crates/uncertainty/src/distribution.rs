@@ -71,7 +71,7 @@ impl Distribution {
         check("the mean", mean, within && mean.is_finite(), "within what the quantity can be")?;
         check("the coefficient of variation", variation, (0.0..=10.0).contains(&variation), "from 0 to 10")?;
         let is_scattering = variation > 0.0;
-        check("the mean", mean, mean != 0.0 || !is_scattering, "other than 0, for what is 0 % or 10 % of 0 is 0")?;
+        check("the mean", mean, mean != 0.0 || !is_scattering, "other than 0, since a share of 0 is 0")?;
         let deviation = variation * mean.abs();
         if deviation == 0.0 {
             return Self::within(Shape::Constant(mean), range);

@@ -23,7 +23,7 @@ pub enum UncertaintyError {
     /// Percentiles that do not rise.
     #[error(
         "the {first} % percentile is {} and the {second} % percentile {}: give two that rise together, or a \
-         coefficient of variation of 0 for a quantity that is known",
+         coefficient of variation of 0 for a certain quantity",
         rounded(*.first_value),
         rounded(*.second_value)
     )]
@@ -54,7 +54,7 @@ pub enum UncertaintyError {
     },
     /// A bounded distribution that goes beyond what the quantity can be.
     #[error(
-        "it reaches from {} to {}, and it can be from {least} to {most}: bring its limits within",
+        "it reaches from {} to {}, but the possible range is {least} to {most}: keep its limits within",
         rounded(*.lower),
         rounded(*.upper)
     )]
@@ -70,7 +70,7 @@ pub enum UncertaintyError {
     },
     /// Too much of an unbounded distribution lies where the quantity cannot be.
     #[error(
-        "{:.0} % of it lies outside of {least} to {most}, where it cannot be: take less scatter, another mean, or a \
+        "{:.0} % of it is outside the possible range, {least} to {most}: use less scatter, another mean, or a \
          distribution with limits",
         100.0 * .share
     )]
@@ -83,7 +83,7 @@ pub enum UncertaintyError {
         most: f64,
     },
     /// A correlation of a quantity with itself, of one that is not there, or one that was given before.
-    #[error("the correlation of {first} with {second} cannot be: name two different quantities, each pair once")]
+    #[error("correlation of {first} with {second}: name two different quantities, each pair once")]
     Pair {
         /// Position of the first quantity.
         first: usize,
@@ -92,7 +92,7 @@ pub enum UncertaintyError {
     },
     /// Correlations that no quantities can have together.
     #[error(
-        "the correlations contradict each other: their matrix is not positive definite; bring the strongest of them \
+        "the correlations contradict each other: their matrix is not positive definite; move the strongest of them \
          closer to 0"
     )]
     NotPositiveDefinite,
@@ -132,7 +132,7 @@ mod tests {
     fn four_digits_say_what_is_wrong() {
         let beyond = UncertaintyError::Beyond { lower: 0.123_456_789, upper: 1.0 + 1.0 / 3.0, least: 0.0, most: 1.0 };
         assert!(
-            beyond.to_string().starts_with("it reaches from 0.1235 to 1.333, and it can be from 0 to 1"),
+            beyond.to_string().starts_with("it reaches from 0.1235 to 1.333, but the possible range is 0 to 1"),
             "{beyond}"
         );
         assert_eq!([1e-6, 0.06, 12.0, f64::INFINITY].map(rounded), [1e-6, 0.06, 12.0, f64::INFINITY]);

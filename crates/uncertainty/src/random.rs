@@ -28,7 +28,7 @@ impl Stream {
         (f64::from(self.bits()) + 0.5) / TWO_TO_32
     }
 
-    /// Uniform on `0..bound`: the high half of a product, drawn anew where the low half falls into the uneven rest
+    /// Uniform on `0..bound`: the high half of a product, drawn again where the low half falls into the uneven rest
     /// (D. Lemire, ACM Trans. Model. Comput. Simul. 29, 2019).
     #[expect(clippy::cast_possible_truncation, reason = "the halves of the product")]
     pub(crate) fn below(&mut self, bound: u32) -> usize {

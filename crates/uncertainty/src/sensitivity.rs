@@ -27,7 +27,7 @@ pub struct SobolIndices {
 ///
 /// - `a`, `b`: results at the rows of two independent samples of all factors, `[row]`.
 /// - `mixed`: results at the rows of the first sample with one factor taken from the second, `[factor][row]`.
-/// - `replicates`: how often rows are drawn anew for the errors. Rows of a Sobol' sample are not independent: the
+/// - `replicates`: how often rows are drawn again for the errors. Rows of a Sobol' sample are not independent: the
 ///   errors are then on the safe side.
 ///
 /// First order by Saltelli et al. (2010), `mean(f_b (f_ab − f_a))/V`, with the mean of all results taken off first;

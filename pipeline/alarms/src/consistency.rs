@@ -1,4 +1,4 @@
-//! Records that do not bring the site's hazard of the other measure: spectra of such a set are true of the set, and not
+//! Records that miss the site's hazard of the other measure: spectra of such a set are true of the set, and not
 //! of the site.
 
 use uplift_consistency::Verdict;
@@ -40,7 +40,7 @@ pub(super) fn without_repair(evidence: &Evidence, scope: &Scope) -> Option<Alarm
                     severity: Severity::Caution,
                     badness: consistency.max[site],
                     subject: format!("{name} by {}", consistency.scaled_to.label()),
-                    what: "no weights match both hazard curves, so there is no repaired spectrum".to_owned(),
+                    what: "no weights match both hazard curves: no repaired spectrum".to_owned(),
                     what_to_do: "See why: uplift consistency RESULT --details".to_owned(),
                 });
             }
@@ -58,8 +58,8 @@ pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alar
         let records = stored.sizes[stored.largest()];
         let of_joint = repaired.bands.joint.as_ref().and_then(|joint| joint.failed.as_ref());
         let kinds = [
-            (Some(&repaired.failed), format!("of the resamples of {records} records")),
-            (of_joint, format!("of the resamples of {records} records with a hazard curve")),
+            (Some(&repaired.failed), format!("of resamples of {records} records")),
+            (of_joint, format!("of resamples of {records} records with a hazard curve")),
         ];
         for (site, name) in evidence.spectra.sites.iter().enumerate() {
             for (failed, what) in &kinds {
@@ -70,10 +70,10 @@ pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alar
                         badness: share,
                         subject: format!("{name} by {}", bands.measure.label()),
                         what: format!(
-                            "weights fail for {:.0} % {what}; their band is repaired in part only",
+                            "weights fail for {:.0} % {what}, so the band is repaired only in part",
                             100.0 * share
                         ),
-                        what_to_do: "Add records, or records of another kind".to_owned(),
+                        what_to_do: "Add records".to_owned(),
                     });
                 }
             }
@@ -91,11 +91,11 @@ fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) ->
         severity: if is_repaired { Severity::Note } else { Severity::Caution },
         badness: times.ln().abs(),
         subject: format!("{name} by {scaled_to}"),
-        what: format!("records scaled to {scaled_to} have {times:.1} times the site's {other}"),
+        what: format!("records have {times:.1} times the site's {other}"),
         what_to_do: match u_m {
             Some(_) if is_repaired => {
                 let key = consistency.scaled_to.key();
-                format!("Use the repaired spectra: uplift spectrum RESULT --repaired --measure {key}")
+                format!("Use: uplift spectrum RESULT --repaired --measure {key}")
             }
             Some(_) => "See what is missing: uplift consistency RESULT --details".to_owned(),
             None => "Repair: uplift consistency RESULT --repair".to_owned(),

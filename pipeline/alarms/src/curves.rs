@@ -20,7 +20,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     Alarm::from_cases("curves-disagree", sites.filter_map(case).collect())
 }
 
-/// Whether the curves of a site are told not to belong together.
+/// Whether the curves of a site are reported not to belong together.
 pub(super) fn are_apart(evidence: &Evidence, site: usize) -> bool {
     beyond_nature(&evidence.study, biases(evidence, site)).is_some()
 }
@@ -120,7 +120,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_curve_that_is_too_high_is_told_from_what_both_measures_share() {
+    fn a_curve_that_is_too_high_differs_from_a_bias_of_both_measures() {
         // the records bring a tenth of its PGA, and ten times its PGV
         assert_eq!(too_high([Some(0.1), Some(10.0)]), Some(10.0));
         assert_eq!(too_high([Some(10.0), Some(0.1)]), Some(0.1));
@@ -147,7 +147,7 @@ mod tests {
         uplift_study::Study::load(&path, &[]).unwrap()
     }
 
-    /// What is told where the records bring so much of PGA and of PGV.
+    /// What is reported where the records bring so much of PGA and of PGV.
     fn told(units: [&str; 2], biases: [Option<f64>; 2]) -> Option<String> {
         case(&study(units[0], units[1], 9.81), "Sion 2.1", biases)
             .map(|case| format!("{}; {}", case.what, case.what_to_do))
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_without_a_common_rate_are_told() {
+    fn curves_without_a_common_rate_are_reported() {
         use uplift_hazard::HazardCurve;
         let curve = |rates: [f64; 2]| HazardCurve::new("IM", "g", "", vec![1.0, 10.0], rates.to_vec()).unwrap();
         let told = |pgv: [f64; 2], pga: [f64; 2]| {
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn sites_that_can_be_and_another_gravity_are_not_told() {
+    fn possible_sites_and_another_gravity_are_not_reported() {
         for biases in [[Some(0.21), None], [Some(4.9), Some(0.21)], [Some(9.0), Some(9.0)], [None, None]] {
             assert_eq!(told(["cm/s", "g"], biases), None, "{biases:?}");
         }

@@ -76,7 +76,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Vec<Alarm> {
         // the file has no word for why there is no fit; the same ordinates give the same answer again
         let again = fit_ordinates(strengths, u_m, above);
         let Some(curve) = place.of_measure.fits[[site, poe]].curve() else {
-            let reason = again.err().unwrap_or_else(|| "there is none in the file".to_owned());
+            let reason = again.err().unwrap_or_else(|| "the file has none".to_owned());
             none.push(case(
                 Severity::Note,
                 1.0,

@@ -50,7 +50,7 @@ pub fn synthetic_records() -> Alarm {
         "synthetic-records",
         "Synthetic records",
         "not for design".to_owned(),
-        "Use recorded motions: records.manifest",
+        "Set records.manifest",
     )
 }
 
@@ -117,11 +117,8 @@ fn few_at_level(sets: &Sets) -> Option<Alarm> {
             Severity::Caution,
             "few-records",
             &place,
-            format!(
-                "its {count} count as {effective:.1}, the fewest of all levels; below about {FEW_RECORDS} each record \
-                 changes the spectra"
-            ),
-            "Select more for this level: records.at_level",
+            format!("its {count} count as {effective:.1}, fewer than {FEW_RECORDS}"),
+            "Select more: records.at_level",
         )
     })
 }
@@ -134,10 +131,10 @@ pub fn few(records: usize, pairs: usize) -> Option<Alarm> {
             "few-records",
             "Few records",
             format!(
-                "{are}; below about {FEW_RECORDS} each record changes the spectra",
-                are = if pairs < records { format!("{pairs} pairs ({records} records)") } else { records.to_string() }
+                "{are} ({FEW_RECORDS} advised)",
+                are = if pairs < records { format!("{pairs} pairs, {records} records") } else { records.to_string() }
             ),
-            "Add records: records.manifest or records.first",
+            "Extend records.manifest",
         )
     })
 }
@@ -197,7 +194,7 @@ mod tests {
     #[test]
     fn forty_records_are_no_longer_few() {
         assert_eq!([few(40, 40), few(80, 40)], [None, None]);
-        assert!(few(39, 39).is_some_and(|alarm| alarm.what.starts_with("39;")));
-        assert!(few(78, 39).is_some_and(|alarm| alarm.what.starts_with("39 pairs (78 records);")));
+        assert!(few(39, 39).is_some_and(|alarm| alarm.what.starts_with("39 (40 advised)")));
+        assert!(few(78, 39).is_some_and(|alarm| alarm.what.starts_with("39 pairs, 78 records (40")));
     }
 }

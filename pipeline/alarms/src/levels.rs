@@ -81,8 +81,8 @@ pub fn below_first_case(
             _ if curve.first().im >= first => {
                 format!("Use a hazard curve that begins below {} {}", curve.first().im, measure.unit())
             }
-            Counted::All => format!("Lower the first of {}: uplift check proposes one", levels_key(measure)),
-            Counted::Tried => format!("Lower the first of {}", levels_key(measure)),
+            Counted::All => format!("Lower {} (uplift check)", levels_key(measure)),
+            Counted::Tried => format!("Lower {}", levels_key(measure)),
         },
     })
 }
@@ -139,7 +139,7 @@ impl UpperEnd<'_> {
         let Some(&last) = plan.levels.last() else { return Ok(None) };
         // what is known of the hazard ends with the curve, though levels go on
         let (known_to, per_year) = if end.im < last {
-            (format!("the hazard curve's end, {} {unit},", end.im), end.maf)
+            (format!("the curve's end, {} {unit},", end.im), end.maf)
         } else {
             let per_year = curve.rate_at_extrapolated(last, self.extrapolate)?;
             (format!("the last level, {last} {unit},"), per_year)
@@ -151,7 +151,7 @@ impl UpperEnd<'_> {
         let counted = match count {
             0 => "ordinates may be too small".to_owned(),
             _ => format!(
-                "{count} of {} {} may be too small, with up to {} of the risk above the last level",
+                "{count} of {} {} may be too small (up to {} of the risk is above the levels)",
                 shares.len(),
                 counted.ordinates(),
                 share(most)
@@ -183,11 +183,10 @@ fn without_ordinate(place: &Place<'_>) -> Option<Case> {
         badness: count as f64,
         subject: place.name.clone(),
         what: format!(
-            "{count} of {} ordinates are censored: overturning, or the last threshold, exceeds the target risk",
+            "{count} of {} ordinates are censored: overturning exceeds the target risk",
             place.strengths.len()
         ),
-        what_to_do: "Raise strengths.values or oscillator.capacity_m (risk.thresholds_m where risk.contour = \"grid\")"
-            .to_owned(),
+        what_to_do: "Raise strengths.values, oscillator.capacity_m or risk.thresholds_m".to_owned(),
     })
 }
 

@@ -13,7 +13,7 @@
 //! | `branches` | weighted ones of which some are far from the others |
 //! | `levels` | ordinates that rest on what lies outside the analysed levels, or do not exist |
 //! | `curves` | hazard curves of PGV and of PGA that cannot be of one site |
-//! | `consistency` | records that do not bring the hazard of the other measure |
+//! | `consistency` | records that miss the hazard of the other measure |
 //! | `measures` | spectra by PGV and by PGA that disagree |
 //! | `numbers` | numbers of a command line in another unit, probably |
 //! | `fit` | fitted curves that leave their spectrum |

@@ -9,7 +9,7 @@ pub const COMPARED_FROM_M: f64 = 0.003;
 use super::evidence::{Evidence, Scope};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_job::text::{per_cent, risk_name, rounded};
+use uplift_job::text::{per_cent, risk_name, rounded, two_digits};
 use uplift_result::{MeasureSpectra, StoredBands};
 
 /// Ordinates that are further apart than this need no band to say so: with 105 recorded pairs 90 % bands are some 40 %
@@ -81,7 +81,7 @@ fn case(evidence: &Evidence, subject: String, gap: Gap, banded: bool) -> Case {
     let times = gap.ratio.max(1.0 / gap.ratio);
     let [larger, smaller] = if gap.ratio > 1.0 { ["PGA", "PGV"] } else { ["PGV", "PGA"] };
     let allowed = match &evidence.bands {
-        Some(bands) if banded => format!(", outside each other's {} bands", per_cent(bands.confidence)),
+        Some(bands) if banded => format!(", outside both {} bands", per_cent(bands.confidence)),
         _ => String::new(),
     };
     Case {
@@ -89,10 +89,11 @@ fn case(evidence: &Evidence, subject: String, gap: Gap, banded: bool) -> Case {
         badness: times,
         subject,
         what: format!(
-            "the {larger} spectrum is {times:.1} times the {smaller} spectrum at strength {}{allowed}",
+            "the {larger} spectrum is {} times {smaller}'s at strength {}{allowed}",
+            two_digits(times),
             rounded(evidence.spectra.strengths[gap.strength], 4)
         ),
-        what_to_do: "Rank the measures: uplift measures RESULT".to_owned(),
+        what_to_do: "Compare: uplift measures RESULT".to_owned(),
     }
 }
 

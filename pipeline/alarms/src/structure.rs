@@ -75,20 +75,20 @@ fn outside_levels(own: &OwnRisk) -> Option<Case> {
     let EventRisk { lower_tail_share, upper_tail_share, .. } = own.risk;
     let (first, last) = own.levels;
     let (share, where_from, therefore, remedy) = if upper_tail_share >= lower_tail_share {
-        (upper_tail_share, format!("above the last level, {last}"), "a lower bound", "Raise the last")
+        (upper_tail_share, format!("above the last level, {last}"), "a lower bound", "Raise")
     } else {
-        (lower_tail_share, format!("below the first level, {first}"), "too large", "Lower the first")
+        (lower_tail_share, format!("below the first level, {first}"), "too large", "Lower")
     };
     (share > TAIL_SHARE_LIMIT).then(|| Case {
         severity: if share > DECISIVE { Severity::Caution } else { Severity::Note },
         badness: share,
         subject: own.subject.clone(),
         what: format!(
-            "{} of the risk lies {where_from} {}, so the rate is {therefore}",
+            "{} of the risk is {where_from} {}: the rate is {therefore}",
             share_in_words(share),
             own.measure.unit()
         ),
-        what_to_do: format!("{remedy} of {}, and run the study again", levels_key(own.measure)),
+        what_to_do: format!("{remedy} {} and run the study again", levels_key(own.measure)),
     })
 }
 
@@ -113,7 +113,7 @@ fn none_seen(own: &OwnRisk) -> Option<Case> {
                 String::new()
             },
         ),
-        what_to_do: format!("Raise the last of {} for a smaller bound", levels_key(own.measure)),
+        what_to_do: format!("Raise {} for a smaller bound", levels_key(own.measure)),
     })
 }
 

@@ -41,7 +41,7 @@ pub struct ExactDemand {
     pub beyond_capacity: Option<EventRisk>,
     /// It overturns.
     pub overturning: EventRisk,
-    /// How sure these are, as the records tell them; none of a single record.
+    /// Confidence bands of these by the records; none of a single record.
     pub bands: Option<DemandBands>,
     /// What a small change of the strength makes of it.
     #[serde(rename = "within_one_percent_of_strength")]

@@ -81,7 +81,7 @@ impl Default for DesignOptions {
     }
 }
 
-/// What a design tells.
+/// The report of a design.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DesignReport {
     /// The structure, with the restitution of its oscillator.
@@ -318,7 +318,7 @@ fn without_uncertainty(options: &DesignOptions, source: &StudyOfResult) -> Strin
     } else {
         "the structure itself is not analysed"
     };
-    format!("[uncertainty]: all numbers are of the structure as described, and none of those that it may be: {reason}")
+    format!("[uncertainty]: all numbers are of the structure as described, without its uncertainty: {reason}")
 }
 
 /// The repaired spectrum at a site and probability, m, `[strength]`; none where there is none.
@@ -350,8 +350,8 @@ fn demands_by_curve(
 /// Why there is no repaired spectrum of a site.
 fn not_repaired(source: &StudyOfResult, place: Place<'_>) -> DesignError {
     JobError::input(format!(
-        "{}: has no repaired spectrum of {} by {}: `uplift consistency {} --repair` makes it, or says what keeps it \
-         from being made",
+        "{}: has no repaired spectrum of {} by {}: compute it, or see why there is none: `uplift consistency {} \
+         --repair`",
         source.path.display(),
         place.name,
         place.measure.measure().label(),
@@ -380,8 +380,8 @@ fn require_zero_stiffness(source: &StudyOfResult) -> Result<(), DesignError> {
         }
     };
     Err(JobError::input(format!(
-        "{}: its spectra are those of an oscillator {what}; the rules start from zero stiffness (ZSBE): run the study \
-         without oscillator.{key}",
+        "{}: its oscillator has {what}, but the rules start from zero stiffness (ZSBE): run the study without \
+         oscillator.{key}",
         source.path.display()
     ))
     .into())
@@ -398,8 +398,8 @@ fn spectrum_demand(structure: &Structure, source: &StudyOfResult, u_m: &[f64]) -
 fn beyond_spectrum(structure: &Structure, source: &StudyOfResult) -> String {
     let strengths = &source.study.strengths;
     format!(
-        "the spectrum cannot be read at strength {:.4}: its strengths go from {} to {}, and beside a censored ordinate \
-         there is nothing to read",
+        "the spectrum cannot be read at strength {:.4}: its strengths go from {} to {}, and no value is read next to \
+         a censored ordinate",
         structure.system.spectral_strength_at(source.study.gravity_m_s2),
         strengths[0],
         strengths[strengths.len() - 1]
@@ -413,8 +413,8 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     let mut notes = Vec::new();
     if source.study.uncertainty.is_some() {
         notes.push(
-            "the spectrum is of oscillators that are not known exactly ([uncertainty] of its study); what is compared \
-             with them here is the one that the study describes"
+            "the spectrum is of uncertain oscillators ([uncertainty] of its study); the structure is compared with \
+             the one that the study describes"
                 .to_owned(),
         );
     }

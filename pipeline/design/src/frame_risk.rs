@@ -62,11 +62,11 @@ pub struct FrameRiskOptions {
     pub table: Option<PathBuf>,
     /// Every shard of the analyses, as [`frame_risk_shard`] wrote them; none to compute them here.
     pub shards: Vec<PathBuf>,
-    /// Whether whatever is at the places of the tables gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 
-/// What the risk of a frame tells.
+/// The report of the risk of a frame.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FrameRiskReport {
     /// The structure, and the oscillator that it is equivalent to.
@@ -330,8 +330,8 @@ fn notes(
     let mut notes = Vec::new();
     if structure.uncertainty.is_some() {
         notes.push(
-            "[uncertainty] is of the equivalent oscillator and takes no part here: uplift overturning and uplift \
-             design have its risk with a band"
+            "[uncertainty] applies to the equivalent oscillator and is ignored here: uplift overturning and uplift \
+             design include it"
                 .to_owned(),
         );
     }

@@ -54,11 +54,11 @@ pub struct OverturningOptions {
     pub table: Option<PathBuf>,
     /// Every shard of the analyses, as [`overturning_shard`] wrote them; none to compute them here.
     pub shards: Vec<PathBuf>,
-    /// Whether whatever is at the places of the tables gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 
-/// What the overturning of a structure tells.
+/// The report of the overturning of a structure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OverturningReport {
     /// The structure; each model has its own restitution.
@@ -145,7 +145,7 @@ pub struct SiteRisk {
     /// From the counts, with no curve fitted.
     #[serde(flatten)]
     pub risk: EventRisk,
-    /// How sure that is, as the records tell it; none where no run shows it, and of a single record.
+    /// Its confidence band by the records; none where no run shows it, and of a single record.
     pub bands: Option<Bands>,
     /// From the counts with repaired weights, by which the records bring the site's hazard; none where the result has
     /// none.
@@ -562,8 +562,8 @@ fn notes_on(models: &[(System, &'static str)], found: &[(&SpectraOfResult, Vec<C
         && a.restitution().to_bits() != b.restitution().to_bits()
     {
         notes.push(format!(
-            "the oscillator keeps {} of its velocity at an impact, the block {:.4}: part of what they differ by is \
-             that (--restitution gives both the same)",
+            "the oscillator keeps {} of its velocity at an impact, the block {:.4}, which explains part of the \
+             difference (--restitution gives both the same)",
             a.restitution(),
             b.restitution()
         ));

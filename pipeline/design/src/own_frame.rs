@@ -35,7 +35,7 @@ const TIMES_TARGET: f64 = 30.0;
 /// What the models of a frame leave out.
 pub(super) fn of_frame(structure: &Structure) -> String {
     format!(
-        "{}, and its deck does not turn; the planar one is shaken by one component alone, which is known to be \
+        "{}, and its deck does not turn; the planar one is shaken by one component alone, which is \
          unconservative (Section 6.2.3)",
         loss(structure)
     )

@@ -143,8 +143,8 @@ pub(super) fn verdicts_by_curve(
     let hangs = |(_, _, [least_m, most_m]): &&(Rule, f64, [f64; 2])| *least_m < 0.0 && *most_m >= 0.0;
     let told = found.iter().filter(hangs).map(|(rule, share, [least_m, most_m])| {
         format!(
-            "the verdict by {} hangs on which hazard curve holds: satisfied by curves of {} of the weight, with \
-             margins from {} to {most_m:+.4} m",
+            "the verdict by {} depends on the hazard curve: satisfied by curves of {} of the weight, with margins \
+             from {} to {most_m:+.4} m",
             rule.words(),
             per_cent(*share),
             if least_m.is_finite() { format!("{least_m:+.4}") } else { "none".to_owned() }

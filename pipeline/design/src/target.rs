@@ -2,7 +2,7 @@
 //!
 //! The risk of each value that is tried is that of the structure's own oscillator under the records and the hazard of a
 //! result, from exact stripes. Counts of records step, and a chaotic system may step back: every crossing of the target
-//! is followed, and the value that is told is the one from which on all that was tried meets it.
+//! is followed, and the value that is reported is the one from which on all that was tried meets it.
 
 mod band;
 mod candidate;
@@ -40,6 +40,7 @@ use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
+use uplift_job::text::rate;
 use uplift_result::ResultFile;
 use uplift_uniform_risk::EventRisk;
 use uplift_uniform_risk::consistency::Question;
@@ -52,7 +53,7 @@ const REACH: f64 = 4.0;
 /// Half the width of the sweep that shows the noise, relative to the value, and its points.
 const NOISE: (f64, usize) = (0.01, 11);
 
-/// What a search for a target risk tells.
+/// The report of a search for a target risk.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TargetReport {
     /// The structure as its file has it, with the restitution of its oscillator.
@@ -254,14 +255,14 @@ pub fn target(
     let noise = Noisy::of(&noise);
     if noise.highest > target_per_year {
         notes.push(format!(
-            "within 1 % of the value the frequency goes from {:.3e} to {:.3e} per year: choose the value with a margin",
-            noise.lowest, noise.highest
+            "values within 1 % of it have {} to {} per year: choose the value with a margin",
+            rate(noise.lowest),
+            rate(noise.highest)
         ));
     }
     notes.extend(assumptions(structure, &file, trials.restitution()));
     notes.extend(OwnFrame::is_described(structure).then(|| {
-        "the value is that of the proxy, the equivalent oscillator: uplift design has the wobbling frame of that value"
-            .to_owned()
+        "the value is for the proxy, the equivalent oscillator: check the wobbling frame with uplift design".to_owned()
     }));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;

@@ -232,8 +232,8 @@ fn realized(
         let word = Severity::Mistake.word();
         let asked = doubtful.fold(String::new(), |asked, of| format!("{asked}; {word} {}", of.what));
         let error = JobError::input(format!(
-            "[uncertainty]: one of the structures that it may be cannot be ({}): {reason}; take less scatter, or \
-             correlate what goes together{asked}",
+            "[uncertainty]: a sampled structure is invalid ({}): {reason}; use less scatter, or correlate related \
+             quantities{asked}",
             told.join(", ")
         ));
         uplift_job::in_file(error, &structure.file)

@@ -77,7 +77,7 @@ pub struct ExportOptions {
     pub output: Option<PathBuf>,
     /// The risks of the spectra.
     pub risk: AskedRisk,
-    /// Whether whatever is at the places of the files gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 
@@ -95,7 +95,9 @@ pub struct ExportReport {
 /// overwrite the result or what is not this program's, or cannot be written.
 pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportReport, ExportsError> {
     if options.formats.is_empty() || (options.output.is_some() && options.formats.len() > 1) {
-        return Err(JobError::Usage("say --csv, --json, --mat or --xlsx; -o goes with one of them".to_owned()).into());
+        return Err(
+            JobError::Usage("give a format: --csv, --json, --mat or --xlsx (one of them with -o)".to_owned()).into()
+        );
     }
     let result = ResultFile::open(&options.result)?;
     let kind = result.kind();
@@ -145,7 +147,7 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
         write_table(&table, export.provenance(), export.finding_columns())?;
         report.files.push(table);
     }
-    // after what was written anew
+    // after what was written again
     result.tell_made_of_another(events)?;
     Ok(report)
 }

@@ -45,8 +45,8 @@ pub struct TableOptions {
 /// By which intensity measures the rows of a table are.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum TableMeasure {
-    /// PGV, as Table 4.2 is, or the first measure of a study without it; what is to be known of the result is told as a
-    /// whole.
+    /// PGV, as Table 4.2 is, or the first measure of a study without it; what is to be known of the result is reported
+    /// as a whole.
     #[default]
     Usual,
     /// This one, and what is to be known of it alone.
@@ -126,7 +126,7 @@ fn tell_findings(file: &ResultFile, events: &dyn Events) -> Result<(), ExportsEr
     let mut structures: Vec<&str> = findings.iter().map(|of| of.finding.structure.as_str()).collect();
     structures.dedup();
     if !structures.is_empty() {
-        let text = format!("{} answer(s) on {}: uplift report shows them", findings.len(), structures.join(", "));
+        let text = format!("{} answer(s) for {}: see uplift report", findings.len(), structures.join(", "));
         events.remark("asked", &text);
     }
     Ok(())

@@ -27,7 +27,7 @@ const WEIGHT: &str = "weight";
 const LARGEST_BYTES: u64 = 64 << 20;
 /// How far a level of the table may be from that of the study, relative: both may have been rounded to so many digits.
 const SAME_LEVEL: f64 = 1e-6;
-/// By how much a factor may miss level over intensity beside the rounding of its own decimals before it is told.
+/// By how much a factor may miss level over intensity beside the rounding of its own decimals before it is reported.
 const FACTOR_TOLERANCE: f64 = 1e-3;
 /// Names shown of a long list.
 const SHOWN: usize = 10;
@@ -276,9 +276,8 @@ impl Table {
         let shown: Vec<&str> = apart.iter().take(3).map(|(_, text)| text.as_str()).collect();
         (!apart.is_empty()).then(|| {
             format!(
-                "{}: {} of {} factors do not bring their record to the level by more than their decimals round, {}{}: \
-                 the record is run with the factor of the table; is {} there that of the study, of the same \
-                 components?",
+                "{}: {} of {} factors miss the level of their record by more than rounding, {}{}: the record is run \
+                 with the factor of the table; is {} there that of the study, of the same components?",
                 self.name,
                 apart.len(),
                 self.rows.len(),
@@ -329,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_read_and_mistakes_told_at_once() {
+    fn rows_are_read_and_mistakes_reported_at_once() {
         let read = table("record_id,pgv_cm_s,factor,weight\nRSN1,10,0.50,2\nRSN2:h1,10,1.5e0,1\n").unwrap();
         assert_eq!(read.rows[0].factor, Some((0.5, 0.005)));
         assert_eq!((read.rows[1].factor, read.rows[1].weight), (Some((1.5, 0.05)), 1.0));

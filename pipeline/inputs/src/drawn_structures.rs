@@ -78,8 +78,8 @@ impl DrawnStructure {
         let doubts = study.warnings.iter().filter(is_doubt).map(|doubt| format!("; mistake? {}", doubt.what));
         let doubts = doubts.collect::<Vec<_>>().concat();
         JobError::input(format!(
-            "[uncertainty]: one of the structures that may be cannot be ({}, of strength {strength}): {error}; take \
-             less scatter, or correlate what goes together{doubts}",
+            "[uncertainty]: a sampled structure is invalid ({}, of strength {strength}): {error}; use less scatter, \
+             or correlate related quantities{doubts}",
             values.join(", ")
         ))
         .into()
@@ -100,8 +100,8 @@ pub(super) fn shaking_structures(
     let all = records.len().saturating_mul(each);
     if all > MOST_RECORDS {
         return Err(JobError::input(format!(
-            "[uncertainty]: {each} structures under each of {} records are {all}, and a level takes {MOST_RECORDS}: \
-             take fewer structures",
+            "[uncertainty]: {each} structures under each of {} records are {all} runs at a level, and {MOST_RECORDS} \
+             is the most: use fewer structures",
             records.len()
         ))
         .into());

@@ -274,7 +274,7 @@ impl SiteReader<'_> {
             if let Some(other_unit) = of_outside(self.study, (self.site, self.file), plan, curve) {
                 // who reads a curve in another unit is not helped by an extrapolation of it
                 let key = levels_key(self.measure);
-                return format!("{name}: {other_unit}; if not, take a longer curve or leave levels out of {key}");
+                return format!("{name}: {other_unit}; if not, use a longer curve or leave levels out of {key}");
             }
             let within = levels_within(self.measure, curve.first().im, curve.last().im);
             let within = within.map_or_else(String::new, |(_, levels)| {
@@ -347,9 +347,9 @@ pub(super) fn of_the_records_definition(
         let key = measure.key();
         let (from, to) = (own.key(), wanted.key());
         return Err(format!(
-            "the curve is of the {own}, and the records are measured by the {wanted}: take a curve of the same \
-             definition, another records.intensity, or declare what the levels are multiplied by: [hazard] conversions \
-             = [{{ from = \"{from}\", to = \"{to}\", {key} = … }}], with the ratio of the two (docs/hazard.md)"
+            "the curve is of the {own}, and the records are measured by the {wanted}: use a curve of the same \
+             definition, another records.intensity, or declare the factor on the levels: [hazard] conversions = [{{ \
+             from = \"{from}\", to = \"{to}\", {key} = … }}], with the ratio of the two (docs/hazard.md)"
         ));
     };
     curve.converted(factor, wanted).map(Some).map_err(|error| error.to_string())

@@ -45,7 +45,7 @@ pub struct ImportOptions {
     pub files: FileOptions,
     /// Whether velocity pulses are sought, which takes most of the time.
     pub pulses: bool,
-    /// Whether whatever is at the places of the files gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 
@@ -93,7 +93,7 @@ impl ImportOptions {
         }
         let folder = folder_of(manifest);
         if !folder.as_os_str().is_empty() && !folder.is_dir() {
-            return Err(JobError::input(format!("{} is not a folder: make it first", folder.display())).into());
+            return Err(JobError::input(format!("{} is not a folder: create it first", folder.display())).into());
         }
         let outputs = [
             Output::new(manifest, OutputKind::Manifest),

@@ -161,7 +161,7 @@ pub(super) fn of_outside(
         };
         if let Some(unit) = file.other_units().chain([file.unit]).find(holds) {
             return Some(format!(
-                "is {} in {}? As such it lies within the curve: give it in {}. As it is, {fact}",
+                "is {} in {}? Then it is within the curve: give it in {}. As it is, {fact}",
                 levels_key(plan.measure),
                 unit.symbol(),
                 own.symbol()
@@ -174,7 +174,7 @@ pub(super) fn of_outside(
     };
     let other = of_file(file, gravity_m_s2).find(covers)?;
     Some(format!(
-        "are its numbers in {}? As such they cover the levels: {}. Read as {}, {fact}",
+        "are its numbers in {}? Then they cover the levels: {}. Read as {}, {fact}",
         other.unit.name(),
         other.unit.remedy(study, site, file),
         file.unit.symbol()

@@ -68,8 +68,7 @@ pub fn read_component(file: &ComponentFile, options: &ReadOptions) -> Result<(Re
     let sum = checksum(&bytes);
     if file.sha256.as_ref().is_some_and(|known| !known.eq_ignore_ascii_case(&sum)) {
         return Err(format!(
-            "{} is not the file that the manifest was made from, its SHA-256 is another: put that file back, or import \
-             the records again",
+            "{} has changed since the import (SHA-256): restore it, or import the records again",
             path.display()
         ));
     }

@@ -291,7 +291,7 @@ pub(super) fn alike(pairs: &[CheckedPair]) -> Vec<String> {
     match alike.len() {
         0 => Vec::new(),
         count => vec![format!(
-            "{count} of {} records have the same motion as both components ({shown}{}): the intensity is then that of \
+            "{count} of {} records have the same motion as both components ({shown}{}): their intensity is that of \
              the component, not a geometric mean",
             pairs.len(),
             if count > 5 { ", …" } else { "" }

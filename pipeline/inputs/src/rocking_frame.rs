@@ -17,8 +17,8 @@ pub const TORSION: &str = "torsion is outside the model: the deck does not turn 
 pub fn rocking_frame(structure: &Structure) -> Result<RockingFrame, InputsError> {
     let Some(frame) = structure.rocking_frame() else {
         return Err(JobError::Usage(format!(
-            "{}: what is shaken is columns with flat ends, and kind \"{}\" has none: it is computed for block, frame \
-             and restrained-frame",
+            "{}: the model needs columns with flat ends, and kind \"{}\" has none: use block, frame or \
+             restrained-frame",
             structure.file.display(),
             structure.description.kind.name()
         ))

@@ -49,12 +49,7 @@ pub fn select(
     }
     let lacking: Vec<String> = unknown
         .iter()
-        .map(|(key, lacking)| {
-            format!(
-                "{lacking} of {count} records have no number for {key} in the manifest, which is asked for, and \
-                     are left out"
-            )
-        })
+        .map(|(key, lacking)| format!("{lacking} of {count} records have no {key} in the manifest and are left out"))
         .collect();
     if chosen.is_empty() {
         let because = if lacking.is_empty() { String::new() } else { format!(" ({})", lacking.join("; ")) };

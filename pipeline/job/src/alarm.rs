@@ -62,12 +62,12 @@ impl Alarm {
 }
 
 impl fmt::Display for Alarm {
-    /// `Athens, PGV, 2 % (and 3 more): what was found`.
+    /// `Athens, PGV, 2 % (3 more): what was found`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let also = match &self.also[..] {
             [] => String::new(),
             [one] => format!(" (and {one})"),
-            more => format!(" (and {} more)", more.len()),
+            more => format!(" ({} more)", more.len()),
         };
         write!(formatter, "{}{also}: {}", self.subject, self.what)
     }

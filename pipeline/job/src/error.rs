@@ -56,7 +56,7 @@ pub enum JobError {
     Analysis(#[source] Box<IdaError>),
     /// The user stopped the run.
     #[error(
-        "interrupted: nothing was written, and an earlier result file is as it was. Run the same command to start again"
+        "interrupted: nothing was written; an earlier result file is unchanged. Run the same command to start again"
     )]
     Interrupted,
     /// The user stopped a computation that goes on where it stopped.

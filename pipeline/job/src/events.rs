@@ -1,4 +1,4 @@
-//! What a job tells while it works, and how it is stopped: the one way out.
+//! Events of a job, and its cancellation: the one way out.
 
 use std::path::Path;
 

@@ -114,9 +114,9 @@ impl Needs {
         let needed = bytes(self.memory_bytes);
         match (&memory.most, &memory.available) {
             (Some(most), _) if self.memory_bytes > most.bytes => room.cannot.push(format!(
-                "about {needed} of memory are needed, and there are {} ({}): ask for less at once (strengths, levels, \
-                 thresholds, sites, records, replicates), leave large arrays out (`risk.maf_surface = false`), or \
-                 take a larger machine",
+                "about {needed} of memory are needed, and {} are free ({}): reduce strengths, levels, thresholds, \
+                 sites, records or replicates, leave large arrays out (`risk.maf_surface = false`), or use a larger \
+                 machine",
                 bytes(most.bytes),
                 most.of
             )),
@@ -132,8 +132,8 @@ impl Needs {
             let [least, most] = [self.disk_least_bytes, self.disk_bytes].map(bytes);
             if self.disk_least_bytes > limit.bytes {
                 room.cannot.push(format!(
-                    "{least} to {most} of disk are needed, and there are {} ({}): make room, write elsewhere with \
-                     `-o`, or ask for less",
+                    "{least} to {most} of disk are needed, and {} are free ({}): free some, write elsewhere with \
+                     `-o`, or reduce the study",
                     bytes(limit.bytes),
                     limit.of
                 ));

@@ -51,7 +51,7 @@ pub enum OutputKind {
     Figure,
     /// The page of a report.
     Page,
-    /// A table that its reader completes by hand, so that none gives way.
+    /// A table that its reader completes by hand, so that none is overwritten.
     Manifest,
     /// What an import remarks.
     Remarks,

@@ -22,7 +22,7 @@ pub struct RunOptions {
     pub command: String,
     /// What was changed of the study file for this run, `records.first=20`; kept in the result.
     pub overrides: Vec<String>,
-    /// Whether whatever is at the places of the result and its tables gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
     /// Whether the study is run although its result is there and whole.
     pub again: bool,
@@ -69,7 +69,7 @@ pub struct PlanHead {
     pub would_replace: bool,
 }
 
-/// What a run of any kind tells.
+/// The report of a run of any kind.
 #[derive(Debug, Clone, Serialize)]
 pub struct RunHead {
     /// `uplift`.

@@ -86,6 +86,11 @@ pub fn short(value: f64) -> String {
     }
 }
 
+/// A frequency a year, or a bound of it, with the two digits that a record set can tell: `7.4e-5`.
+pub fn rate(per_year: f64) -> String {
+    format!("{per_year:.1e}")
+}
+
 /// A size in bytes, in kB, MB or GB.
 pub fn bytes(number: u64) -> String {
     match number {

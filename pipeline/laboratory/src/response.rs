@@ -84,8 +84,7 @@ impl ResponseOptions {
         let post_uplift = match (self.capacity_m, self.post_uplift_stiffness_per_s2) {
             (Some(_), Some(_)) => {
                 return Err(JobError::Usage(
-                    "a capacity is of negative stiffness after uplift, and a positive one is given too: give one of \
-                     them"
+                    "a capacity needs a negative stiffness after uplift, but a positive one is given: give one of them"
                         .to_owned(),
                 )
                 .into());

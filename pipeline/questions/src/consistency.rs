@@ -26,7 +26,7 @@ pub struct ConsistencyOptions {
     /// Disaggregations of the site's hazard, tables of the engine: each with the site that it is of, none where the
     /// result has but one.
     pub disaggregations: Vec<(Option<String>, PathBuf)>,
-    /// Whether whatever is at the place of the table gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 
@@ -66,10 +66,7 @@ pub fn consistency(
     report.earthquakes = earthquakes(&question, &report.rows, &shaken);
     for ((_, path), (site, _)) in options.disaggregations.iter().zip(&shaken) {
         if !report.earthquakes.iter().any(|row| row.site == question.sites[*site]) {
-            events.note(&format!(
-                "{}: of no measure and probability by which the result has spectra, so nothing is shown of it",
-                path.display()
-            ));
+            events.note(&format!("{}: ignored, its measure and probability are not in the result", path.display()));
         }
     }
     let path = consistency_path(&stored.path);

@@ -31,7 +31,7 @@ pub struct MeasureBands {
     pub measure: IntensityMeasure,
     /// Those of the spectra of records that count alike.
     pub plain: StoredSpectraBands,
-    /// Those of the spectra of all records there could be, and of another set; none in results of before.
+    /// Those of the spectra of all records there could be, and of another set; none in older results.
     pub inferred: Option<InferredBands>,
     /// Those of the repaired spectra; none where the result had none at the time.
     pub repaired: Option<StoredRepairedBands>,
@@ -58,7 +58,7 @@ pub struct StoredJointBands {
     pub limits_m: [Array<4>; 3],
     /// Widths of the interval `[site, poe, size]`, % (Eq. 4.10); NaN where an ordinate is censored or 0.
     pub range_of_interval: Array<3>,
-    /// Share of the pairs of a sample and a curve whose weights do not bring the hazard of the curve `[site, size]`; of
+    /// Share of the pairs of a sample and a curve whose weights miss the hazard of the curve `[site, size]`; of
     /// repaired spectra alone.
     pub failed: Option<Array<2>>,
 }
@@ -111,9 +111,9 @@ impl InferredBands {
 pub struct StoredRepairedBands {
     /// The bands.
     pub bands: StoredSpectraBands,
-    /// Share of the samples whose weights do not bring the site's hazard `[site, size]`.
+    /// Share of the samples whose weights miss the site's hazard `[site, size]`.
     pub failed: Array<2>,
-    /// Those of the repaired spectra of all records there could be, and of another set; none in results of before.
+    /// Those of the repaired spectra of all records there could be, and of another set; none in older results.
     pub inferred: Option<InferredBands>,
 }
 
@@ -196,15 +196,15 @@ group! {
     "truth_upper_m" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m"
         "limit of the spectrum of all records there could be" = |of, at| of.truth_m[1][at];
     "prediction_lower_m" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m" "limit of the spectrum of another set of records"
-        ("limit of the spectrum of another set of as many records") = |of, at| of.prediction_m[0][at];
+        ("limit of the spectrum of another set of the same number of records") = |of, at| of.prediction_m[0][at];
     "prediction_upper_m" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m" "limit of the spectrum of another set of records"
         = |of, at| of.prediction_m[1][at];
 }
 
 group! {
-    /// Share of the samples whose weights do not bring the site's hazard.
+    /// Share of the samples whose weights miss the site's hazard.
     pub const FAILED_SAMPLES: Array<2> = "/bootstrap/<im>/consistent";
-    "failed" [SITE, SAMPLE_SIZE] F64 "1" "share of the replicates whose weights do not bring the site's hazard"
+    "failed" [SITE, SAMPLE_SIZE] F64 "1" "share of the replicates whose weights miss the site's hazard"
         = |of, at| of[at];
 }
 
@@ -224,9 +224,8 @@ group! {
     /// Share of the pairs of a sample and a curve whose weights fail, of repaired spectra.
     pub const FAILED_PAIRS: SiteJointBands = JOINT_BANDS.path;
     "failed" [SAMPLE_SIZE] F64 "1"
-        "share of the pairs of a replicate and a curve whose weights do not bring its hazard"
-        ("of repaired spectra alone: share of the pairs whose weights do not bring the hazard of the branch, as the \
-          branches weigh")
+        "share of the pairs of a replicate and a curve whose weights miss the hazard"
+        ("repaired spectra only: share of the pairs whose weights miss the hazard of the branch, weighted by branch")
         = |of, at| of.failed[at];
 }
 
@@ -424,7 +423,7 @@ impl ResultFile {
         Ok(Some(draws))
     }
 
-    /// What the draws are of; records in results of before.
+    /// What the draws are of; records in older results.
     fn drawn_unit(&self) -> Result<Unit, ResultError> {
         let Ok(word) = self.reader.attribute_text(BANDS.root(), "unit") else { return Ok(Unit::Record) };
         let unit = Unit::ALL.into_iter().find(|unit| unit.key() == word);

@@ -57,14 +57,14 @@ group! {
           at sites without its curve, here and below") = |of, at| of.rate_per_year[at];
     "<other>_site" [SITE, RATE] F64 "<other_unit>" "level of the site's own hazard curve, <label>"
         ("level of the site's own hazard curve of the other measure, here PGA") = |of, at| of.site_level[at];
-    "<other>_implied" [SITE, RATE] F64 "<other_unit>" "level that the records bring, <label>"
+    "<other>_implied" [SITE, RATE] F64 "<other_unit>" "level of the records, <label>"
         = |of, at| of.implied_level[at];
-    "<other>_bias" [SITE] F64 "1" "level that the records bring over the site's, mean of the range"
+    "<other>_bias" [SITE] F64 "1" "level of the records over the site's, mean of the range"
         ("exp of the mean of ln(implied/site)") = |of, at| of.bias[at];
     "<other>_max" [SITE] F64 "1" "largest absolute ln(implied/site)" = |of, at| of.max[at];
     "<other>_verdict" [SITE] Text "" "consistent, off or inconsistent; empty where unknown"
-        ("`consistent`, `off`, `inconsistent`; empty where it cannot be said") = |of, at| of.verdict[at];
-    "<other>_ratio" [SITE, POE] F64 "1" "level that the records bring over the site's" = |of, at| of.ratio[at];
+        ("`consistent`, `off`, `inconsistent`; empty where undecided") = |of, at| of.verdict[at];
+    "<other>_ratio" [SITE, POE] F64 "1" "level of the records over the site's" = |of, at| of.ratio[at];
 }
 
 group! {
@@ -72,7 +72,7 @@ group! {
     pub const DIAGNOSES: Diagnosis = CONSISTENCY.path;
     "<other>_rms" [SITE] Made "1" "root mean square of ln(implied/site)"
         = |of, _at| of.deviation.as_ref().map_or(f64::NAN, |deviation| deviation.rms);
-    "<other>_times_as_often" [SITE, POE] Made "1" "how many times as often as it should the site's level is reached"
+    "<other>_times_as_often" [SITE, POE] Made "1" "rate at which the records reach the site's level, over its target"
         = |of, at| of.targets[at].times_as_often.unwrap_or(f64::NAN);
     "scale_factor_05" [SITE, POE] Made "1" "5 % of the scale factors"
         ("5 % of the factors that records are multiplied by at the level of the probability")
@@ -84,14 +84,14 @@ group! {
     "scale_factors_outside" [SITE, POE] Made "1" "share of the scale factors outside consistency.scale_factors"
         ("share of them outside `consistency.scale_factors`") = |of, at| of.targets[at].scale_factors.outside_limits;
     "effective_events" [SITE, POE] Made "1" "effective earthquakes"
-        ("effective earthquakes there; NaN where they are not known")
+        ("effective earthquakes there; NaN where unknown")
         = |of, at| of.stripes[of.targets[at].stripe].effective_events.unwrap_or(f64::NAN);
 }
 
 group! {
     /// Levels that the weighted records of each site bring.
     pub const REPAIRED_LEVELS: Repaired = CONSISTENCY.path;
-    "<other>_repaired" [SITE, RATE] Made "<other_unit>" "level that the weighted records bring, <label>"
+    "<other>_repaired" [SITE, RATE] Made "<other_unit>" "level of the weighted records, <label>"
         = |of, at| of.diagnosis.deviation.as_ref().map_or(f64::NAN, |deviation| deviation.implied_levels[at]);
 }
 
@@ -155,7 +155,7 @@ impl StoredConsistency {
     }
 
     /// Whether these are to be shown beside the plain spectra: there are some, and the plain ones are of records that
-    /// do not bring the site's hazard.
+    /// miss the site's hazard.
     pub fn stands_beside(&self, site: usize) -> bool {
         self.verdict[site] == "inconsistent" && self.is_repaired(site)
     }

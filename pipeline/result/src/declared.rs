@@ -537,7 +537,7 @@ mod tests {
     /// What stands before a table: the groups whose arrays it has.
     const MARK: (&str, &str) = ("<!-- arrays: ", " -->");
 
-    /// The page with its tables of declared groups made anew, and the groups in them.
+    /// The page with its tables of declared groups made again, and the groups in them.
     fn made_anew(page: &str) -> (String, Vec<&str>) {
         let (mut made, mut shown) = (String::new(), Vec::new());
         let mut lines = page.lines().peekable();

@@ -113,7 +113,7 @@ pub struct DesignRow {
     pub quantity: String,
     /// The value, and its range over the sweep.
     pub noisy: Noisy,
-    /// The value, and its range over scale factors that differ by rounding; none in results of before.
+    /// The value, and its range over scale factors that differ by rounding; none in older results.
     pub rounding: Option<Noisy>,
 }
 

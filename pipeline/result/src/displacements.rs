@@ -35,7 +35,7 @@ pub struct StoredDisplacements {
     pub abscissas: Vec<f64>,
     /// Percentiles of the peak displacements `[set, scaling, scaled_by, line, percentile, abscissa]`, m.
     pub percentile_m: Array<6>,
-    /// What rounding does to some of them; none in results of before.
+    /// What rounding does to some of them; none in older results.
     pub rounding: Option<StoredRounding>,
     /// Nonlinear time histories.
     pub analyses: u64,
@@ -154,8 +154,8 @@ group! {
         "share of the motions under which the structure overturns" = |of, at| of.overturned[at];
     "critical" [RECORD_SET, SCALING, SCALED_BY, "<line>", "<of_line>", PERCENTILE] F64 "1"
         "largest <abscissa> at which the percentile is infinite"
-        ("largest abscissa at which the percentile is infinite: the figures draw a line to the right of it; NaN where \
-          it stands throughout") = |of, at| of.critical[at];
+        ("largest abscissa at which the percentile is infinite: the figures draw a line to the right of it; NaN if \
+          there is none") = |of, at| of.critical[at];
 }
 
 group! {

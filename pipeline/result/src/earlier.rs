@@ -144,8 +144,8 @@ impl ResultFile {
         if let [first, rest @ ..] = &names[..] {
             let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
             events.note(&format!(
-                "{first}{more} beside {} is of another result of that name, with other numbers: make it again, or \
-                 remove it (uplift status names all)",
+                "{first}{more} beside {} is from another result of that name: write it again, or remove it (uplift \
+                 status lists all)",
                 self.path().display()
             ));
         }

@@ -1,4 +1,4 @@
-//! Adding to a result file: it is written anew and replaced at once.
+//! Adding to a result file: it is written again and replaced at once.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -54,7 +54,7 @@ impl LockedResult {
         // a program that knows nothing of the lock may have been there
         if reader.identity() != self.identity {
             return Err(JobError::input(format!(
-                "{}: was written anew meanwhile, so these numbers are not of it any more: run the command again",
+                "{}: another process has overwritten it meanwhile: run the command again",
                 path.display()
             ))
             .into());

@@ -168,8 +168,8 @@ impl ResultFile {
         let axes = self.axes()?;
         if axes.sites.is_empty() {
             return Err(self.fail(
-                "the study has no sites, and so no spectra here (those of a table of sites are in the CSV beside it): \
-                 add [[sites]] and run it again",
+                "the study has no sites, so the result has no spectra (those of a site table are in the CSV beside \
+                 it): add [[sites]] and run it again",
             ));
         }
         Ok(axes)
@@ -185,13 +185,12 @@ impl ResultFile {
         }
         Err(self.fail(match self.kind {
             Kind::Displacement => {
-                "holds displacement spectra of record sets, not uniform risk spectra: `uplift \
-                 table`, `plot`, `report`, `status` and `verify` take it, tables lie beside it as CSV, and \
-                 docs/exports.md says how other programs read it"
+                "holds displacement spectra of record sets, not uniform risk spectra: use `uplift table`, `plot`, \
+                 `report`, `status` or `verify`, or the CSV tables beside it (other programs: docs/exports.md)"
             }
             Kind::ShakeTable => {
-                "holds the tests of a shaking table: `uplift table`, `plot`, `report`, `validate`, `status` and \
-                 `verify` take it, and its tests lie beside it as CSV"
+                "holds the tests of a shaking table: use `uplift table`, `plot`, `report`, `validate`, `status` or \
+                 `verify`, or the CSV table beside it"
             }
             Kind::UniformRisk if wanted == Kind::ShakeTable => {
                 "holds uniform risk spectra, not tests of a shaking table"

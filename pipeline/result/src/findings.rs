@@ -1,7 +1,7 @@
 //! What structures were asked under a result, and the answers, as they stand in its file.
 
 use uplift_job::checksum::checksum;
-use uplift_job::text::{risk_in_words, rounded, short};
+use uplift_job::text::{rate, risk_in_words, rounded, short};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 use super::declared::group;
@@ -85,12 +85,12 @@ group! {
     /// The numbers of an answer.
     pub const FINDINGS: Vec<FindingRow> = "/structures/<structure>/<command>/<key>";
     "quantity" ["finding_<key>"] Text "" "what the number is" = |of, at| of[at].quantity;
-    "site" ["finding_<key>"] Text "" "site; empty where it is of none" = |of, at| of[at].site;
-    "im" ["finding_<key>"] Text "" "intensity measure; empty where it is of none" = |of, at| of[at].im;
+    "site" ["finding_<key>"] Text "" "site; may be empty" = |of, at| of[at].site;
+    "im" ["finding_<key>"] Text "" "intensity measure; may be empty" = |of, at| of[at].im;
     "unit" ["finding_<key>"] Text "" "unit of value, lower and upper"
         ("unit of value, lower and upper: `m`, `1/yr`, … (`1` where there is none)") = |of, at| of[at].unit;
-    "band" ["finding_<key>"] Text "" "what the band is of"
-        ("what the band is of: `records`, `earthquakes`, `records and hazard`, `resampled records`, `structure, \
+    "band" ["finding_<key>"] Text "" "source of the band"
+        ("source of the band: `records`, `earthquakes`, `records and hazard`, `resampled records`, `structure, \
           records and hazard`, `at most`, …") = |of, at| of[at].band;
     "value" ["finding_<key>"] F64 "1" "the number, in its unit"
         ("the number, in its unit; `inf` where the structure overturns") = |of, at| of[at].value;
@@ -134,7 +134,7 @@ impl Finding {
         serde_json::from_str(&self.document).unwrap_or_default()
     }
 
-    /// What to know before using it, the worst first, as it was told.
+    /// What to know before using it, the worst first, as it was reported.
     pub fn alarms(&self) -> Vec<serde_json::Value> {
         self.printed()["alarms"].as_array().cloned().unwrap_or_default()
     }
@@ -162,7 +162,7 @@ impl Finding {
             let of = self.request.iter().find(|(name, _)| name == wanted);
             of.and_then(|(_, value)| value.parse::<f64>().ok())
         };
-        // a return period is kept as the probability that it is in so many years: it is told as it was asked for
+        // a return period is kept as the probability that it is in so many years: it is reported as it was asked for
         let risk = number("poe").zip(number("years")).map(|(poe, years)| risk_in_words(poe, years));
         let told = |(name, value): &(String, String)| match (name.as_str(), &risk) {
             ("poe", Some(risk)) => format!(", {risk}"),
@@ -209,7 +209,7 @@ impl FindingRow {
     pub fn shown(&self) -> String {
         match self.limits {
             // a count of none is no proof of never
-            [lower, upper] if self.value == 0.0 && lower.is_nan() && !upper.is_nan() => format!("< {upper:.1e}"),
+            [lower, upper] if self.value == 0.0 && lower.is_nan() && !upper.is_nan() => format!("< {}", rate(upper)),
             _ => self.digits(self.value),
         }
     }
@@ -231,7 +231,7 @@ impl FindingRow {
             _ if value.is_infinite() => "infinite".to_owned(),
             "m" => format!("{value:.4}"),
             "1/yr" if value == 0.0 => "none".to_owned(),
-            "1/yr" => format!("{value:.3e}"),
+            "1/yr" => rate(value),
             _ => short(value),
         }
     }

@@ -60,7 +60,7 @@ group! {
     "rrup_km" [RECORD] F64 "km" "closest distance to the rupture" = |of, at| of.rrup_km[at];
     "vs30" [RECORD] F64 "m/s" "mean shear-wave velocity of the upper 30 m" = |of, at| of.vs30[at];
     "component" [RECORD] Text "" "horizontal component analysed"
-        ("what of the pair is analysed: `h1`, `h2`, an azimuth `30deg`, or `percentile 50 of 12 azimuths`")
+        ("analysed component of the pair: `h1`, `h2`, an azimuth `30deg`, or `percentile 50 of 12 azimuths`")
         = |of, at| of.component[at];
     "checksum" [RECORD] Text "" "SHA-256 of the component" ("SHA-256 of its file; of the samples if synthetic")
         = |of, at| of.checksum[at];
@@ -77,8 +77,8 @@ group! {
     /// By which a later run knows the motions again.
     pub const MOTION_KEYS: StoredRecords = RECORDS.path;
     "motion_sha256" [RECORD] Text "" "SHA-256 of time step and samples in m/s2"
-        ("SHA-256 of the time step and the samples in m/s², of those of all azimuths and the percentile where it is \
-          one, by which a later run knows the motion again; with what of the structure is not known exactly")
+        ("SHA-256 that identifies the motion in a later run: of the time step and the samples in m/s² (of a \
+          percentile, of all azimuths), and of the uncertain structure")
         = |of, at| of.motion_sha256[at];
 }
 
@@ -95,8 +95,7 @@ group! {
     /// Which structure each record shakes, where structures are not known exactly.
     pub const DRAWN_STRUCTURE: Array<1, u32> = RECORDS.path;
     "structure" [RECORD] U32 "1" "number of the structure that the record shakes"
-        ("number of the structure that the record shakes; only where structures are not known exactly, as the \
-          next ones")
+        ("number of the structure that the record shakes; only of uncertain structures, as the next ones")
         = |of, at| of[at];
 }
 
@@ -104,7 +103,7 @@ group! {
     /// A quantity of these structures that is not known exactly.
     pub const DRAWN_QUANTITY: Array<1> = RECORDS.path;
     "<quantity>" [RECORD] F64 "<quantity_unit>" "<words> of the structure"
-        ("what of it is not known exactly: the factor on each strength, and the values") = |of, at| of[at];
+        ("its uncertain quantities: the factor on each strength, and the values") = |of, at| of[at];
 }
 
 /// Names of the array of a quantity that is not known exactly.

@@ -276,7 +276,7 @@ impl MeasureSpectra {
 }
 
 impl ResultFile {
-    /// How well the records know the spectra, a sentence a measure; none in results of before, and where nothing can be
+    /// How well the records know the spectra, a sentence a measure; none in older results, and where nothing can be
     /// said.
     pub fn precision(&self) -> Vec<String> {
         let words =

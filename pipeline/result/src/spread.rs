@@ -1,4 +1,4 @@
-//! How far the spectra of a result lie apart over what is not known: weighted hazard curves, structures that may be.
+//! How far the spectra of a result lie apart over what is not known: weighted hazard curves, possible structures.
 
 use uplift_motion::IntensityMeasure;
 
@@ -16,7 +16,7 @@ use uplift_job::Array;
 pub enum SpreadOver {
     /// The weighted hazard curves of the site.
     HazardCurves,
-    /// The structures that may be, where all records shake the same ones.
+    /// The possible structures, where all records shake the same ones.
     Structures,
 }
 
@@ -28,7 +28,7 @@ impl SpreadOver {
     pub fn words(self) -> &'static str {
         match self {
             Self::HazardCurves => "weighted hazard curves",
-            Self::Structures => "structures that may be",
+            Self::Structures => "possible structures",
         }
     }
 
@@ -95,7 +95,7 @@ group! {
     "weight" ["<branches>"] F64 "1" "weight of the branch" = |of, at| of[at];
 }
 
-/// Spread over the structures that may be.
+/// Spread over the possible structures.
 pub const UNCERTAINTY: Group<Spread> = Group { path: "/uncertainty/<im>/<site>", ..EPISTEMIC };
 /// The spectra of these structures.
 pub const UNCERTAINTY_SPECTRA: Group<Array<3>> = Group { path: UNCERTAINTY.path, ..EPISTEMIC_SPECTRA };

@@ -31,8 +31,8 @@ impl ResultFile {
             return Ok(());
         }
         Err(self.fail(format!(
-            "its levels have records of their own (records.at_level), and {question}: ask a result whose records are \
-             the same at every level"
+            "its levels have records of their own (records.at_level), and {question}: use a result with the same \
+             records at every level"
         )))
     }
 }

@@ -43,7 +43,7 @@ pub fn check_place(study: &AnyStudy, options: &RunOptions, inputs: &[PathBuf]) -
             JobError::Usage(format!("{name} would overwrite an input: give the result another name (-o)")).into()
         );
     }
-    // what gives way to the result goes there, whatever is forced
+    // files that the result replaces go there, whatever is forced
     let earlier = beside(path, "earlier");
     if earlier.exists() && !earlier.is_dir() {
         return Err(JobError::Usage(format!(
@@ -56,9 +56,9 @@ pub fn check_place(study: &AnyStudy, options: &RunOptions, inputs: &[PathBuf]) -
     check_replaceable(path, options.force)
 }
 
-/// Why an earlier result in the place of that of `study` is another's, so that it gives way to force alone: of another
-/// study file, or of this one with other values in the place of the file's. None where there is nothing to lose: the
-/// study file as it is now, edited or not, or the same numbers.
+/// Why an earlier result in the place of that of `study` is another's, so that only --force overwrites it: of
+/// another study file, or of this one with other values in the place of the file's. None where there is nothing to
+/// lose: the study file as it is now, edited or not, or the same numbers.
 ///
 /// # Errors
 /// A study that cannot be written.
@@ -107,8 +107,7 @@ fn check_replaceable(path: &Path, force: bool) -> Result<(), ResultError> {
     drop(LabelledWriter::create(path)?);
     let refused = |what: &str| {
         JobError::input(format!(
-            "{}: is there already and {what}; it is left as it is: give the result file another name (-o), or \
-             --force to replace that one",
+            "{}: exists and {what}, so it is not overwritten: give another name (-o), or --force",
             path.display()
         ))
     };

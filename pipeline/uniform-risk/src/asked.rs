@@ -117,7 +117,7 @@ pub fn at(file: ResultFile, asked: &AskedRisk) -> Result<ResultFile, UniformRisk
     if file.kind() != Kind::UniformRisk {
         return Err(file
             .fail(
-                "holds displacement spectra of record sets, which are of no probability: leave out --poe, \
+                "holds displacement spectra of record sets, which have no probability: leave out --poe, \
                  --return-period and --years",
             )
             .into());

@@ -1,4 +1,4 @@
-//! The spectra of a site's weighted hazard curves, and those of the structures that may be: how much of a spectrum is
+//! The spectra of a site's weighted hazard curves, and those of the possible structures: how much of a spectrum is
 //! the choice of hazard model, and how much what is not known of the structure.
 
 use uplift_bootstrap::weighted_quantile;

@@ -48,5 +48,5 @@ pub use stripes::{
 pub use study_of_result::{SpectraOfResult, StudyOfResult};
 pub use units::RecordUnits;
 
-/// Of all replicates of repaired spectra, this share may fail before it is a matter to be told.
+/// Of all replicates of repaired spectra, this share may fail before it is a matter to be reported.
 pub const MANY_FAILED: f64 = 0.05;

@@ -22,7 +22,7 @@ pub struct Spectra {
     pub ordinates: Array<3, Ordinate>,
     /// Spectra of each branch, for the sites that have branches.
     pub branches: Vec<BranchSpectra>,
-    /// Spectra over the structures that may be, one a site, where all records shake the same ones: a structure is a
+    /// Spectra over the possible structures, one a site, where all records shake the same ones: a structure is a
     /// branch, and all weigh alike.
     pub structures: Vec<BranchSpectra>,
     /// Mean annual frequencies `[site, strength, threshold]`, 1/yr, if the study keeps them.

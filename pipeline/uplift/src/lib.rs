@@ -67,7 +67,7 @@
 //! | [`response`], [`pulses`] | one record through one oscillator, block or frame; rocking spectra under wavelets |
 //! | [`pushover`](mod@pushover), [`restrainer`] | columns under a static force; restrainers, stacks of a catalogue |
 //! | [`validate`](mod@validate) | whether computed peaks are distributed as measured ones |
-//! | [`outputs`] | files that a job is asked to write: what may give way to them |
+//! | [`outputs`] | files that a job is asked to write, and what they may overwrite |
 //! | [`text`] | numbers in words |
 
 mod error;

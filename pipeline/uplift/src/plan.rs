@@ -23,7 +23,7 @@ pub enum Plan {
 }
 
 impl Plan {
-    /// What every kind tells.
+    /// What every kind reports.
     pub fn head(&self) -> &PlanHead {
         match self {
             Self::UniformRisk(plan) => &plan.head,

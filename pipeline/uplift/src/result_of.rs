@@ -32,12 +32,12 @@ pub fn result_of(study: &UniformRiskStudy, options: &RunOptions, events: &dyn Ev
     } else if let Some(reason) = replaces_another(&of_kind, options)? {
         let name = path.display();
         return Err(JobError::Usage(format!(
-            "{reason}: give {name} in place of the study file to take that result, the --set values that it was made \
-             with, or --force to replace it"
+            "{reason}: give {name} in place of the study file, the --set values of that result, or --force to \
+             overwrite it"
         ))
         .into());
     } else {
-        events.remark("result", &format!("{} is made first", path.display()));
+        events.remark("result", &format!("computing {} first", path.display()));
         run(&of_kind, options, events)?;
     }
     Ok(path.to_owned())
@@ -67,7 +67,7 @@ pub(crate) fn finished(
     }
     let (stored, alarms) = (file.head()?, alarms(&file)?);
     if study.title() != stored.title {
-        events.note("the result keeps the title that it was run with; --again takes that of the study");
+        events.note("the result keeps its earlier title; use that of the study: --again");
     }
     let (tables, missing): (Vec<_>, Vec<_>) = tables.into_iter().partition(|table| table.is_file());
     for table in missing {
@@ -151,7 +151,7 @@ fn refuse_other_question(study: &UniformRiskStudy, path: &Path) -> Result<(), Up
     }
     Err(JobError::Usage(format!(
         "{} was run with other values of consistency.{}: run the study with these first (uplift run with the same \
-         --set; its peaks are taken from there, seconds), or give the result in place of the study to take it as it is",
+         --set, some seconds), or give the result in place of the study",
         path.display(),
         differing.join(", consistency.")
     ))

@@ -36,7 +36,7 @@ pub enum RunReport {
 }
 
 impl RunReport {
-    /// What every kind tells.
+    /// What every kind reports.
     pub fn head(&self) -> &RunHead {
         match self {
             Self::UniformRisk(report) => &report.head,

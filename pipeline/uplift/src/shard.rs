@@ -85,6 +85,5 @@ pub fn merge(
 
 /// The tests of a shaking table take seconds.
 fn not_cut() -> UpliftError {
-    JobError::Usage("the tests of a shaking table take seconds, and are not cut into shards: run the study".to_owned())
-        .into()
+    JobError::Usage("studies of a shaking table have no shards: run the study".to_owned()).into()
 }

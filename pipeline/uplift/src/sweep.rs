@@ -23,6 +23,7 @@ use uplift_labelled::hexadecimal;
 use uplift_result::{ResultFile, flag_word};
 use uplift_studies::uniform_risk::Inputs;
 use uplift_study::{AnyStudy, Study, StudyError, UniformRiskStudy};
+use uplift_uniform_risk::{Displacement, DisplacementOptions, displacements};
 
 use crate::error::UpliftError;
 use crate::result_of::result_of;
@@ -45,11 +46,11 @@ pub struct SweepOptions {
     pub folder: Option<PathBuf>,
     /// What the caller typed; kept in the results.
     pub command: String,
-    /// Whether whatever is at the places of results and table gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 
-/// What a sweep tells.
+/// The report of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SweepReport {
     /// The study file.
@@ -83,6 +84,11 @@ pub struct VariantReport {
     pub strengths: Vec<f64>,
     /// Its spectra.
     pub spectra: Vec<VariantSpectrum>,
+    /// Displacements with their confidence bands, of its smallest probability by each measure.
+    pub displacements: Vec<Displacement>,
+    /// The same of its repaired spectra; empty without a repair.
+    #[serde(skip)]
+    pub repaired: Vec<Displacement>,
     /// What is to be seen to before its numbers are used, the worst first.
     pub alarms: Vec<Alarm>,
 }
@@ -104,7 +110,7 @@ pub struct VariantSpectrum {
     pub lower_tail_share: Vec<f64>,
     /// Share of the risk of each that comes from above the last stripe, 0 to 1.
     pub upper_tail_share: Vec<f64>,
-    /// The same displacements by weights that bring the hazard of the other measure, m; none without a repair.
+    /// The repaired displacements, m; none without a repair.
     pub repaired_m: Option<Vec<f64>>,
 }
 
@@ -252,8 +258,7 @@ fn senseless(ready: &[Ready], keys: &[String]) -> Vec<String> {
     }
     if keys.iter().any(|key| key == "seed") && !ready.iter().any(|of| of.study.records.component.is_drawn()) {
         mistakes.push(
-            "seed: it draws the samples of a bootstrap, and components or azimuths where records.component says so: \
-             the spectra are the same for all its values; records.synthetic.seed makes other records"
+            "seed: this study has the same spectra for all its values; for other records vary records.synthetic.seed"
                 .to_owned(),
         );
         return mistakes;
@@ -311,6 +316,15 @@ impl VariantReport {
             upper_tail_share: row.upper_tail_share.to_vec(),
             repaired_m: repaired(&row),
         };
+        let with_bands = |repaired: bool| {
+            let is_there = |measure| consistency.iter().any(|of| of.scaled_to == measure && of.u_m.is_some());
+            let measures = file.measures().into_iter().filter(|&measure| !repaired || is_there(measure));
+            let of = |measure| {
+                let asked = DisplacementOptions { measure: Some(measure), repaired, ..DisplacementOptions::default() };
+                Ok(displacements(&file, &asked)?.displacements)
+            };
+            measures.map(of).collect::<Result<Vec<_>, UpliftError>>().map(|found| found.concat())
+        };
         let mut alarms = alarms(&file)?;
         alarms.retain(|alarm| alarm.severity != Severity::Note);
         Ok(Self {
@@ -320,6 +334,8 @@ impl VariantReport {
             synthetic: file.is_synthetic()?,
             years: axes.years,
             spectra: spectra.rows().map(row).collect(),
+            displacements: with_bands(false)?,
+            repaired: with_bands(true)?,
             strengths: axes.strengths,
             result,
         })

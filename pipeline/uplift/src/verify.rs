@@ -83,9 +83,9 @@ impl VerifiedFile {
         let mut mistakes: Vec<String> = verdict.damaged.iter().map(|damage| format!("{name}: {damage}")).collect();
         match verdict.seal {
             Seal::Broken if mistakes.is_empty() => {
-                mistakes.push(format!("{name}: some byte has changed: take another copy, or run the study again"));
+                mistakes.push(format!("{name}: it has changed: use another copy, or run the study again"));
             }
-            Seal::Broken => mistakes.push(format!("{name}: is damaged: take another copy, or run the study again")),
+            Seal::Broken => mistakes.push(format!("{name}: is damaged: use another copy, or run the study again")),
             Seal::Missing => mistakes.push(format!(
                 "{name}: the checksum of the whole file is not at its end: another program has written to it, or its \
                  end is missing"

@@ -107,7 +107,7 @@ fn array(result: &Path, name: &str) -> Vec<f64> {
     LabelledReader::open(result).unwrap().array_f64(name).unwrap().values
 }
 
-/// Writes down what it is told, and stops the job after so many steps.
+/// Writes down what it is reported, and stops the job after so many steps.
 #[derive(Default)]
 struct Recorder {
     remarks: Mutex<Vec<String>>,
@@ -300,7 +300,7 @@ fn a_design_starts_from_the_spectrum_in_the_file() {
     assert_eq!((alone.exact, alone.spectrum), (None, Some(spectrum)));
 }
 
-// What is finished of the structure's own analysis is in a checkpoint beside the result until all of it is told.
+// What is finished of the structure's own analysis is in a checkpoint beside the result until all of it is reported.
 #[test]
 fn a_stopped_design_and_overturning_go_on() {
     let folder = Folder::new();

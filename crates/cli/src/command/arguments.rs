@@ -26,7 +26,7 @@ use crate::error::CommandError;
 /// Endings of the files that the program writes.
 const FILES: [&str; 6] = ["h5", "svg", "png", "csv", "html", "json"];
 
-/// Whether files that are there give way.
+/// Whether files that are there are overwritten.
 #[derive(Debug, Args)]
 pub(crate) struct ForceArgument {
     /// Overwrite existing outputs (never an input)

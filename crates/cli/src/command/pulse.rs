@@ -15,7 +15,7 @@ use crate::error::CommandError;
 use crate::show::{print_json, print_pulses};
 use crate::terminal::Terminal;
 
-/// Lines that a figure can tell apart.
+/// Lines that a figure can distinguish.
 const MOST_LINES: usize = 7;
 
 #[derive(Debug, Args)]

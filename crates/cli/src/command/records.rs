@@ -255,7 +255,7 @@ struct AtLevelArguments {
     #[arg(
         required = true,
         value_name = "FILE",
-        help = "What the tool wrote, a file a level: haselREC's ..._summary_selection.txt, CS_Selection's \
+        help = "Output of the tool, one file per level: haselREC's ..._summary_selection.txt, CS_Selection's \
                 Output_File.dat, EzGM's GMR_H1_names.txt or GMR_names.txt (GMR_sf_used.txt lies beside it), Djura's \
                 records_....json"
     )]

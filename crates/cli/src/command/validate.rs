@@ -15,10 +15,8 @@ use crate::show::{print_json, print_validation};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "A value may be inf or overturned for a collapse, >0.35 for a peak above a limit; a blank one is \
-                  none.\nWhat the tests ask, and what \"small or none\" does not mean: docs/validation.md"
-)]
+#[command(after_help = "A value may be inf or overturned for a collapse, >0.35 for a peak above a limit; a blank is \
+                  ignored.\nMeaning of the tests: docs/validation.md")]
 pub(super) struct ValidateArguments {
     /// Measured peaks: CSV with a header, or a shake table's result
     measured: PathBuf,

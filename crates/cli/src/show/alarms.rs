@@ -1,75 +1,56 @@
 //! What to know before numbers are used, the same wherever they are shown.
 
 use std::io::Write;
-use std::path::Path;
 
 use uplift::alarms::{Alarm, Severity, synthetic_records};
 
-use super::shown_path;
+use super::print_more;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
-/// Warnings shown at most; `uplift warnings` prints them all.
-pub(super) const SHOWN: usize = 3;
-/// Words that those shown have at most, but for the first and for probable mistakes.
-const WORDS: usize = 33;
+/// Warnings shown at most, without `--details`.
+const SHOWN: usize = 3;
 
-/// The worst warnings, a line each, and how to see the others, of a `result` by its path; in detail all of them, and
-/// nothing where there are none.
-pub(super) fn print_warnings(
-    out: &mut impl Write,
-    alarms: &[Alarm],
-    result: Option<&Path>,
-    terminal: &Terminal,
-) -> Result<(), CommandError> {
+/// The worst warnings, a line each; all of them in detail. Nothing on a quiet terminal.
+pub(super) fn print_warnings(out: &mut impl Write, alarms: &[Alarm], terminal: &Terminal) -> Result<(), CommandError> {
     if terminal.is_quiet() {
         return Ok(());
     }
-    let all =
-        result.map_or_else(|| "--details".to_owned(), |path| format!("uplift warnings {}", shown_path(path).display()));
-    print_warnings_up_to(out, alarms, &all, if terminal.shows_details() { usize::MAX } else { SHOWN })
+    let lines: Vec<_> = alarms.iter().map(warning).collect();
+    print_lines(out, &lines, terminal.shows_details()).map(drop)
 }
 
 /// That the records are synthetic, of answers that have no other warning of a result.
 pub(super) fn print_synthetic(out: &mut impl Write, synthetic: bool, terminal: &Terminal) -> Result<(), CommandError> {
     let alarms: Vec<Alarm> = synthetic.then(synthetic_records).into_iter().collect();
-    print_warnings(out, &alarms, None, terminal)
+    print_warnings(out, &alarms, terminal)
 }
 
-/// So many of the worst warnings, and what shows `all` of them.
-pub(super) fn print_warnings_up_to(
+/// The same, and that there is more to see, said once.
+pub(super) fn print_warnings_and_more(
     out: &mut impl Write,
     alarms: &[Alarm],
-    all: &str,
-    shown: usize,
+    terminal: &Terminal,
 ) -> Result<(), CommandError> {
-    if alarms.is_empty() {
-        return Ok(());
-    }
-    let lines: Vec<_> = alarms.iter().map(|alarm| (alarm.severity, warning(alarm))).collect();
-    print_lines(out, &lines, all, shown)
+    print_warnings(out, alarms, terminal)?;
+    if alarms.len() > SHOWN { Ok(()) } else { print_more(out, terminal) }
 }
 
-/// The first of the lines, `shown` at most and no more than are read, and what shows `all`.
-pub(super) fn print_lines(
-    out: &mut impl Write,
-    lines: &[(Severity, String)],
-    all: &str,
-    shown: usize,
-) -> Result<(), CommandError> {
+/// The first lines, or `all`, and how to see the others; nothing where there are none. Whether some are left out.
+pub(super) fn print_lines(out: &mut impl Write, lines: &[String], all: bool) -> Result<bool, CommandError> {
+    if lines.is_empty() {
+        return Ok(false);
+    }
     writeln!(out, "\nWarnings")?;
-    let mut words = 0;
-    let mut is_read = |(severity, line): &&(Severity, String)| {
-        let is_first = words == 0;
-        words += line.split_whitespace().count();
-        is_first || shown == usize::MAX || *severity == Severity::Mistake || words <= WORDS
-    };
-    let shown = lines.iter().take(shown).take_while(&mut is_read).count();
-    for (_, line) in &lines[..shown] {
+    let shown = if all { lines.len() } else { lines.len().min(SHOWN) };
+    for line in &lines[..shown] {
         writeln!(out, "  {line}")?;
     }
     let more = lines.len() - shown;
-    if more > 0 { Ok(writeln!(out, "  {more} more: {all}")?) } else { Ok(()) }
+    if more > 0 {
+        writeln!(out, "  {more} more: --details")?;
+    }
+    Ok(more > 0)
 }
 
 /// Every warning with all that it is about.

@@ -124,8 +124,8 @@ fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
     }
     writeln!(
         out,
-        "\nRepaired spectra, weights solved anew for every resample: e and r of the {} interval, r of the plain \
-         spectra, and resamples whose weights do not match the hazard, per cent",
+        "\nRepaired spectra, weights solved for every resample: e and r of the {} interval, r of the plain spectra, \
+         and resamples whose weights miss the hazard, per cent",
         per_cent(report.confidence)
     )?;
     let header = ["site", "im", "probability", "records", "plain r", "repaired e", "repaired r", "failed"];
@@ -160,8 +160,8 @@ fn print_inferred(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
         .collect();
     writeln!(
         out,
-        "\nBeyond these records, {}: where the spectrum of all records like these lies, and that of another set of \
-         {size}, each with {} confidence; limits in per cent from the ordinate, at the strength where the first are \
+        "\nConfidence and prediction bands, {}: the spectrum of all records like these, and of another set of {size}, \
+         each with {} confidence; limits in per cent of the ordinate, at the strength where the confidence band is \
          widest in metres",
         risk_in_words(poe, report.years),
         per_cent(report.confidence)
@@ -258,11 +258,7 @@ fn repaired_joint(bands: &Bands) -> Option<&JointBands> {
 
 /// That many of `what` fail.
 fn too_many_fail(what: &str, failing: &[String]) -> String {
-    format!(
-        "Many {what} fail, and their spectra are repaired in part only, so that the band is too ({}): take more \
-         records, or records of another kind",
-        failing.join("; ")
-    )
+    format!("Weights fail for many {what}, so the band is repaired only in part ({}): add records", failing.join("; "))
 }
 
 /// The bands where rocking begins (Section 4.5.2, Fig. 4.10).

@@ -25,7 +25,8 @@ pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal)
     if !terminal.is_quiet() {
         print_end(out, report, terminal)?;
     }
-    print_more(out, terminal)
+    // one pointer is enough
+    if more_warnings(report) > 0 { Ok(()) } else { print_more(out, terminal) }
 }
 
 /// How far each set of scaled records is from the site's hazard of the other measure.
@@ -85,18 +86,24 @@ fn print_end(out: &mut impl Write, report: &ConsistencyReport, terminal: &Termin
     Ok(())
 }
 
+/// Why there is no repair, of the first row that has none: asked for and not there it is the answer.
+fn nearest(report: &ConsistencyReport) -> Option<String> {
+    report.rows.iter().find_map(|row| {
+        let nearest = row.repair.as_ref()?.nearest.as_ref()?;
+        Some(format!("{} by {}: no weights give the site's {}: {}", row.site, row.scaled_to, row.shows, nearest.worst))
+    })
+}
+
+/// Warnings that details alone show.
+fn more_warnings(report: &ConsistencyReport) -> usize {
+    report.warnings.len() - usize::from(nearest(report).is_some())
+}
+
 /// What speaks against the records, and how many other warnings there are.
 fn print_warnings(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     let synthetic = report.synthetic.then(|| warning(&synthetic_records()));
-    // a repair that was asked for and is not there is the answer
-    let nearest = |row: &ConsistencyRow| {
-        let (site, scaled_to) = (&row.site, row.scaled_to);
-        let nearest = row.repair.as_ref()?.nearest.as_ref()?;
-        Some(format!("{site} by {scaled_to}: no weights give the site's {}: {}", row.shows, nearest.worst))
-    };
-    let nearest = report.rows.iter().find_map(nearest);
-    let more = report.warnings.len() - usize::from(nearest.is_some());
-    let shown: Vec<String> = nearest.into_iter().chain(synthetic).collect();
+    let (shown, more): (Vec<String>, _) =
+        (nearest(report).into_iter().chain(synthetic).collect(), more_warnings(report));
     if !shown.is_empty() || more > 0 {
         writeln!(out, "\nWarnings")?;
     }
@@ -154,8 +161,8 @@ fn probabilities(report: &ConsistencyReport) -> String {
 fn print_levels(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     writeln!(
         out,
-        "\nLevel of the other measure: that of the scaled records over the site's, at {};\n\
-         how many times too often the site's level is reached; mean and largest deviation over the rates compared",
+        "\nLevel of the other measure: scaled records over the site, at {};\nrate of reaching the site's level over \
+         its target; mean and largest deviation over the rates compared",
         probabilities(report)
     )?;
     let repaired = report.rows.iter().any(|row| row.repair.is_some());
@@ -206,7 +213,7 @@ fn print_scale_factors(out: &mut impl Write, report: &ConsistencyReport) -> Resu
     let [least, largest] = report.scale_factors;
     writeln!(
         out,
-        "\nScale factors, 5 / 50 / 95 % of them, at each probability; how many lie outside {least} to {largest}; \
+        "\nScale factors, 5 / 50 / 95 %, at each probability; share outside {least} to {largest}; \
          effective\nearthquakes of {}",
         report.events.map_or_else(|| "unknown number".to_owned(), |events| events.to_string())
     )?;
@@ -228,8 +235,8 @@ fn print_two_sided(out: &mut impl Write, report: &ConsistencyReport) -> Result<(
     }
     writeln!(
         out,
-        "\nBoth analyses together: where the set lies between the measures, which other records can cure, and what no\n\
-         single set can avoid; factors of the level"
+        "\nBoth analyses together, factors of the level: location of the set (other records can correct it), and \
+         spread\n(no single set avoids it)"
     )?;
     let table = Table::of(&report.two_sided)
         .left("site", |row| &row.site)

@@ -7,14 +7,14 @@ use uplift::structure::{
     Bands, DemandBands, DemandRounding, DesignReport, EventRisk, ExactDemand, FrameReport, RuleCheck, RuleOutcome,
     StructureReport,
 };
-use uplift::text::{Table, cell_with_band, metres_with_band, risk_in_words, short};
+use uplift::text::{self, Table, cell_with_band, metres_with_band, risk_in_words, short};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
-use super::alarms::print_warnings;
+use super::alarms::print_warnings_and_more;
+use super::shown_path;
 use super::structure::{limit, lines, rate, risk_cells};
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
-use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -39,8 +39,7 @@ pub(crate) fn print_design(report: &DesignReport, terminal: &Terminal) -> Result
     if terminal.shows_details() {
         print_details(out, report)?;
     }
-    print_warnings(out, &report.alarms, None, terminal)?;
-    print_more(out, terminal)
+    print_warnings_and_more(out, &report.alarms, terminal)
 }
 
 /// What an engineer asks first.
@@ -83,10 +82,10 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
     let dash = || "-".to_owned();
     let risk = |risk: &EventRisk, band: Option<Bands>| {
         let band = band.map_or_else(String::new, |band| {
-            let [lower, upper] = band.quoted().map(|per_year| format!("{per_year:.1e}"));
+            let [lower, upper] = band.quoted().map(text::rate);
             format!(" ({lower}–{upper})")
         });
-        if risk.per_year > 0.0 { format!("{:.1e}{band}", risk.per_year) } else { risk_cells(risk)[0].clone() }
+        if risk.per_year > 0.0 { text::rate(risk.per_year) + &band } else { risk_cells(risk)[0].clone() }
     };
     let demand = |demand_m: f64, bands: Option<&DemandBands>| {
         if demand_m.is_infinite() {
@@ -208,11 +207,11 @@ fn print_details(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     }
     writeln!(
         out,
-        "demand     {} by {}, {}: {:.4e} per year",
+        "demand     {} by {}, {}: {} per year",
         report.site,
         report.spectrum_words(),
         risk_in_words(report.poe, report.years),
-        report.target_per_year
+        text::rate(report.target_per_year)
     )?;
     writeln!(out, "           {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;
     for note in &report.notes {
@@ -370,9 +369,9 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
     if exact.overturns {
         writeln!(
             out,
-            "\nThe structure overturns more often than the target of {:.4e} per year: there is no displacement that \
+            "\nThe structure overturns more often than the target of {} per year: there is no displacement that \
              meets it.",
-            report.target_per_year
+            text::rate(report.target_per_year)
         )?;
     }
     Ok(())
@@ -453,8 +452,8 @@ fn print_rounding(out: &mut impl Write, rules: &[RuleOutcome], rounding: &Demand
     if !moved.is_empty() {
         writeln!(
             out,
-            "*: rounding decides the last digits, and those of what follows from it: with strengths some 1e-15 lower \
-             and higher it is,\nlowest to highest (docs/method.md, section 1.5)\n{}",
+            "*: the last digits are not significant (rounding, docs/method.md, section 1.5). Range over strengths \
+             some 1e-15 lower and higher:\n{}",
             moved.join("\n")
         )?;
     }

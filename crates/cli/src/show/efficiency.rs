@@ -77,7 +77,7 @@ impl Shown<'_> {
         writeln!(out, "{}", self.table(|row| number(row.dispersion_rocking, 2)))?;
         let undefined = |row: &EfficiencyRow| format!("{} %", number(100.0 * row.undefined_share, 0));
         if self.rows().any(|row| row.undefined_share > 0.0) {
-            writeln!(out, "\nStripes whose scatter does not exist because too many runs overturn")?;
+            writeln!(out, "\nStripes without a scatter, because too many runs overturn")?;
             writeln!(out, "{}", self.table(undefined))?;
         }
         writeln!(out, "\nScatter of the level at which it begins to rock")?;
@@ -100,7 +100,7 @@ impl Shown<'_> {
              {SIGNIFICANT}, marked *: the measure\nleaves something out), one observation a record"
         )?;
         if self.report.covariates.is_empty() {
-            writeln!(out, "nothing is known of the records: give magnitude and rrup_km in the manifest")?;
+            writeln!(out, "the manifest has no properties of the records: add magnitude and rrup_km")?;
         }
         for covariate in &self.report.covariates {
             writeln!(out, "{covariate}\n{}", self.table(|row| p_value(&row.trends[covariate])))?;
@@ -157,7 +157,7 @@ impl Shown<'_> {
         let mut names = winners.clone();
         names.dedup();
         match names[..] {
-            [] => format!("Most efficient for {what}: not known from these stripes"),
+            [] => format!("Most efficient for {what}: these stripes do not show it"),
             [one] => format!("Most efficient for {what}: {one}"),
             _ => {
                 let at = winners.iter().zip(self.strengths.iter().filter(|index| best(index).is_some()));

@@ -3,11 +3,11 @@
 use std::io::Write;
 
 use uplift::structure::{Banded, FrameRiskReport, ModelDemand};
-use uplift::text::{Table, metres_with_band, risk_in_words, short};
+use uplift::text::{self, Table, metres_with_band, risk_in_words, short};
 
-use super::alarms::print_warnings;
+use super::alarms::print_warnings_and_more;
+use super::shown_path;
 use super::structure::{lines, risk_cells};
-use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -31,8 +31,7 @@ pub(crate) fn print_frame_risk(report: &FrameRiskReport, terminal: &Terminal) ->
     if terminal.shows_details() {
         print_details(out, report)?;
     }
-    print_warnings(out, &report.alarms, None, terminal)?;
-    print_more(out, terminal)
+    print_warnings_and_more(out, &report.alarms, terminal)
 }
 
 /// The demand on the frame with its band, what its proxies say, and how often it overturns.
@@ -64,11 +63,11 @@ fn print_details(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
     )?;
     writeln!(
         out,
-        "demand     {} by {}, {}: {:.4e} per year",
+        "demand     {} by {}, {}: {} per year",
         report.site,
         report.im,
         risk_in_words(report.poe, report.years),
-        report.target_per_year
+        text::rate(report.target_per_year)
     )?;
     writeln!(out, "           {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;
     for note in &report.notes {
@@ -148,9 +147,9 @@ fn print_events(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     if let (Some(theta), Some(beta), Some(per_year)) = (found.theta, found.beta, found.lognormal_per_year) {
         writeln!(
             out,
-            "Collapse fragility: lognormal, median {theta:.4} {}, dispersion {beta:.4}; with it {per_year:.3e} per \
-             year",
-            report.unit
+            "Collapse fragility: lognormal, median {theta:.4} {}, dispersion {beta:.4}; with it {} per year",
+            report.unit,
+            text::rate(per_year)
         )?;
     }
     Ok(())

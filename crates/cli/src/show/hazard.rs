@@ -2,9 +2,10 @@
 
 use std::io::Write;
 
-use uplift::hazard_curves::{HazardImportReport, HazardReport};
-use uplift::text::{Table, per_cent};
+use uplift::hazard_curves::{HazardImportReport, HazardReport, ShownCurve};
+use uplift::text::{Table, per_cent, rounded};
 
+use super::alarms::print_lines;
 use crate::error::CommandError;
 use crate::terminal::output;
 
@@ -35,15 +36,15 @@ pub(crate) fn print_curves(report: &HazardReport) -> Result<(), CommandError> {
         .each(probabilities.iter().enumerate(), |table, (at, &probability)| {
             table.right(per_cent(probability), |curve| level(curve.levels[at]))
         })
-        .right("levels", |curve| format!("{:.3e} - {:.3e}", curve.lowest, curve.highest));
+        .right("levels", |curve| format!("{} to {}", rounded(curve.lowest, 4), rounded(curve.highest, 4)));
     writeln!(out, "{table}")?;
-    writeln!(
-        out,
-        "\nLevels exceeded with the stated probability in {years} years; a dash where the curve does not reach."
-    )?;
+    writeln!(out, "\nLevels exceeded with each probability in {years} years (- outside the curve).")?;
     if curves.len() > SHOWN {
         writeln!(out, "{} curves, the first {SHOWN} shown: --name or --near LON,LAT picks a site", curves.len())?;
     }
+    let warning = |curve: &ShownCurve| Some(format!("{}: {}", curve.name, curve.warning.as_ref()?));
+    let warnings: Vec<String> = curves.iter().filter_map(warning).collect();
+    print_lines(&mut out, &warnings, false)?;
     if let [curve] = curves.as_slice() {
         let component = curve.component.as_deref().unwrap_or("not said");
         writeln!(out, "Horizontal components: {component}\n{} levels, source:", curve.points)?;

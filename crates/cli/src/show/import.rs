@@ -30,7 +30,7 @@ pub(crate) fn tell_remarks(report: &ImportReport, terminal: &Terminal) {
 pub(crate) fn print_import(report: &ImportReport, terminal: &Terminal) -> Result<(), CommandError> {
     if !report.blank_columns.is_empty() {
         terminal.say(&format!(
-            "no file says {}: fill in the columns of the manifest, or put PEER's _SearchResults.csv into the folder \
+            "no file has {}: fill in the columns of the manifest, or put PEER's _SearchResults.csv into the folder \
              and import again",
             report.blank_columns.join(", ")
         ));

@@ -3,13 +3,13 @@
 use std::io::Write;
 
 use uplift::structure::{CollapseReport, OverturningReport, SiteRisk};
-use uplift::text::{Table, share};
+use uplift::text::{self, Table, share};
 use uplift_spectra::Noisy;
 
-use super::alarms::print_warnings;
+use super::alarms::print_warnings_and_more;
+use super::shown_path;
 use super::structure::{limit, lines, rate, risk_cells};
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
-use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -20,8 +20,7 @@ pub(crate) fn print_overturning(report: &OverturningReport, terminal: &Terminal)
     if terminal.shows_details() {
         print_details(out, report)?;
     }
-    print_warnings(out, &report.alarms, None, terminal)?;
-    print_more(out, terminal)
+    print_warnings_and_more(out, &report.alarms, terminal)
 }
 
 /// The rate of every site by measure and model, with its band.
@@ -31,10 +30,9 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
     match frame_over_oscillator(report) {
         Some(times) => writeln!(
             out,
-            "{name}: the wobbling frame overturns {times} times as often as its oscillator; rates a year (90 % \
-             confidence band)"
+            "{name}: the wobbling frame overturns {times} times as often as its oscillator; annual rates (90 % band)"
         )?,
-        None => writeln!(out, "{name} overturns so often a year (90 % confidence band)")?,
+        None => writeln!(out, "{name}: annual rate of overturning (90 % band)")?,
     }
     let sites = report.overturning.first().map_or(&[][..], |found| &found.sites[..]);
     let cell = |of: &SiteRisk| {
@@ -42,11 +40,10 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
         // a frame has twice as many rows: at many sites the bands are left to the details
         let shown_bands = of.bands.filter(|_| !has_frame || sites.len() < 3);
         let band = shown_bands.map_or_else(String::new, |bands| {
-            let [lower, upper] = bands.quoted().map(|per_year| format!("{per_year:.1e}"));
+            let [lower, upper] = bands.quoted().map(text::rate);
             format!(" ({lower}–{upper})")
         });
-        let short = |per_year: f64| format!("{per_year:.1e}");
-        let per_year = if of.risk.per_year > 0.0 { of.per_year_rounding.marked(short) } else { per_year };
+        let per_year = if of.risk.per_year > 0.0 { of.per_year_rounding.marked(text::rate) } else { per_year };
         format!("{per_year}{band}")
     };
     let table = if has_frame {
@@ -71,7 +68,7 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
         writeln!(out, "Frame left out: {reason}")?;
     }
     if table.contains('*') {
-        writeln!(out, "* rounding decides it: --details")?;
+        writeln!(out, "* the last digits are not significant (rounding)")?;
     }
     if let Some(uncertainty) = &report.uncertainty {
         print_uncertain_answers(out, uncertainty)?;
@@ -211,9 +208,8 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
     header.extend(["90 % band", "lognormal", "below", "above"]);
     writeln!(
         out,
-        "\nRisk of overturning: from the counted shares{weighted}, with a 90 % band (docs/method.md, section 9); \
-         with the lognormal curve in\ntheir place; and what of the first comes from below and above the \
-         analysed levels\n{}",
+        "\nRisk of overturning: from the counted shares{weighted}, with a 90 % band (docs/method.md, section 9); with \
+         the lognormal curve;\nand the shares from below and above the analysed levels\n{}",
         Table::new(header, rows)
     )?;
     let others = [

@@ -9,7 +9,7 @@ use uplift::text::{bytes, share, thousands};
 use uplift::uniform_risk::LevelCheck;
 use uplift_study::AnyStudy;
 
-use super::alarms::{SHOWN, print_warnings_up_to};
+use super::alarms::{print_lines, warning};
 use super::consistency::consistency_lines;
 use super::shown_path;
 use crate::error::CommandError;
@@ -28,13 +28,13 @@ pub(crate) fn print_plan(plan: &Plan, terminal: &Terminal) -> Result<(), Command
     writeln!(out, "Cost      {analyses} analyses, about {time} on {} threads", head.threads)?;
     let (memory, disk) = (bytes(head.memory_bytes), bytes(head.disk_bytes));
     let (memory_free, disk_free) = (there(&room.memory_available), there(&room.disk_free));
-    writeln!(out, "Memory    {memory}{memory_free}; disk at most {disk}{disk_free}")?;
+    writeln!(out, "Memory    {memory}{memory_free}; disk {disk}{disk_free}")?;
     writeln!(out, "Result    {}", shown_path(&head.output).display())?;
     if terminal.shows_details() {
         print_details(&mut out, plan)?;
     }
-    let shown = if terminal.shows_details() || terminal.is_quiet() { usize::MAX } else { SHOWN };
-    print_warnings_up_to(&mut out, &head.alarms, "--details", shown)?;
+    let warnings: Vec<_> = head.alarms.iter().map(warning).collect();
+    print_lines(&mut out, &warnings, terminal.shows_details() || terminal.is_quiet())?;
     if let Plan::UniformRisk(plan) = plan {
         for proposal in plan.levels.iter().filter_map(|check| check.proposal.as_ref()) {
             let (section, key) = proposal.line.split_once('.').unwrap_or(("", &proposal.line));
@@ -94,7 +94,7 @@ fn conclusion(plan: &Plan) -> &'static str {
     if head.would_replace {
         "A run would be refused, since its result file belongs to another study: see the last note."
     } else if head.alarms.iter().any(|alarm| alarm.severity < Severity::Note) {
-        "The study can be run. See the warnings first."
+        "The study can be run."
     } else {
         "The study and its input data are in order."
     }

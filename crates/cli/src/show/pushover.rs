@@ -10,7 +10,7 @@ use super::{print_files, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
-/// Cycles that are told, the largest.
+/// Cycles that are reported, the largest.
 const CYCLES: usize = 6;
 
 /// The structure, how far it goes, what happens on the way, and the rows.

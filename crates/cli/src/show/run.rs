@@ -58,8 +58,7 @@ fn print_details(out: &mut impl Write, report: &UniformRiskReport, terminal: &Te
             print_displacements(out, &displacements(&file, &asked)?, terminal)?;
         }
     }
-    for (over, spread) in [("weighted hazard curves", &report.branches), ("structures that may be", &report.structures)]
-    {
+    for (over, spread) in [("weighted hazard curves", &report.branches), ("possible structures", &report.structures)] {
         print_spread(out, over, spread, (shown, &axes.strengths))?;
     }
     Ok(())
@@ -93,16 +92,16 @@ fn print_spread(
 /// What every run ends with: warnings, files, and what to look at next.
 fn print_end(out: &mut impl Write, head: &RunHead, terminal: &Terminal) -> Result<(), CommandError> {
     let Some((result, tables)) = head.files.split_first() else { return Ok(()) };
-    print_warnings(out, &head.alarms, Some(result), terminal)?;
+    print_warnings(out, &head.alarms, terminal)?;
     let result = shown_path(result).display();
-    let time = if head.done_already {
-        "done already; --again writes it anew".to_owned()
-    } else {
-        format!("{:.1} s", head.seconds)
-    };
-    writeln!(out, "\nResult   {result} ({time})")?;
-    for table in tables {
-        writeln!(out, "Table    {}", shown_path(table).display())?;
+    let done_already = if head.done_already { " (done already; recompute: --again)" } else { "" };
+    writeln!(out, "\nResult   {result}{done_already}")?;
+    // every result with spectra has the first two beside it
+    let is_usual = |name: &str| name.ends_with(".urs.csv") || name.ends_with(".regression.csv");
+    let tables = tables.iter().map(|table| shown_path(table).display().to_string());
+    let tables: Vec<String> = tables.filter(|table| terminal.shows_details() || !is_usual(table)).collect();
+    if !tables.is_empty() {
+        writeln!(out, "Tables   {}", tables.join(", "))?;
     }
     Ok(writeln!(out, "Report   uplift report {result}")?)
 }

@@ -21,7 +21,7 @@ pub(crate) fn print_spectrum(report: &SpectrumReport, terminal: &Terminal) -> Re
         }
         _ => print_displacements(out, &report.found, terminal)?,
     }
-    if terminal.is_quiet() { Ok(()) } else { print_warnings(out, &report.alarms, None, terminal) }
+    if terminal.is_quiet() { Ok(()) } else { print_warnings(out, &report.alarms, terminal) }
 }
 
 /// The number first, then what it is of.
@@ -75,7 +75,7 @@ pub(super) fn print_displacements(
         let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
         let is_banded = report.displacements.iter().any(|own| own.band_m.is_some());
         let band = if is_banded {
-            format!(" ({} confidence band{})", per_cent(CONFIDENCE), by_earthquake(report))
+            format!(" ({} band{})", per_cent(CONFIDENCE), by_earthquake(report))
         } else {
             String::new()
         };

@@ -70,7 +70,7 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
         }
     }
     for asked in &result.asked {
-        let before = if asked.is_of_earlier_file { " (its file has changed since: ask again)" } else { "" };
+        let before = if asked.is_of_earlier_file { " (its file has changed since: run the command again)" } else { "" };
         writeln!(out, "  asked    {}{before}", one_line(&format!("{}: {}", asked.structure, asked.question)))?;
     }
     Ok(())

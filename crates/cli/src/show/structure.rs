@@ -1,7 +1,7 @@
 //! What a design and an overturning tell alike: the structure, and how often something happens to it.
 
 use uplift::structure::{EventRisk, StructureReport};
-use uplift::text::{per_cent, short};
+use uplift::text::{self, per_cent, short, two_digits};
 
 use super::shown_path;
 
@@ -34,31 +34,30 @@ pub(super) fn lines(structure: &StructureReport) -> Vec<String> {
 
 /// How often in a year, as runs count it: none of them is no proof of never.
 pub(super) fn rate(per_year: f64) -> String {
-    if per_year == 0.0 { "none seen".to_owned() } else { format!("{per_year:.3e}") }
+    if per_year == 0.0 { "none seen".to_owned() } else { text::rate(per_year) }
 }
 
 /// A limit of how often in a year; 0 where it may be as rare as one likes.
 pub(super) fn limit(per_year: f64) -> String {
-    if per_year == 0.0 { "0".to_owned() } else { format!("{per_year:.3e}") }
+    if per_year == 0.0 { "0".to_owned() } else { text::rate(per_year) }
 }
 
-/// Frequency, probability and return period in words.
+/// Annual rate, probability and return period, with two digits each.
 pub(super) fn risk_cells(risk: &EventRisk) -> [String; 3] {
     let return_period = |per_year: f64| match 1.0 / per_year {
-        years if years < 1e7 => format!("{years:.0}"),
+        years if years < 1e7 => two_digits(years),
         years => format!("{years:.1e}"),
     };
     if risk.per_year > 0.0 {
-        let probability = match format!("{:.3} %", 100.0 * risk.probability) {
-            // three decimals are too few to tell it from never and always
-            text if ["0.000 %", "100.000 %"].contains(&text.as_str()) => per_cent(risk.probability),
-            text => text,
+        let probability = match two_digits(100.0 * risk.probability).as_str() {
+            "100" => per_cent(risk.probability),
+            text => format!("{text} %"),
         };
-        return [format!("{:.3e}", risk.per_year), probability, return_period(risk.per_year)];
+        return [text::rate(risk.per_year), probability, return_period(risk.per_year)];
     }
     match risk.at_most_per_year {
         // a count of none is no proof: an alarm says what the bound is
-        Some(bound) => [format!("< {bound:.1e}"), "-".to_owned(), format!("> {}", return_period(bound))],
+        Some(bound) => [format!("< {}", text::rate(bound)), "-".to_owned(), format!("> {}", return_period(bound))],
         None => ["cannot".to_owned(), "-".to_owned(), "-".to_owned()],
     }
 }

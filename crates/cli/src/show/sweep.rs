@@ -4,70 +4,117 @@ use std::collections::BTreeSet;
 use std::io::Write;
 
 use uplift::alarms::Severity;
-use uplift::sweep::{SweepReport, VariantReport, VariantSpectrum};
-use uplift::text::{Table, metres, nearest, risk_in_words, rounded};
+use uplift::sweep::{SweepReport, VariantReport};
+use uplift::text::{Table, cell_with_band, per_cent, risk_in_words, rounded};
+use uplift::uniform_risk::{CONFIDENCE, Displacement};
 
-use super::alarms::{SHOWN, print_lines, warning};
+use super::alarms::{print_lines, warning};
 use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
-const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
+/// Rows of a table that has every strength.
+const MOST_ROWS: usize = 8;
 
-/// The displacements of every variant at a few strengths for the rarest risk, by the first measure; in detail by each.
+/// The displacements of every variant at a few strengths for its smallest probability, by the first measure; in detail
+/// by each.
 pub(crate) fn print_sweep(report: &SweepReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
-    let Some(first) = report.variants.first() else { return Ok(()) };
-    let spectra = || report.variants.iter().flat_map(|variant| &variant.spectra);
-    let measures: BTreeSet<&str> = spectra().map(|spectrum| spectrum.im).collect();
+    let all = || report.variants.iter().flat_map(|variant| &variant.displacements);
+    let measures: BTreeSet<&str> = all().map(|own| own.im).collect();
     let shown = if terminal.shows_details() { usize::MAX } else { 1 };
     for im in measures.into_iter().rev().take(shown) {
-        let mut sites: Vec<&str> = Vec::new();
-        for spectrum in spectra().filter(|spectrum| spectrum.im == im) {
-            if !sites.contains(&spectrum.site.as_str()) {
-                sites.push(&spectrum.site);
-            }
+        print_displacements(out, report, (im, Weights::Plain), terminal)?;
+        if report.variants.iter().any(|variant| variant.repaired.iter().any(|own| own.im == im)) {
+            print_displacements(out, report, (im, Weights::Repaired), terminal)?;
         }
-        let synthetic = if first.synthetic { " (synthetic records)" } else { "" };
-        let repaired = if spectra().any(|own| own.repaired_m.is_some()) { " (repaired)" } else { "" };
-        let risks: BTreeSet<String> = report.variants.iter().filter_map(|variant| risk(variant, im)).collect();
-        let risk_of_all =
-            if risks.len() == 1 { format!(", {}", risks.first().unwrap_or(&String::new())) } else { String::new() };
-        writeln!(out, "\nUniform risk spectra by {im}{risk_of_all}{synthetic}")?;
-        writeln!(out, "Displacement, m{repaired}, at strength")?;
-        // variants may be of other strengths, and each row then says its own
-        let strengths: BTreeSet<String> =
-            report.variants.iter().map(|variant| shown_strengths(variant).join(" ")).collect();
-        let headings = shown_strengths(first);
-        let rows = sites.iter().flat_map(|site| report.variants.iter().map(move |variant| (*site, variant)));
-        let table = Table::of(rows)
-            .left("site", |(site, _)| site)
-            .each(report.keys.iter().enumerate(), |table, (at, key)| {
-                table.right(key, move |(_, variant)| variant.values[at].as_deref().unwrap_or("default"))
-            })
-            .when(risks.len() > 1, |table| {
-                table.right("risk", |(_, variant)| risk(variant, im).unwrap_or_else(|| "-".to_owned()))
-            })
-            .each(0..SHOWN_STRENGTHS.len(), |table, place| {
-                let of_all = strengths.len() == 1;
-                let heading = if of_all { headings.get(place).cloned().unwrap_or_default() } else { "m".to_owned() };
-                let own = move |variant: &VariantReport| shown_strengths(variant).get(place).cloned();
-                let table = table.when(!of_all, |table| {
-                    table.right("strength", move |(_, variant)| own(variant).unwrap_or_else(|| "-".to_owned()))
-                });
-                table.right(heading, move |(site, variant)| displacement(variant, (im, site), place))
-            });
-        writeln!(out, "{table}")?;
     }
-    if !terminal.is_quiet() {
-        print_cautions(out, report, shown)?;
-        writeln!(out, "\nTable    {}", shown_path(&report.table).display())?;
+    if terminal.is_quiet() {
+        return Ok(());
     }
-    print_more(out, terminal)
+    let is_cut = print_cautions(out, report, terminal)?;
+    writeln!(out, "\nTable    {}", shown_path(&report.table).display())?;
+    if is_cut { Ok(()) } else { print_more(out, terminal) }
 }
 
-/// What is to be seen to before the numbers are used, once for all variants of which it is to be said.
-fn print_cautions(out: &mut impl Write, report: &SweepReport, shown: usize) -> Result<(), CommandError> {
+/// Which spectra of a variant are shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Weights {
+    Plain,
+    Repaired,
+}
+
+impl Weights {
+    fn of(self, variant: &VariantReport) -> &[Displacement] {
+        match self {
+            Self::Plain => &variant.displacements,
+            Self::Repaired => &variant.repaired,
+        }
+    }
+}
+
+/// A row a site and variant, a column a strength.
+fn print_displacements(
+    out: &mut impl Write,
+    report: &SweepReport,
+    (im, weights): (&str, Weights),
+    terminal: &Terminal,
+) -> Result<(), CommandError> {
+    let Some(first) = report.variants.first() else { return Ok(()) };
+    let of = |variant: &'_ VariantReport, site: Option<&str>| -> Vec<Displacement> {
+        let own = weights.of(variant).iter().filter(|own| own.im == im && site.is_none_or(|site| own.site == site));
+        own.cloned().collect()
+    };
+    let mut sites: Vec<&str> = Vec::new();
+    for own in report.variants.iter().flat_map(|variant| weights.of(variant)).filter(|own| own.im == im) {
+        if !sites.contains(&own.site.as_str()) {
+            sites.push(&own.site);
+        }
+    }
+    let kind = if weights == Weights::Plain { "Uniform risk spectra" } else { "Repaired uniform risk spectra" };
+    let risk = |variant: &VariantReport| {
+        of(variant, None).first().map_or_else(|| "-".to_owned(), |own| risk_in_words(own.poe, own.years))
+    };
+    let risks: BTreeSet<String> = report.variants.iter().map(risk).collect();
+    let risk_of_all = if risks.len() == 1 { format!(", {}", risk(first)) } else { String::new() };
+    let is_banded = report.variants.iter().flat_map(|variant| weights.of(variant)).any(|own| own.band_m.is_some());
+    let band = if is_banded { format!(" ({} band)", per_cent(CONFIDENCE)) } else { String::new() };
+    writeln!(out, "\n{kind} by {im}{risk_of_all}")?;
+    writeln!(out, "Displacement, m{band}, at strength")?;
+
+    let strengths = |variant: &VariantReport| -> Vec<String> {
+        let of_site = of(variant, sites.first().copied());
+        of_site.iter().map(|own| rounded(own.strength, 6).to_string()).collect()
+    };
+    // where variants have other strengths, each row names its own
+    let is_common = report.variants.iter().all(|variant| strengths(variant) == strengths(first));
+    let columns = report.variants.iter().map(|variant| strengths(variant).len()).max().unwrap_or_default();
+    let rows: Vec<(&str, &VariantReport)> =
+        sites.iter().flat_map(|site| report.variants.iter().map(move |variant| (*site, variant))).collect();
+    // a long table has the smallest and the largest of the strengths alone
+    let is_long = rows.len() > MOST_ROWS && !terminal.shows_details();
+    let shown = (0..columns).filter(|&place| !is_long || place == 0 || place + 1 == columns);
+    let or_dash = |cell: Option<String>| cell.unwrap_or_else(|| "-".to_owned());
+    let table = Table::of(rows)
+        .left("site", |(site, variant)| if std::ptr::eq(variant, first) { site } else { "" })
+        .each(report.keys.iter().enumerate(), |table, (at, key)| {
+            table.right(key, move |(_, variant)| variant.values[at].as_deref().unwrap_or("default"))
+        })
+        .when(risks.len() > 1, |table| table.right("risk", |(_, variant)| risk(variant)))
+        .each(shown, |table, place| {
+            let own = move |variant: &VariantReport| strengths(variant).get(place).cloned();
+            let heading = if is_common { own(first).unwrap_or_default() } else { "m".to_owned() };
+            let table =
+                table.when(!is_common, |table| table.right("strength", move |(_, variant)| or_dash(own(variant))));
+            table.right(heading, move |(site, variant)| {
+                or_dash(of(variant, Some(site)).get(place).map(|own| cell_with_band(own.u_m, own.band_m)))
+            })
+        });
+    Ok(writeln!(out, "{table}")?)
+}
+
+/// The warnings of all variants, each once. Whether some are left out.
+fn print_cautions(out: &mut impl Write, report: &SweepReport, terminal: &Terminal) -> Result<bool, CommandError> {
     let mut said: Vec<(Severity, String, Vec<&str>)> = Vec::new();
     for variant in &report.variants {
         for alarm in &variant.alarms {
@@ -78,41 +125,9 @@ fn print_cautions(out: &mut impl Write, report: &SweepReport, shown: usize) -> R
             }
         }
     }
-    if said.is_empty() {
-        return Ok(());
-    }
     said.sort_by_key(|(severity, ..)| *severity);
-    let line = |(severity, line, variants): (Severity, String, Vec<&str>)| {
-        let all = variants.len() == report.variants.len();
-        (severity, if all { line } else { format!("{line} ({})", variants.join(", ")) })
+    let line = |(_, line, variants): (Severity, String, Vec<&str>)| {
+        if variants.len() == report.variants.len() { line } else { format!("{line} ({})", variants.join(", ")) }
     };
-    print_lines(out, &said.into_iter().map(line).collect::<Vec<_>>(), "--details", shown.max(SHOWN))
-}
-
-/// The rarest spectrum of a variant by a measure, at one site or any.
-fn rarest<'a>(variant: &'a VariantReport, im: &str, site: Option<&str>) -> Option<&'a VariantSpectrum> {
-    let own = variant.spectra.iter().filter(|own| own.im == im && site.is_none_or(|site| own.site == site));
-    own.min_by(|a, b| a.poe.total_cmp(&b.poe))
-}
-
-/// The risk that a variant is shown for.
-fn risk(variant: &VariantReport, im: &str) -> Option<String> {
-    rarest(variant, im, None).map(|spectrum| risk_in_words(spectrum.poe, variant.years))
-}
-
-/// The strengths of a variant that are nearest to those shown.
-fn shown_strengths(variant: &VariantReport) -> Vec<String> {
-    let shown = nearest(&variant.strengths, &SHOWN_STRENGTHS).into_iter();
-    shown.map(|at| rounded(variant.strengths[at], 6).to_string()).collect()
-}
-
-/// The displacement of a variant at one of these, and the repaired one where there is one.
-fn displacement(variant: &VariantReport, (im, site): (&str, &str), place: usize) -> String {
-    let at = nearest(&variant.strengths, &SHOWN_STRENGTHS).get(place).copied();
-    let (Some(spectrum), Some(at)) = (rarest(variant, im, Some(site)), at) else { return "-".to_owned() };
-    let repaired = spectrum.repaired_m.as_ref().map(|repaired_m| match repaired_m[at] {
-        u_m if u_m.is_nan() => " (none)".to_owned(),
-        u_m => format!(" ({})", metres(u_m)),
-    });
-    metres(spectrum.u_m[at]) + &repaired.unwrap_or_default()
+    print_lines(out, &said.into_iter().map(line).collect::<Vec<_>>(), terminal.shows_details())
 }

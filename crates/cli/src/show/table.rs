@@ -25,7 +25,7 @@ pub(crate) fn print_table(report: &TableReport, terminal: &Terminal) -> Result<(
         TableRows::Tests(tests) => shake_table::print_order(&mut out, tests),
     }?;
     // a quiet terminal gets what was asked for alone
-    if terminal.is_quiet() { Ok(()) } else { print_warnings(&mut out, &report.alarms, None, terminal) }
+    if terminal.is_quiet() { Ok(()) } else { print_warnings(&mut out, &report.alarms, terminal) }
 }
 
 fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result<(), CommandError> {
@@ -66,7 +66,10 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
     let starred = if report.rows.iter().any(|row| row.bound_active) { "* c2 held at 0; " } else { "" };
     let poes: Vec<f64> = report.rows.iter().map(|row| row.poe).collect();
     let kind = kind_of_risks(&poes, report.years).map_or_else(String::new, |kind| kind + "; ");
-    writeln!(out, "{starred}{kind}rmse with n - 3 degrees of freedom; within 10 %: strengths where the curve is")?;
+    writeln!(
+        out,
+        "{starred}{kind}rmse with n - 3 degrees of freedom; within 10 %: strengths where the curve is that close"
+    )?;
     if report.rows.iter().any(|row| row.repaired) {
         writeln!(out, "repaired: records weighted for hazard consistency")?;
     }

@@ -12,14 +12,14 @@ use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
-/// The value that was found; in detail how sure it is, and what stands beside it.
+/// The value that was found; in detail its bands and what it is compared with.
 pub(crate) fn print_target(report: &TargetReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
     print_answer(out, report)?;
     if terminal.shows_details() {
         print_details(out, report)?;
     }
-    print_warnings(out, &report.alarms, None, terminal)?;
+    print_warnings(out, &report.alarms, terminal)?;
     print_more(out, terminal)
 }
 
@@ -33,7 +33,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let confidence = per_cent(report.band.confidence);
     writeln!(out, "Least     {quantity} {} ({confidence} band {lower} to {upper}){own}", unit(short(*value)))?;
     let years = 1.0 / target_per_year;
-    writeln!(out, "Target    {event} at most {target_per_year:.3e} per year (once in {years:.0} years)")?;
+    writeln!(out, "Target    {event} at most {} per year (once in {years:.0} years)", rate(*target_per_year))?;
     let [per_year, ..] = risk_cells(&report.risk);
     writeln!(out, "Risk      {per_year} per year; the target is missed at {}", unit(short(report.missed_at)))?;
     writeln!(out, "At        {site} by {im}; {}", report.source.record_set)?;
@@ -50,7 +50,8 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
     let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
     writeln!(
         out,
-        "target     {event} at most {target_per_year:.3e} per year at {site} by {im}: once in {:.0} years",
+        "target     {event} at most {} per year at {site} by {im}: once in {:.0} years",
+        rate(*target_per_year),
         1.0 / target_per_year
     )?;
     for note in &report.notes {
@@ -90,7 +91,7 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
     if let Some(uncertain) = &report.uncertainty {
         writeln!(
             out,
-            "\nWhat is not known of the structure ({}): {} structures at every value, {}, seed {}; as described",
+            "\nUncertain structure ({}): {} structures at every value, {}, seed {}; as described",
             kind_in_words(uncertain.kind),
             thousands(uncertain.structures as u64),
             uncertain.sampling,

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::structure::{QuantityReport, UncertainFinding, UncertaintyReport};
-use uplift::text::{Table, per_cent, short, thousands, two_digits};
+use uplift::text::{self, Table, per_cent, short, thousands, two_digits};
 
 use crate::error::CommandError;
 
@@ -14,7 +14,7 @@ const SHOWN: usize = 3;
 pub(super) fn print_uncertain_answers(out: &mut impl Write, report: &UncertaintyReport) -> Result<(), CommandError> {
     for result in report.results.iter().take(SHOWN) {
         let is_rate = result.unit == "1/yr";
-        let shown = |value: f64| if is_rate { format!("{value:.1e}") } else { two_digits(value) };
+        let shown = |value: f64| if is_rate { text::rate(value) } else { two_digits(value) };
         let (value, at_most, band) = match &result.found {
             UncertainFinding::Epistemic(found) => {
                 let [lower, .., upper] = found.by_all.percentiles;
@@ -23,7 +23,7 @@ pub(super) fn print_uncertain_answers(out: &mut impl Write, report: &Uncertainty
             UncertainFinding::Aleatory(found) => (found.value, found.at_most_per_year, found.by_record),
         };
         let value = match at_most {
-            Some(bound) => format!("< {bound:.1e}"),
+            Some(bound) => format!("< {}", text::rate(bound)),
             None if is_rate && value == 0.0 => "cannot happen".to_owned(),
             None => shown(value),
         };
@@ -50,7 +50,7 @@ pub(super) fn print_uncertainty(out: &mut impl Write, report: &UncertaintyReport
     let kind = kind_in_words(report.kind);
     writeln!(
         out,
-        "\nWhat is not known of the structure ({kind}): {} structures, {}, seed {}, {} analyses",
+        "\nUncertain structure ({kind}): {} structures, {}, seed {}, {} analyses",
         thousands(report.structures as u64),
         report.sampling,
         report.seed,
@@ -63,8 +63,8 @@ pub(super) fn print_uncertainty(out: &mut impl Write, report: &UncertaintyReport
     if report.results.iter().any(|result| matches!(result.found, UncertainFinding::Epistemic(_))) {
         writeln!(
             out,
-            "A share is of the variance: what would stay if all else were known, and alone what would go if only that \
-             were (docs/method.md, section 19)"
+            "Shares of the variance: what remains if everything else is certain; alone: what goes if only this is \
+             certain (docs/method.md, section 19)"
         )?;
     }
     Ok(())
@@ -97,7 +97,7 @@ pub(super) fn print_quantities(out: &mut impl Write, quantities: &[QuantityRepor
     for quantity in quantities.iter().filter(|quantity| quantity.cut_off_share > 0.0) {
         writeln!(
             out,
-            "{}: {} of the distribution lies where it cannot be, and is cut off",
+            "{}: {} of the distribution is outside the possible range, and is cut off",
             quantity.quantity,
             per_cent(quantity.cut_off_share)
         )?;

@@ -17,7 +17,7 @@ pub(crate) fn print_verified(report: &VerifyReport, terminal: &Terminal) -> Resu
             terminal.say(&format!("{name}: {} arrays without a checksum: {}", unknown.len(), unknown.join(", ")));
         }
         if file.mistakes.is_empty() {
-            writeln!(out, "{name}: {} arrays as they were written, and every byte of the file", file.sound)?;
+            writeln!(out, "{name}: unchanged, {} arrays and every byte", file.sound)?;
         }
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! What is told, for a program that started this one: a line of JSON for each event (docs/commands.md).
+//! What is reported, for a program that started this one: a line of JSON for each event (docs/commands.md).
 
 use std::error::Error;
 use std::io::{self, Write};
@@ -20,7 +20,7 @@ pub(super) enum Event<'a> {
     Remark { topic: &'a str, text: &'a str },
     /// What whoever uses the numbers should know.
     Note { text: &'a str },
-    /// Any other line that people are told.
+    /// Any other line that people are reported.
     Line { text: &'a str },
     /// A phase of known length begins.
     Begin { label: &'a str, unit: &'static str, total: u64 },

@@ -300,7 +300,7 @@ fn compare_end(
     model: Model,
     comparison: &mut Comparison,
 ) {
-    // a frame that wobbles in a plane is told with a sign, expected with a direction
+    // a frame that wobbles in a plane is reported with a sign, expected with a direction
     let turned = model == Model::Wobbling && end.rotation_rad < 0.0;
     let sign = if turned { -1.0 } else { 1.0 };
     let direction = end.direction_rad + if turned { std::f64::consts::PI } else { 0.0 };

@@ -60,7 +60,7 @@ pub(super) fn spectral_acceleration(period_s: f64) -> String {
 
 fn unknown(measure: &str, place: Place) -> HazardError {
     let reason = format!(
-        "the unit of intensity measure {} is not known; export PGA, PGV or SA, or write two columns yourself",
+        "unknown unit of intensity measure {}; export PGA, PGV or SA, or write two columns yourself",
         excerpt(measure)
     );
     HazardError::Row { place, reason }

@@ -159,8 +159,8 @@ impl Columns {
                 );
             }
             return fail(
-                "no columns \"poe-...\": not an OpenQuake export of hazard curves, nor NRML nor JSON of the USGS; \
-                 two columns of one site are a curve as they are: name the file in a study"
+                "no columns \"poe-...\": not an OpenQuake export of hazard curves, NRML or JSON of the USGS; a file \
+                 of two columns needs no import: name it in a study"
                     .to_owned(),
             );
         }

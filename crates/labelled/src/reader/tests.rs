@@ -21,7 +21,7 @@ fn what_is_no_result_file_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let open = |path: &Path| LabelledReader::open(path).err().unwrap();
     let message = open(&folder.path().join("none.h5")).to_string();
-    assert!(message.ends_with("none.h5: cannot open the file: No such file or directory"), "{message}");
+    assert!(message.ends_with("none.h5: cannot open the file: there is no such file or folder"), "{message}");
     assert!(matches!(open(folder.path()), LabelledError::File(FileError::NotAFile { found: "a folder", .. })));
     for text in ["", "station,pga_g\nA,0.1\n", "\u{89}HDF\r\n\u{1a}\n"] {
         let path = folder.path().join("text.h5");

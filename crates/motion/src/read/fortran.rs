@@ -170,7 +170,7 @@ fn read_line(
                 name: source.name.to_owned(),
                 line: number,
                 token: excerpt(token),
-                reason: "has no decimal point, though the declared format has one: where it belongs is not known",
+                reason: "has no decimal point, though the declared format has one",
             });
         }
     }
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn fields_that_touch_are_told_apart_by_their_width() {
+    fn fields_that_touch_are_split_by_their_width() {
         assert_eq!(block("1.500002.50000-3.0000", "(8F7.5)", 3), Ok(vec![1.5, 2.5, -3.0]));
         assert_eq!(
             block(" 1.500 2.500123.50012.500", "(8F7.3)", 1).unwrap_err(),

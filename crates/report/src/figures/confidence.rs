@@ -151,8 +151,7 @@ pub(super) fn measures_together(source: &FigureSource) -> Vec<Figure> {
             Of::Repaired => "Repaired spectra by each intensity measure",
         };
         let caption = format!(
-            "Median and interval of the {} of {} over resamples (Fig. 4.9). Where the areas do not overlap, the \
-             intensity measures disagree.",
+            "Medians and intervals of the {} of {} over resamples (Fig. 4.9).",
             of.spectra(),
             risk_in_words(source.stored.poes[poe], source.stored.years)
         );

@@ -15,9 +15,7 @@ const MARGIN: f64 = 1.6;
 pub(super) fn consistency(source: &FigureSource) -> Option<Figure> {
     let by_measure = source.consistency.iter().map(|of| source.sites().filter_map(|site| panel(source, of, site)));
     let panels: Vec<Panel> = by_measure.flatten().collect();
-    let caption = "Annual rate at which a level of the other intensity measure is exceeded. Where the records lie \
-                   right of the hazard curve, their other measure is too strong for the site. Grey lines: rates of \
-                   the spectra.";
+    let caption = "Right of the hazard curve the records are too strong for the site, left of it too weak.";
     (!panels.is_empty()).then(|| source.figure("consistency", "Hazard consistency of the record set", caption, panels))
 }
 

@@ -150,8 +150,7 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
             }
         }
         let label = measure.measure.label();
-        let caption = "Annual rate at which a displacement is exceeded (Fig. 4.4a). The spectrum is where a curve \
-                       meets a target.";
+        let caption = "Annual rate at which a displacement is exceeded (Fig. 4.4a), and the target rates.";
         figures.push(source.figure(
             format!("risk-{}", measure.measure.key()),
             format!("Risk of exceeding a displacement, by {label}"),

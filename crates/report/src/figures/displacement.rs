@@ -14,7 +14,7 @@ use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
 /// What rings on a line are called.
 const HANGING: &str = "decided by rounding";
-/// Ordinates whose range is told in a caption.
+/// Ordinates whose range is reported in a caption.
 const RANGES_TOLD: usize = 6;
 
 /// How many of its figures a result is asked for.

@@ -111,8 +111,7 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
             let is_thin = |panel: &Panel| panel.series.iter().any(|line| matches!(line.tone, Tone::Thin(_)));
             let panels: Vec<Panel> = source.sites().map(panel).collect();
             let thin = if panels.iter().any(is_thin) { THIN } else { "" };
-            let caption =
-                format!("Displacement exceeded with the stated probability, by {label} (Fig. 4.6, 4.7).{banded}{thin}");
+            let caption = format!("As Fig. 4.6 and 4.7.{banded}{thin}");
             let id = format!("urs-{}", of_measure.measure.key());
             let title = format!("Uniform risk spectra by {label}");
             source.figure(id, title, caption, panels)
@@ -156,8 +155,7 @@ pub(super) fn fits(source: &FigureSource) -> Option<Figure> {
         Panel::lines(title, Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series)
     };
     let caption = format!(
-        "Spectra by {} (dots) and the curves u = c_{{0}} exp(c_{{1}} η) + c_{{2}} fitted to them (lines; Eq. 4.11, \
-         Fig. 4.11).",
+        "Spectra by {} (dots) and their fits u = c_{{0}} exp(c_{{1}} η) + c_{{2}} (lines; Eq. 4.11, Fig. 4.11).",
         by_first.measure.label()
     );
     Some(source.figure("fits", "Fitted spectra", caption, source.sites().map(panel).collect()))

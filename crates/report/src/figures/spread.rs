@@ -1,4 +1,4 @@
-//! Spectra over what is not known: weighted hazard curves, structures that may be.
+//! Spectra over what is not known: weighted hazard curves, possible structures.
 
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
 use uplift::result::{SpreadOver, StoredSpread};

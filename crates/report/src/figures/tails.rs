@@ -26,8 +26,8 @@ pub(super) fn tail_shares(source: &FigureSource) -> Vec<Figure> {
         };
         let label = tails.measure.label();
         let caption = format!(
-            "Share of the risk at each ordinate that comes from below the first and above the last level of {label}, \
-             where nothing was analysed. Above {} the levels should reach further.",
+            "Share of the risk from below the first and above the last level of {label}, where nothing was analysed. \
+             Above {}, extend the levels.",
             per_cent(TAIL_SHARE_LIMIT)
         );
         let id = format!("tails-{}", tails.measure.key());

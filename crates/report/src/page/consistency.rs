@@ -31,9 +31,9 @@ pub(super) fn consistency(source: &FigureSource) -> Option<TitledTable> {
         .right("largest |ln|", |(of, site)| two_decimals(of.max[site]))
         .when(is_repaired, |table| table.right("effective records, least", |(of, site)| effective(of, site)));
     let repair = if is_repaired {
-        "Where the verdict is inconsistent, use the repaired spectra or other records."
+        "If inconsistent, use the repaired spectra or other records."
     } else {
-        "Where the verdict is inconsistent, use other records, or weight these: uplift consistency --repair."
+        "If inconsistent, use other records or uplift consistency --repair."
     };
     let note = format!(
         "Level of the compared measure in the scaled records over that of the site's hazard curve; bias: mean ratio. \

@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn results_are_named_by_what_tells_them_apart() {
+    fn results_are_named_by_their_differences() {
         let differences = found(&[("records.first", ["30", "15"])]);
         assert_eq!(names(&differences, &["a", "a"], &["x.h5", "x.h5"]), ["records.first = 30", "records.first = 15"]);
         assert_eq!(names(&[], &["a", "b"], &["x.h5", "x.h5"]), ["a", "b"]);

@@ -14,7 +14,6 @@ pub(super) struct DrawnFigure {
     id: String,
     title: String,
     caption: String,
-    remark: String,
     legend: Vec<LegendEntry>,
     /// The panels as SVG.
     drawings: Vec<String>,
@@ -63,7 +62,6 @@ impl DrawnFigure {
             id: figure.id.clone(),
             title: figure.title.clone(),
             caption: figure.caption.clone(),
-            remark: figure.remark.clone(),
             legend: swatches(figure).map_err(|reason| refused(figure, reason))?.into_iter().map(entry).collect(),
             drawings,
             panels,

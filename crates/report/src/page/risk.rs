@@ -1,5 +1,7 @@
 //! What the report shows of uniform risk spectra.
 
+use std::collections::BTreeMap;
+
 use super::consistency::consistency;
 use super::displacements::{Row, rows};
 use super::{Content, Part, TitledTable, drawn};
@@ -205,15 +207,18 @@ fn records(source: &FigureSource) -> Option<TitledTable> {
 fn coefficients(spectra: &StoredSpectra) -> TitledTable {
     let number =
         |value: f64, digits: usize| if value.is_nan() { "no fit".to_owned() } else { format!("{value:.digits$}") };
-    let rows: Vec<_> = spectra.rows().collect();
-    let table = Table::of(&rows)
-        .left("site", |spectrum| spectrum.site)
-        .left("measure", |spectrum| spectrum.measure.label())
-        .left("probability", |spectrum| risk_name(spectrum.poe, spectra.years))
-        .right("c0, m", |spectrum| number(spectrum.fit.c0_m, 4))
-        .right("c1", |spectrum| number(spectrum.fit.c1, 4))
-        .right("c2, m", |spectrum| number(spectrum.fit.c2_m, 4))
-        .right("RMSE, m", |spectrum| number(spectrum.fit.rmse_m, 4));
+    let places = (0..spectra.sites.len()).flat_map(|site| (0..spectra.poes.len()).map(move |poe| [site, poe]));
+    let table = Table::of(places)
+        .left("site", |[site, _]| &spectra.sites[site])
+        .left("probability", |[_, poe]| risk_name(spectra.poes[poe], spectra.years))
+        .each(&spectra.measures, |table, of| {
+            let heading = |symbol: &str| format!("{symbol}, {}", of.measure.label());
+            table
+                .right(heading("c0, m"), |at| number(of.fits[at].c0_m, 4))
+                .right(heading("c1"), |at| number(of.fits[at].c1, 4))
+                .right(heading("c2, m"), |at| number(of.fits[at].c2_m, 4))
+                .right(heading("RMSE, m"), |at| number(of.fits[at].rmse_m, 4))
+        });
     let note = format!(
         "u = c0 exp(c1 η) + c2{}.",
         kind_of_risks(&spectra.poes, spectra.years).map_or_else(String::new, |kind| format!("; {kind}"))
@@ -221,7 +226,10 @@ fn coefficients(spectra: &StoredSpectra) -> TitledTable {
     TitledTable::new("table-4-2", "Coefficients (Table 4.2)", note, table)
 }
 
-/// Errors and widths of the bands of all records; none before `uplift bootstrap`.
+/// A row of Table 4.1: a site, a probability, and which of its bands: `repaired`, `with hazard curves`.
+type BootstrapRow = ([usize; 2], String);
+
+/// Errors and widths of the bands of all records, the measures side by side; none before `uplift bootstrap`.
 fn bootstrap(source: &FigureSource) -> Option<TitledTable> {
     let (stored, bands) = (&source.spectra, source.bands.as_ref()?);
     let size = bands.of_set(source.stored.records.len());
@@ -232,35 +240,30 @@ fn bootstrap(source: &FigureSource) -> Option<TitledTable> {
         let own = stored.measures.iter().find(|own| own.measure == of.measure)?;
         let spectrum = (stored.strengths.as_slice(), own.u_m.block([site, poe]));
         let [lower, upper] = of.inferred.as_ref()?.widest(spectrum, at)?.prediction;
-        Some(format!("{lower:+.0} to {upper:+.0}"))
+        Some(format!("{lower:+.0}/{upper:+.0}"))
     };
-    let mut rows = Vec::new();
-    for of in &bands.measures {
-        for ([site, poe], _) in of.plain.error_of_median.blocks::<2>() {
+    let none = || "–".to_owned();
+    let mut rows: BTreeMap<BootstrapRow, Vec<[String; 3]>> = BTreeMap::new();
+    for (place, of) in bands.measures.iter().enumerate() {
+        let mut add = |place_of: [usize; 2], kind: String, cells: [String; 3]| {
+            let row =
+                rows.entry((place_of, kind)).or_insert_with(|| vec![[none(), none(), none()]; bands.measures.len()]);
+            row[place] = cells;
+        };
+        for (place_of @ [site, poe], _) in of.plain.error_of_median.blocks::<2>() {
             let at = [site, poe, size];
-            let mut add = |measure: String, own: &StoredSpectraBands, another: Option<String>| {
-                let mut row = |measure: String, error: f64, range: f64, another: String| {
-                    let risk = risk_name(stored.poes[poe], stored.years);
-                    rows.push(vec![
-                        stored.sites[site].clone(),
-                        measure,
-                        risk,
-                        number(error, 1),
-                        number(range, 0),
-                        another,
-                    ]);
-                };
-                let none = || "–".to_owned();
+            let mut add_bands = |kind: &str, own: &StoredSpectraBands, another: Option<String>| {
+                let (error, range) = (own.error_of_median[at], own.range_of_interval[at]);
+                add(place_of, kind.to_owned(), [number(error, 1), number(range, 0), another.unwrap_or_else(none)]);
                 let joint = own.joint.as_ref().filter(|joint| !joint.limits_m[1].block(at)[0].is_nan());
-                let with_curves = format!("{measure}, {WITH_CURVES}");
-                row(measure, own.error_of_median[at], own.range_of_interval[at], another.unwrap_or_else(none));
                 if let Some(joint) = joint {
-                    row(with_curves, f64::NAN, joint.range_of_interval[at], none());
+                    let kind = [kind, WITH_CURVES].into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>();
+                    add(place_of, kind.join(", "), [none(), number(joint.range_of_interval[at], 0), none()]);
                 }
             };
-            add(of.measure.label().to_owned(), &of.plain, another(of, at));
+            add_bands("", &of.plain, another(of, at));
             if let Some(own) = of.repaired.as_ref().filter(|own| !own.failed[[site, size]].is_nan()) {
-                add(spectrum_words(of.measure.label(), true), &own.bands, None);
+                add_bands("repaired", &own.bands, None);
             }
         }
     }
@@ -271,7 +274,15 @@ fn bootstrap(source: &FigureSource) -> Option<TitledTable> {
         bands.drawn_words(),
         bands.sizes[size]
     );
-    let header = ["site", "measure", "probability", "e_{median}, %", "r, %", "another set, %"];
-    let table = Table::new(header, rows).with_left(3);
+    let has_kinds = rows.keys().any(|(_, kind)| !kind.is_empty());
+    let table = Table::of(&rows)
+        .left("site", |(([site, _], _), _)| &stored.sites[*site])
+        .left("probability", |(([_, poe], _), _)| risk_name(stored.poes[*poe], stored.years))
+        .when(has_kinds, |table| table.left("spectrum", |((_, kind), _)| if kind.is_empty() { "plain" } else { kind }))
+        .each(bands.measures.iter().enumerate(), |table, (place, of)| {
+            ["e_{median}, %", "r, %", "another set, %"].into_iter().enumerate().fold(table, |table, (at, heading)| {
+                table.right(format!("{}: {heading}", of.measure.label()), move |(_, cells)| cells[place][at].clone())
+            })
+        });
     Some(TitledTable::new("table-4-1", "Bootstrap (Table 4.1)", note, table))
 }

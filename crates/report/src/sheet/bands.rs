@@ -1,4 +1,4 @@
-//! The numbers of an answer with their bands, below each other on one axis, as SVG: how sure they are at a glance.
+//! The numbers of an answer with their bands, below each other on one axis, as SVG, at a glance.
 
 use std::fmt::Write;
 
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_end_goes_on() {
+    fn what_has_no_end_continues() {
         let frequencies = bands(&[row(2e-4, [0.0, 1e-3], "1/yr"), row(0.0, [f64::NAN, 1e-5], "1/yr")]);
         assert_eq!(frequencies[0].matches("<circle").count(), 1, "none seen has no place among powers of ten");
         assert_eq!(frequencies[0].matches("fill=\"#0072b2\"").count(), 2);

@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn what_tells_kinds_apart_is_drawn() {
+    fn every_kind_is_drawn_differently() {
         let drawn: Vec<(&str, String)> = all();
         let count = |kind: &str, what: &str| drawn.iter().find(|of| of.0 == kind).unwrap().1.matches(what).count();
         assert_eq!(count("frame", "<rect"), 5, "four columns and a deck");

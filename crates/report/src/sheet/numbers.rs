@@ -40,7 +40,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
             let demand = two_digits(spectrum.zero_stiffness_demand_m);
             say(format!("{of}, the demand without stiffness after uplift is {demand} m{capacity}."), None);
         }
-        (None, None) => say(format!("{of}, no demand is known."), None),
+        (None, None) => say(format!("{of}, no demand."), None),
     }
     // the rule that asks for more is the one that counts
     let asked = report.rules.iter().filter_map(|outcome| Some((outcome.rule, outcome.check()?)));
@@ -234,8 +234,8 @@ fn frame(report: &DesignReport) -> Option<TitledTable> {
         kept => format!("keeps {kept} of its velocity past the upright"),
     };
     let note = format!(
-        "At {} levels. The wobbling model {wobbling}; the planar one is shaken by one component alone, which is known \
-         to be unconservative (Section 6.2.3).",
+        "At {} levels. The wobbling model {wobbling}; the planar one is shaken by one component alone, which is \
+         unconservative (Section 6.2.3).",
         frame.levels.len()
     );
     TitledTable::new("frame", "The frame itself", note, table).unless_empty()

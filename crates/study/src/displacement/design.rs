@@ -148,7 +148,7 @@ fn designed(section: &mut Section<'_>, of_blocks: bool, structures: Option<&Stru
                 quantity(width_m, "m"),
                 quantity(family.uplift_displacement_m[0], "m")
             ),
-            "the width of a column is of the order of a metre",
+            "the width of a column is about a metre",
         );
         return None;
     }

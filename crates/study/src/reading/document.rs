@@ -147,7 +147,7 @@ impl Node {
     }
 }
 
-/// An integer; one too large for 64 bits is a number all the same, to be told in messages.
+/// An integer; one too large for 64 bits is a number all the same, to be reported in messages.
 fn integer(digits: &str, radix: u32) -> Value {
     i64::from_str_radix(digits, radix).map_or_else(
         |_| {

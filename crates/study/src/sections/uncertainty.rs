@@ -128,7 +128,7 @@ pub(crate) enum Described {
     Assumed(f64),
     /// Not told: a mean is needed.
     Open,
-    /// Cannot be told for other mistakes.
+    /// Cannot be reported for other mistakes.
     Mistaken,
     /// There is none, for this reason.
     Impossible(&'static str),
@@ -235,14 +235,14 @@ fn told(error: &UncertaintyError, quantities: &[UncertainQuantity]) -> String {
     match error {
         UncertaintyError::Pair { first, second } => {
             let name = |place: &usize| quantities.get(*place).map_or("?", |quantity| quantity.key());
-            format!("the correlation of {} with {} cannot be, or was given before", name(first), name(second))
+            format!("the correlation of {} with {} is impossible, or given twice", name(first), name(second))
         }
         other => other.to_string(),
     }
 }
 
 /// Pairs of quantities, by their positions among the uncertain ones, with the coefficient of each; those that are
-/// `mistaken` have been told.
+/// `mistaken` have been reported.
 fn read_pairs(
     field: &Field<'_>,
     quantities: &[UncertainQuantity],
@@ -345,7 +345,7 @@ fn read_quantity(
     }
     if by_mean && mean.is_none() && described == Described::Open {
         let help = format!("give mean, or {} of the structure", quantity.key());
-        section.mistake("mean", "its mean is not known", help);
+        section.mistake("mean", "its mean is missing", help);
     }
     let bounded = matches!(family, Some(Family::Uniform | Family::Triangular));
     if by_limits && family.is_some() && !bounded {

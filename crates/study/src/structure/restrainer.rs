@@ -207,7 +207,7 @@ pub(super) fn read(root: &mut Section<'_>, structure: &StructureDescription) -> 
             );
         }
     }
-    // of another kind its keys are read nonetheless, so that those that are none are told too
+    // of another kind its keys are read nonetheless, so that those that are none are reported too
     let description = read_section(section);
     (structure.kind == Kind::RestrainedFrame).then_some(ReadRestrainer { description })
 }

@@ -121,7 +121,7 @@ fn a_complete_study_is_read_and_written_as_it_is() {
 }
 
 #[test]
-fn percentiles_that_look_like_fractions_are_told() {
+fn percentiles_that_look_like_fractions_are_reported() {
     assert_eq!(load("[oscillator]\n[spectrum]\npercentiles = [0.5, 50]\n[design]").warnings, []);
     let told = load("[oscillator]\n[spectrum]\npercentiles = [0.16, 0.5]\n[design]\npercentile = 0.84").warnings;
     let what: Vec<&str> = told.iter().map(|warning| warning.what.as_str()).collect();
@@ -132,7 +132,7 @@ fn percentiles_that_look_like_fractions_are_told() {
 }
 
 #[test]
-fn mistakes_are_all_told_at_once() {
+fn all_the_mistakes_are_reported_at_once() {
     let folder = Folder::new(
         r#"kind = "displacement spectra"
 seed = 3

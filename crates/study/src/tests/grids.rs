@@ -138,19 +138,19 @@ fn default_levels_cut_to_a_curve() {
     use super::super::levels_within;
     let pgv = |least, most| levels_within(IntensityMeasure::Pgv, least, most).map(|(_, levels)| levels);
     assert_eq!(pgv(0.1, 300.0), None);
-    assert_eq!(pgv(0.1, 174.3).as_deref(), Some("[\"0.1:0.1:0.9\", \"1:0.5:20\", \"25:5:170\"]"));
-    assert_eq!(pgv(0.25, 200.0).as_deref(), Some("[\"0.3:0.1:0.9\", \"1:0.5:20\", \"25:5:200\"]"));
-    assert_eq!(pgv(1.7, 200.0).as_deref(), Some("[\"2:0.5:20\", \"25:5:200\"]"));
+    assert_eq!(pgv(0.1, 174.3).as_deref(), Some("[\"0.1:0.1:0.9\", \"1:0.5:20\", \"25:5:170\", \"174.3\"]"));
+    assert_eq!(pgv(0.25, 200.0).as_deref(), Some("[\"0.25\", \"0.3:0.1:0.9\", \"1:0.5:20\", \"25:5:200\"]"));
+    assert_eq!(pgv(1.7, 200.0).as_deref(), Some("[\"1.7\", \"2:0.5:20\", \"25:5:200\"]"));
     assert_eq!(pgv(500.0, 600.0), None);
     let (key, levels) = levels_within(IntensityMeasure::Pga, 0.00233, 1.997).unwrap();
     assert_eq!(key, "pga.levels_g");
-    assert_eq!(levels, "[\"0.0025:0.0025:0.0225\", \"0.025:0.005:0.195\", \"0.2:0.05:1.95\"]");
+    assert_eq!(levels, "[\"0.00233\", \"0.0025:0.0025:0.0225\", \"0.025:0.005:0.195\", \"0.2:0.05:1.95\", \"1.997\"]");
     // what is suggested is a grid that a study takes
     load(&format!("[pga]\nlevels_g = {levels}\n")).unwrap();
 }
 
 #[test]
-fn a_grid_as_it_is_typed() {
+fn grids_on_the_command_line() {
     use super::super::{Grid, GridError};
     let parse = |text: &str| text.parse::<Grid>().map(|grid| grid.to_vec());
     assert_eq!(parse("2"), Ok(vec![2.0]));

@@ -148,7 +148,7 @@ fn one_by_one() {
             "[pgv]\n[oscillator]\nfree_vibration = \"yes\"",
             "oscillator.free_vibration: expected true or false, found the text \"yes\"",
         ),
-        ("[pgv]\n[records]\ntag = \"x\"", "records.tag: a tag chooses rows of a manifest, and there is none"),
+        ("[pgv]\n[records]\ntag = \"x\"", "records.tag: a tag chooses rows of a manifest: add records.manifest"),
         ("[pgv]\n[records]\nfirst = 106", "records.first: 106 is more than the 105 records there are"),
         (
             "[pgv]\n[records]\nmanifest = \"manifest.csv\"\n[records.synthetic]\nfirst = 1",

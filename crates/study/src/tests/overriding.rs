@@ -179,7 +179,7 @@ fn mistakes_name_the_override() {
 }
 
 #[test]
-fn only_overrides_that_lie_in_the_way_are_told() {
+fn only_overrides_in_the_way_are_reported() {
     let told = mistakes("[pgv]\n[risk]\nyears = -1", &["risk.years=50", "seed=-3"]);
     assert_eq!(told, ["--set seed=-3: seed: the value is -3"]);
 }

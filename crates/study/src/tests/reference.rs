@@ -25,7 +25,7 @@ fn pages() -> [(&'static str, &'static [SectionKeys]); 4] {
 /// What stands before a table: the sections whose keys it has.
 const MARK: (&str, &str) = ("<!-- keys: ", " -->");
 
-/// The page with its tables made anew, and the rows of them.
+/// The page with its tables made again, and the rows of them.
 fn made_anew(page: &str, sections: &[SectionKeys]) -> (String, BTreeSet<String>) {
     let (mut made, mut shown) = (String::new(), BTreeSet::new());
     let mut lines = page.lines().peekable();
@@ -159,11 +159,11 @@ fn every_key_is_in_the_reference_and_no_other() {
             let own = others.iter().find_map(|other| key.strip_prefix(other.as_str()));
             own.map_or(key.clone(), |rest| format!("uncertainty.restitution{rest}"))
         };
-        // the keys of every quantity are told with those of one
+        // the keys of every quantity are reported with those of one
         let asked: BTreeSet<String> = asked(studies).into_iter().map(of_one_quantity).collect();
         let never: Vec<_> = known.difference(&asked).collect();
         assert!(never.is_empty(), "in the reference of {}, but never read: {never:?}", kind.key());
-        // a section is known by its keys; the table of a grid is told with the grids
+        // a section is known by its keys; the table of a grid is reported with the grids
         let within = |section: &str, key: &str| section.strip_prefix(key).is_some_and(|rest| rest.starts_with('.'));
         let is_section = |key: &str| kind.keys().iter().any(|known| known.section == key || within(known.section, key));
         let of_a_grid = |key: &str| {

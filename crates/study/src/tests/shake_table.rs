@@ -87,7 +87,7 @@ fn a_level_in_another_unit_raises_a_warning() {
 }
 
 #[test]
-fn mistakes_are_all_told_at_once() {
+fn all_the_mistakes_are_reported_at_once() {
     let folder = Folder::new(
         "kind = \"shake table\"\nlength_scale = 0\n[records]\ntag = \"nf\"\n[[levels]]\nname = \"low\"\n[[levels]]\n\
          name = \"LOW\"\npgv_srss_m_s = 1e4\n[model]\nrest_amplitude_rad = 1\nkind = 2\n\

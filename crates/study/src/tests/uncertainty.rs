@@ -60,7 +60,7 @@ fn a_structure_without_the_table_is_certain() {
 
 /// All of them at once, beside those of the structure itself.
 #[test]
-fn every_mistake_is_told() {
+fn every_mistake_is_reported() {
     let found = mistakes(
         "mass_t = 9\n[uncertainty]\nkind = \"random\"\nsamples = 60\n[uncertainty.strength]\n\
          coefficient_of_variation = 0.1\n[uncertainty.restitution]\ndistribution = \"normal\"\n\
@@ -73,10 +73,10 @@ fn every_mistake_is_told() {
         "uncertainty.kind: unknown kind: the text \"random\"",
         "uncertainty.samples: 60 samples by Sobol' points, which are even for powers of two alone",
         "uncertainty.strength.distribution: how is it distributed?",
-        "uncertainty.restitution.mean: its mean is not known",
+        "uncertainty.restitution.mean: its mean is missing",
         "uncertainty.capacity_m: one of its limits is missing",
         "uncertainty.capacity_m: only a uniform and a triangular distribution have limits",
-        "uncertainty.uplift_displacement_m: uplift displacement cannot be distributed so: 25 % of it lies outside",
+        "uncertainty.uplift_displacement_m: uplift displacement cannot be distributed so: 25 % of it is outside",
         "uncertainty.width_m: unknown section `width_m`",
     ] {
         assert!(found.iter().any(|told| told.starts_with(what)), "{what}: {found:#?}");
@@ -96,7 +96,7 @@ fn what_does_not_go_together_is_refused() {
         (format!("{strength}mean = 0.1\npercentiles = [[5, 1], [95, 2]]\n"), "its scatter is given twice"),
         ("[uncertainty.strength]\ndistribution = \"normal\"\n".to_owned(), "nothing says how uncertain it is"),
         (pair("\"strength\", \"capacity_m\"", "1.0"), "the value is 1"),
-        (pair("\"strength\", \"strength\"", "0.5"), "the correlation of strength with strength cannot be"),
+        (pair("\"strength\", \"strength\"", "0.5"), "correlation of strength with strength: name two"),
         (pair("\"strength\", \"restitution\"", "0.5"), "restitution is not uncertain"),
         (pair("\"uplift_displacement_m\", \"restitution\"", "0.5"), "uplift_displacement_m and restitution are not"),
         // a quantity that is told to be wrong is not told to be missing
@@ -118,7 +118,7 @@ fn what_does_not_go_together_is_refused() {
         ),
         (
             "[uncertainty.restitution]\ndistribution = \"uniform\"\nlower = 0.9\nupper = 1.1\n".to_owned(),
-            "it reaches from 0.9 to 1.1, and it can be from 0 to 1",
+            "it reaches from 0.9 to 1.1, but the possible range is 0 to 1",
         ),
         (
             "[uncertainty.strength]\ndistribution = \"normal\"\npercentiles = [[95, 0.1], [5, 0.2]]\n".to_owned(),
@@ -196,7 +196,7 @@ fn a_mean_far_from_the_structure_raises_a_warning() {
     assert!(found[0].contains("12 times the 0.0005 m that the structure has"), "{found:#?}");
 }
 
-/// A study file that says all that can be uncertain, and what of it is told again in its result.
+/// A study file that says all that can be uncertain, and what of it is reported again in its result.
 #[test]
 fn an_uncertain_study_is_written_and_read_again() {
     let folder = tempfile::tempdir().unwrap();

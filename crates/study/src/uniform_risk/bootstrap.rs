@@ -56,7 +56,7 @@ pub struct Bootstrap {
     /// How a limit is read from the replicates.
     #[serde(serialize_with = "write_interval")]
     pub interval: Interval,
-    /// What is drawn; not written where it is records, as in studies of before.
+    /// What is drawn; not written where it is records, as in studies of earlier runs.
     #[serde(serialize_with = "write_unit", skip_serializing_if = "is_record")]
     pub unit: Unit,
     /// Whether bands that hold whole spectra are made too.

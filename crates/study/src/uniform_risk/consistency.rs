@@ -41,7 +41,7 @@ const MOST_RECORDS: u64 = 65_535;
 /// What is asked of the records, and done about it (docs/method.md, "Hazard consistency").
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Consistency {
-    /// What is done where the records do not bring the hazard of the other measure.
+    /// What is done where the records miss the hazard of the other measure.
     pub repair: Repair,
     /// The measure whose hazard is compared where records are scaled to another; none where the study does not say.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "write_measure")]
@@ -54,10 +54,10 @@ pub struct Consistency {
     pub scale_factors: [f64; 2],
 }
 
-/// What is done where the records do not bring the hazard of the other measure.
+/// What is done where the records miss the hazard of the other measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Repair {
-    /// Nothing: it is told.
+    /// Nothing: it is reported.
     None,
     /// Spectra with weights of the records, beside the plain ones.
     Weights,

@@ -175,7 +175,7 @@ pub(super) fn read(mut section: Section<'_>, paths: &Paths) -> Option<Records> {
         (|| Some(RecordSource::Manifest { manifest: manifest?, tag: tag? }))()
     } else {
         if let Some(field) = tag_field {
-            field.mistake("a tag chooses rows of a manifest, and there is none", NO_TAG);
+            field.mistake("a tag chooses rows of a manifest: add records.manifest", NO_TAG);
         }
         record_source::enough(first_field.as_ref(), first, synthetic);
         synthetic.map(RecordSource::from)

@@ -45,8 +45,12 @@ pub(super) fn read(
     let cut = |(quantity, of): (&UncertainQuantity, &Distribution)| {
         let share = of.cut_off_share();
         (share > LITTLE).then(|| {
-            let what = format!("{:.1} % of the {} are cut off, where it cannot be", 100.0 * share, quantity.name());
-            Warning::new(what, "its mean is another than the one that is written: give limits, or less scatter")
+            let what = format!(
+                "{:.1} % of the {} are outside the possible range, and are cut off",
+                100.0 * share,
+                quantity.name()
+            );
+            Warning::new(what, "this moves its mean: give limits, or less scatter")
         })
     };
     let of_cuts = uncertainty.quantities.iter().zip(uncertainty.vector.distributions()).filter_map(cut);

@@ -15,7 +15,7 @@ use uplift_result::{
 use crate::error::DesignError;
 
 /// Keeps `finding` in the result at `result`, in place of an earlier answer to the same question and of no other, and
-/// tells `events` where. What cannot be kept is told too, with the reason: an answer is none the worse for that.
+/// tells `events` where. What cannot be kept is reported too, with the reason: an answer is none the worse for that.
 ///
 /// Returns the group that it stands in; none where it is not kept.
 pub fn keep(finding: &Finding, result: &Path, events: &dyn Events) -> Option<String> {
@@ -38,10 +38,7 @@ fn write(finding: &Finding, result: &Path, events: &dyn Events) -> Result<(), De
     }
     let (locked, file) = LockedResult::open(result, events)?;
     if file.head()?.study_digest() != finding.study_digest {
-        return Err(JobError::input(
-            "it was replaced by another result meanwhile: ask the same of that one".to_owned(),
-        )
-        .into());
+        return Err(JobError::input("another result replaced it meanwhile: run the command again".to_owned()).into());
     }
     let earlier = file.findings()?;
     let (key, group) = (finding.key(), finding.group());
@@ -65,8 +62,7 @@ fn tell_of_another_file(finding: &Finding, earlier: &[StoredFinding], events: &d
     if !left.is_empty() {
         let questions: Vec<String> = left.iter().map(|of| of.finding.question()).collect();
         events.note(&format!(
-            "of {} the result keeps {} answer(s) for what its file was before, marked as such until they are asked \
-             again: {}",
+            "{} has changed: the result keeps {} answer(s) for the earlier file, marked as such: {}",
             finding.structure,
             left.len(),
             questions.join("; ")

@@ -12,7 +12,7 @@ use super::super::certainty::{Scatter, record_bands};
 use super::super::weights::SiteWeights;
 use crate::error::DesignError;
 
-/// Displacements at which a risk curve is told.
+/// Displacements at which a risk curve is reported.
 const POINTS: usize = 60;
 
 /// A number with its band; NaN where replicates have none.

@@ -98,7 +98,7 @@ pub struct TargetUncertainty {
     pub quantities: Vec<QuantityReport>,
     /// The value that each branch by itself would need; none where there are no branches.
     pub by_structure: Option<TargetBand>,
-    /// The same with records drawn anew.
+    /// The same with records drawn again.
     pub by_all: Option<TargetBand>,
 }
 

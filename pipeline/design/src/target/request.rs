@@ -101,7 +101,7 @@ pub struct TargetOptions {
     pub generic: Option<(f64, f64)>,
     /// CSV file of all values tried.
     pub table: Option<PathBuf>,
-    /// Whether whatever is at the place of the table gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn all_mistakes_are_told_at_once() {
+    fn all_mistakes_are_reported_at_once() {
         let frequency = TargetFrequency::Probability(2.0, Some(-1.0));
         let asked = TargetOptions {
             from: Some(-1.0),

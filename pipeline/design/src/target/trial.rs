@@ -9,7 +9,7 @@ use uplift_hazard::HazardCurve;
 use uplift_ida::{Peaks, Plan, System};
 use uplift_job::JobError;
 use uplift_job::events::Events;
-use uplift_job::text::{records_in_words, thousands};
+use uplift_job::text::{rate, records_in_words, thousands};
 use uplift_risk::StripeWeights;
 use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_levels};
@@ -116,14 +116,15 @@ impl<'a> Trials<'a> {
         let levels = &self.measure.plan.levels;
         let measure = self.measure.measure();
         Err(JobError::Usage(format!(
-            "the target of {target_per_year:.3e} per year is below what these stripes can tell at {site}: motions \
-             above their last level, {} {}, come {:.1e} times a year, and what none of {} does there may still \
-             happen up to {bound:.1e} times a year: let {} of the study reach further up and run it again, take more \
-             records, or give a target above that",
+            "the target of {} per year is too rare for these stripes at {site}: motions above the last level, {} {}, \
+             come {} times a year, so even if none of {} fails there the rate can be up to {} per year. Raise the \
+             last of {} and run the study again, use more records, or give a target above that rate",
+            rate(target_per_year),
             levels[levels.len() - 1],
             measure.unit(),
-            self.weights.stripes().upper_tail_per_year(),
+            rate(self.weights.stripes().upper_tail_per_year()),
             records_in_words(self.record_count(), self.pairs().len()),
+            rate(bound),
             uplift_study::levels_key(measure)
         ))
         .into())

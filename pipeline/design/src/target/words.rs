@@ -1,6 +1,7 @@
 //! What is said of a search: why it has no answer, where it crosses the target, what it takes for granted.
 
 use uplift_job::alarm::{Alarm, Severity};
+use uplift_job::text::rate;
 use uplift_result::ResultFile;
 use uplift_structure::UncertainQuantity;
 use uplift_study::Structure;
@@ -33,9 +34,9 @@ impl Words<'_> {
         let (key, event) = (options.quantity.key(), options.event.words());
         let at = |(value, attempt): &(f64, Attempt)| {
             let frequency = match attempt.risk {
-                EventRisk { per_year: 0.0, at_most_per_year: Some(bound), .. } => format!("less than {bound:.1e}"),
+                EventRisk { per_year: 0.0, at_most_per_year: Some(bound), .. } => format!("less than {}", rate(bound)),
                 EventRisk { per_year: 0.0, .. } => "none".to_owned(),
-                EventRisk { per_year, .. } => format!("{per_year:.3e}"),
+                EventRisk { per_year, .. } => rate(per_year),
             };
             format!("{frequency} at {}", self.value(*value))
         };
@@ -43,11 +44,12 @@ impl Words<'_> {
             (Some(first), Some(last)) => format!("{} and {}", at(first), at(last)),
             _ => String::new(),
         };
+        let allowed = rate(*target_per_year);
         let missed = tried.iter().rposition(|(_, attempt)| !attempt.meets(*target_per_year));
         match missed {
             None => Err(format!(
-                "the target is met at every {key} of the range: {event} has {} per year, and {target_per_year:.3e} is \
-                 allowed: give a lower --from, or a rarer target",
+                "the target is met at every {key} of the range: {event} has {} per year, and {allowed} is allowed: \
+                  give a lower --from, or a rarer target",
                 ends()
             )),
             Some(last) if last + 1 < tried.len() => Ok(last + 1),
@@ -56,12 +58,12 @@ impl Words<'_> {
                 if found.is_empty() {
                     return Err(format!(
                         "the target is missed at every {key} of the range: {event} has {} per year, and \
-                         {target_per_year:.3e} is allowed: give a higher --to, or vary something else",
+                         {allowed} is allowed: give a higher --to, or vary something else",
                         ends()
                     ));
                 }
                 Err(format!(
-                    "the target is met in between and missed at the largest {key}: {}; a larger one is not safer \
+                    "the target is met in between and missed at the largest {key}: {}. A larger one is not safer \
                      here: choose --to below the last of these crossings",
                     self.crossings(&found)
                 ))
@@ -76,8 +78,8 @@ impl Words<'_> {
         let least = tried.iter().find(|(_, attempt)| attempt.meets(self.target_per_year));
         let least = least.map_or_else(String::new, |(value, _)| format!(" from {} on", self.value(*value)));
         vec![format!(
-            "the frequency crosses the target {} times, for it does not fall all the way: it is met here and \
-             there{least}, and at every value tried above the one told ({})",
+            "the annual rate crosses the target {} times: the target is met in places{least}, and at every value \
+             tried above the reported one ({})",
             found.len(),
             self.crossings(found)
         )]
@@ -114,15 +116,15 @@ pub(super) fn assumptions(structure: &Structure, file: &ResultFile, restitution:
         structure.uncertainty.as_ref().is_some_and(|of| of.quantities.contains(&UncertainQuantity::Restitution));
     if structure.description.restitution.is_none() && !is_drawn {
         notes.push(format!(
-            "every value has the restitution of the study, {restitution}: what is made more slender loses less at an \
-             impact, and its risk is larger; write the restitution of the structure that was found into its file, and \
-             look at its full motion with uplift overturning"
+            "every value has the restitution of the study, {restitution}. A more slender structure loses less energy \
+             at an impact, and its risk is larger: write the restitution of the structure found into its file, and \
+             run uplift overturning"
         ));
     }
     if file.stored_study().is_ok_and(|study| study.records.vertical) {
         notes.push(
-            "every value is looked for with the equivalent oscillator, which does not feel the vertical components of \
-             the records: uplift risk and uplift overturning shake frames and blocks with them"
+            "every value is found with the equivalent oscillator, which ignores the vertical components of the \
+             records: uplift risk and uplift overturning apply them to frames and blocks"
                 .to_owned(),
         );
     }

@@ -25,8 +25,8 @@ pub(super) fn points(of: &Uncertainty, records: usize, file: &Path) -> Result<Ve
     let draws = if of.is_known() { 1 } else { of.draws };
     if records * draws > MOST_RUNS {
         let error = JobError::input(format!(
-            "[uncertainty]: {draws} structures of each of {records} records are {}, and a level takes {MOST_RUNS}: \
-             take fewer draws",
+            "[uncertainty]: {draws} structures of each of {records} records are {} runs at a level, and {MOST_RUNS} \
+             is the most: use fewer draws",
             records * draws
         ));
         return Err(uplift_job::in_file(error, file).into());

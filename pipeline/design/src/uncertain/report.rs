@@ -1,4 +1,4 @@
-//! What is told of an uncertain structure.
+//! What is reported of an uncertain structure.
 
 use serde::Serialize;
 use uplift_fragility::quantile;
@@ -142,7 +142,7 @@ impl UncertainFinding {
 pub struct EpistemicResult {
     /// By what is not known of the structure alone: all records, the mean hazard.
     pub by_structure: Spread,
-    /// By that, by records drawn anew, and by the branches of the hazard where there are some.
+    /// By that, by records drawn again, and by the branches of the hazard where there are some.
     pub by_all: Spread,
     /// What that scatter owes to what, the most first.
     pub shares: Vec<VarianceShare>,
@@ -200,7 +200,7 @@ pub struct AleatoryResult {
     /// Where no run shows what is counted: what the answer is at most, 1/yr (docs/method.md, section 17). None where
     /// some run does, of a demand, and where it cannot happen.
     pub at_most_per_year: Option<f64>,
-    /// Its 90 % band as the records tell it; none where no run shows it, and of a single record.
+    /// Its 90 % band by the records; none where no run shows it, and of a single record.
     pub by_record: Option<[f64; 2]>,
     /// The same as their earthquakes tell it; none where no two pairs are known to share one.
     pub by_earthquake: Option<[f64; 2]>,

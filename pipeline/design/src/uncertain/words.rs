@@ -1,5 +1,7 @@
 //! An answer for an uncertain structure in a sentence.
 
+use uplift_job::text::rate;
+
 use super::report::{AleatoryResult, EpistemicResult, Spread, UncertainFinding, UncertainResult, VarianceShare};
 
 /// A share with a larger standard error says nothing: a band of two errors to either side holds every share there is.
@@ -15,17 +17,17 @@ impl UncertainResult {
                 let mean = shown(by_structure.mean, by_structure.at_most_per_year, unit);
                 if is_unseen(by_structure.mean, unit) {
                     return format!(
-                        "{of}, {site}, {im}: {mean}, by all that the structure may be; as described {described}"
+                        "{of}, {site}, {im}: {mean} over the possible structures; as described {described}"
                     );
                 }
                 let owed = match no_shares {
-                    Some(reason) => format!("the shares of the variance are not known: {reason}"),
+                    Some(reason) => format!("no shares of the variance: {reason}"),
                     None => owed(shares),
                 };
                 let [alone, all] = [by_structure, by_all].map(|spread| limits(spread, unit));
                 format!(
-                    "{of}, {site}, {im}: {mean} on average, {alone} for 90 % of what the structure may be; with what \
-                     else is not known {all}; as described {described}; {owed}"
+                    "{of}, {site}, {im}: mean {mean}; 90 % of the possible structures {alone}, with all uncertainty \
+                     {all}; as described {described}; {owed}"
                 )
             }
             UncertainFinding::Aleatory(AleatoryResult {
@@ -62,14 +64,14 @@ fn number(value: f64, unit: &str) -> String {
         "m" => format!("{value:.4}"),
         // a limit of a band: what is counted is none for some of it, and that is not never
         _ if value == 0.0 => "none seen".to_owned(),
-        _ => format!("{value:.3e}"),
+        _ => rate(value),
     }
 }
 
 /// An answer in its unit; of what no run shows what it is at most.
 fn shown(value: f64, at_most_per_year: Option<f64>, unit: &str) -> String {
     match at_most_per_year {
-        Some(bound) => format!("at most {bound:.1e} per year, for no run shows it"),
+        Some(bound) => format!("at most {} per year: no run shows it", rate(bound)),
         None if is_unseen(value, unit) => "cannot happen".to_owned(),
         None => with_unit(number(value, unit), unit),
     }
@@ -96,7 +98,7 @@ fn limits(spread: &Spread, unit: &str) -> String {
 /// What a scatter owes to what, the most first.
 fn owed(shares: &[VarianceShare]) -> String {
     if shares.iter().all(|of| !is_told(of.total_error) && !is_told(of.first_order_error)) {
-        return "what it owes to what takes more samples to say (samples of [uncertainty])".to_owned();
+        return "shares of the variance need more samples (samples of [uncertainty])".to_owned();
     }
     format!("it owes that to {}", shares.iter().map(share).collect::<Vec<_>>().join(", "))
 }
@@ -106,8 +108,8 @@ fn is_told(standard_error: f64) -> bool {
     standard_error <= MOST_ERROR
 }
 
-/// A share of which the sampling makes more than all, or less than nothing, is told with that; one that the sampling
-/// leaves open is not told.
+/// A share of which the sampling makes more than all, or less than nothing, is reported with that; one that the
+/// sampling leaves open is not told.
 fn share(of: &VarianceShare) -> String {
     let number =
         |value: f64, error: f64| is_told(error).then(|| format!("{:.0} ± {:.0} %", 100.0 * value, 100.0 * error));
@@ -139,18 +141,18 @@ mod tests {
 
     /// 154 ± 57 % is no share.
     #[test]
-    fn a_share_that_the_sampling_leaves_open_is_not_told() {
+    fn an_uncertain_share_is_not_reported() {
         assert_eq!(share(&of(1.54, 0.57, 0.1)), "capacity 50 ± 10 % (alone: too few samples to say)");
         assert_eq!(share(&of(0.4, 0.2, 0.31)), "capacity (alone 40 ± 20 %; too few samples to say more)");
         assert_eq!(share(&of(0.4, 0.5, f64::NAN)), "capacity (too few samples to say)");
         let (known, open) = (of(0.4, 0.2, 0.1), of(0.4, 0.5, 0.6));
         assert!(owed(&[known, open.clone()]).ends_with("(alone 40 ± 20 %), capacity (too few samples to say)"));
-        assert!(owed(&[open]).contains("takes more samples to say"));
+        assert!(owed(&[open]).contains("need more samples"));
     }
 
     #[test]
     fn zero_counts_are_reported_as_a_bound() {
-        assert_eq!(shown(0.0, Some(1.23e-5), "1/yr"), "at most 1.2e-5 per year, for no run shows it");
+        assert_eq!(shown(0.0, Some(1.23e-5), "1/yr"), "at most 1.2e-5 per year: no run shows it");
         assert_eq!(shown(0.0, None, "1/yr"), "cannot happen");
         assert_eq!(shown(0.0, None, "m"), "0.0000 m");
         assert_eq!(range([0.0, 2e-4], "1/yr"), "none seen to 2.000e-4 per year");

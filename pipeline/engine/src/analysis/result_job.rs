@@ -19,7 +19,7 @@ pub struct ResultJob<'a> {
 }
 
 impl ResultJob<'_> {
-    /// Where a shard of the work goes unless it is told where.
+    /// Where a shard of the work goes unless it is reported where.
     pub fn shard_path(&self, Shard { index, count }: Shard) -> PathBuf {
         let width = count.to_string().len();
         path_beside(self.result, self.name, &format!("shard-{:0width$}-of-{count}", index + 1))

@@ -117,7 +117,8 @@ pub fn join(paths: &[PathBuf], work: &Work<'_>) -> Result<FinishedRows, EngineEr
         let (shards_before, first) = *count.get_or_insert((shards, path));
         if shards != shards_before {
             mistakes.push(format!(
-                "{name}: is shard {shard} of {shards}, and {} is of {shards_before}: merge the shards of one division",
+                "{name}: is shard {shard} of {shards}, but {} is one of {shards_before}: merge shards of the same \
+                 number",
                 first.display()
             ));
             continue;

@@ -13,7 +13,7 @@ use uplift_labelled::hexadecimal;
 use crate::checkpoint::{Checkpoint, FinishedRows, RowFileHead, RowKey, RowKeys};
 use crate::error::EngineError;
 
-/// A plan, and what is told of it.
+/// A plan, and what is reported of it.
 #[derive(Debug)]
 pub struct LabelledPlan<'a> {
     /// What is worked on: a measure, a record set, a model.
@@ -51,7 +51,7 @@ pub struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    /// The work of `plans`; `title` is told with files of its rows.
+    /// The work of `plans`; `title` is reported with files of its rows.
     pub fn new(title: &str, plans: Vec<LabelledPlan<'a>>) -> Self {
         let keys = plans.iter().map(|labelled| RowKeys::from_plan(&labelled.plan, labelled.motions)).collect();
         Self { title: title.to_owned(), plans, keys }
@@ -124,7 +124,7 @@ impl<'a> Work<'a> {
         let before: u64 = self.plans.iter().zip(&self.keys).map(|(plan, keys)| known(plan, keys, checkpoint)).sum();
         if before > 0 {
             let (known, total) = (thousands(before.min(total)), thousands(total));
-            events.remark("known", &format!("{known} of {total} analyses from before"));
+            events.remark("known", &format!("{known} of {total} analyses resumed"));
         }
         let finished = AtomicU64::new(before);
         for (place, (labelled, keys)) in self.plans.into_iter().zip(&self.keys).enumerate() {

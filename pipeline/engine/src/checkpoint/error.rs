@@ -49,8 +49,8 @@ pub enum CheckpointError {
     },
     /// Nothing more can be added to it.
     #[error(
-        "{}: no more analysis rows can be written ({source}); those in it stay: make room, and run the \
-         same command to go on",
+        "{}: no more analysis rows can be written ({source}); those written are kept: free some space, and run the \
+         same command to resume",
         path.display()
     )]
     Full {

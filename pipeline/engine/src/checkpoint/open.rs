@@ -53,7 +53,7 @@ impl Checkpoint {
         match opened {
             Ok(checkpoint) => checkpoint,
             Err(reason) => {
-                events.note(&format!("no checkpoint, so a stop loses what is finished: {reason}"));
+                events.note(&format!("cannot write the checkpoint, so an interruption loses all progress: {reason}"));
                 Self::none()
             }
         }
@@ -106,7 +106,7 @@ impl Checkpoint {
         complete(plan, cells, shard, &UntilFull { watch, file: self.file.as_ref() }, &append)
     }
 
-    /// The peaks of a plan that nothing is told of.
+    /// The peaks of a plan that nothing is reported of.
     ///
     /// # Errors
     /// Rows that are missing or of another length.

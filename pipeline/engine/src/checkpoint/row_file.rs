@@ -184,7 +184,7 @@ impl RowFile {
             (found.rows, found.damaged_bytes, found.damaged_bytes == 0 && found.head == *head)
         });
         if !same {
-            // written anew without what is damaged; rows of other work may be of use, and are carried over
+            // written again without what is damaged; rows of other work may be of use, and are carried over
             let mut content = serde_json::to_vec(head).map_err(|error| fail(error.into()))?;
             content.push(b'\n');
             for (key, (displacement_m, impacts)) in &rows.rows {

@@ -10,7 +10,7 @@ use super::Export;
 use super::source::Row;
 use crate::error::ExportsError;
 
-/// Shares of the risk whose levels are told: below them lie 5 %, half and 95 % of it.
+/// Shares of the risk whose levels are reported: below them lie 5 %, half and 95 % of it.
 pub(super) const SHARES: [f64; 3] = [0.05, 0.5, 0.95];
 
 /// The additions of a result; none where its commands were not run.

@@ -245,7 +245,7 @@ pub(super) struct BandOf<'a> {
     pub(super) error_of_median_pct: f64,
     /// Width of the interval (Eq. 4.10), %; NaN where there is none.
     pub(super) range_of_interval_pct: f64,
-    /// Share of the samples whose weights do not bring the site's hazard; of repaired spectra alone.
+    /// Share of the samples whose weights miss the site's hazard; of repaired spectra alone.
     pub(super) failed_share: Option<f64>,
 }
 

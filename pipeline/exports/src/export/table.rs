@@ -14,7 +14,7 @@ use super::source::{BandOf, Row};
 impl Export {
     /// A row for each ordinate: its fit beside it, its return period and flag, and the limits of its bands for each
     /// size of the sample, `u05_n20_m` for 20 records; then the bands of all records there could be and of another set;
-    /// last mean and fractiles over weighted hazard curves and over structures that may be, `u05_hazard_m`.
+    /// last mean and fractiles over weighted hazard curves and over possible structures, `u05_hazard_m`.
     pub fn columns(&self) -> Vec<Column> {
         let (mut period, mut fit_m) = (Vec::new(), Vec::new());
         let mut added = AddedColumns::default();

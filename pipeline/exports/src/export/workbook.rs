@@ -27,7 +27,7 @@ impl Export {
     pub fn workbook(&self) -> Result<Vec<u8>, ExportsError> {
         self.sheets().map_err(|error| match error {
             XlsxError::RowColumnLimitError => JobError::input(format!(
-                "{}: has more spectra or bands than Excel has columns (16384): ask for fewer with --poe, or take --csv",
+                "{}: has more spectra or bands than Excel has columns (16384): choose fewer with --poe, or use --csv",
                 self.file
             ))
             .into(),

@@ -40,7 +40,7 @@ pub struct CoefficientRow {
     pub site: String,
     /// Intensity measure, `PGV` or `PGA`.
     pub im: String,
-    /// Whether the spectrum is that of weighted records, which bring the site's hazard of both measures; said only
+    /// Whether the spectrum is that of weighted records, which match the site's hazard of both measures; said only
     /// where it is.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub repaired: bool,

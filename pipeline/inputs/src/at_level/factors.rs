@@ -36,8 +36,8 @@ pub fn far_factors(
     let (level, record) = (levels[cell / names.len()], &names[cell % names.len()]);
     let (label, unit) = (measure.label(), measure.unit());
     Some(format!(
-        "{} of {} factors of records.at_level are more than {FAR} times {label} of the level over {label} of the \
-         record, or less than a third: that of {record} at {level} {unit} is {:.0} times too {}",
+        "{} of {} factors of records.at_level are more than {FAR} times off the {label} of their level over that of \
+         the record: {record} at {level} {unit} is {:.0} times too {}",
         far.count(),
         known.count(),
         times(*factor),
@@ -50,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn factors_of_another_unit_are_told_by_the_furthest() {
+    fn factors_of_another_unit_are_reported_by_the_furthest() {
         let (measure, levels, names) = (IntensityMeasure::Pgv, [1.0, 10.0], ["A".to_owned(), "B".to_owned()]);
         // records of 2 and 5 cm/s: 0.5 and 5 for the first; the second at 10 cm/s alone, by 100 times too little
         let relative = relative_factors(&[0.5, 7.0, f64::NAN, 0.02], measure, &levels, &[2.0, 5.0]);

@@ -41,7 +41,7 @@ pub struct HazardImportOptions {
     pub weights: Option<PathBuf>,
     /// Farthest that a site may be from the place asked for, km.
     pub within_km: f64,
-    /// Whether other curves at the places of the files give way.
+    /// Whether other curves at the places of the files are overwritten.
     pub force: bool,
 }
 
@@ -152,7 +152,7 @@ fn check_distance(
         ))
         .into());
     }
-    let far = if distance_km > NEAR_KM { ": is that near enough?" } else { "" };
+    let far = if distance_km > NEAR_KM { ": is that close enough?" } else { "" };
     events.note(&format!("nearest site: {site}, {distance_km:.1} km away{far}"));
     Ok(())
 }

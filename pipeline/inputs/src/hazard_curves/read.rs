@@ -70,7 +70,7 @@ pub(super) fn read_file(
         Err(error) => error,
     };
     let text = table_text(path)?;
-    // what looks like an export but cannot be read as one is told as such
+    // what looks like an export but cannot be read as one is reported as such
     let begins = text.trim_start_matches('\u{feff}').trim_start();
     let an_export =
         begins.starts_with(['<', '{', '[']) || begins.lines().next().is_some_and(|line| line.contains("generated_by"));
@@ -101,7 +101,7 @@ pub(super) fn read_file(
     Ok(vec![NamedCurve { name: format!("{}{stem}", folder.unwrap_or_default()), curve }])
 }
 
-/// The curves of an export; of all sites those that have one, the others are told.
+/// The curves of an export; of all sites those that have one, the others are reported.
 fn curves_of(path: &Path, selection: &SiteSelection, events: &dyn Events) -> Result<Vec<ExportedCurve>, InputsError> {
     if *selection != SiteSelection::All {
         return Ok(read_export(path, selection)?);

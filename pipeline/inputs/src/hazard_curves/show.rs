@@ -5,12 +5,14 @@ use std::path::Path;
 use serde::Serialize;
 use uplift_hazard::{HazardCurve, rate_from_probability};
 use uplift_job::events::Events;
+use uplift_motion::IntensityMeasure;
 
 use super::NamedCurve;
 use super::read::{CurveOptions, read_file};
 use crate::error::InputsError;
+use crate::hardly_possible::hardly_possible;
 
-/// Probabilities at which levels are told.
+/// Probabilities at which levels are reported.
 const PROBABILITIES: [f64; 5] = [0.5, 0.2, 0.1, 0.05, 0.02];
 /// Years that they refer to.
 const YEARS: f64 = 50.0;
@@ -18,7 +20,7 @@ const YEARS: f64 = 50.0;
 /// The curves of a file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HazardReport {
-    /// Probabilities at which the levels of the curves are told.
+    /// Probabilities at which the levels of the curves are reported.
     pub probabilities: Vec<f64>,
     /// Years that they refer to.
     pub years: f64,
@@ -47,6 +49,8 @@ pub struct ShownCurve {
     pub component: Option<String>,
     /// Where it comes from, in lines.
     pub source: String,
+    /// What is hardly possible by the curve: its unit is probably another; none where all is usual.
+    pub warning: Option<String>,
 }
 
 /// Looks at the curves of a file.
@@ -69,7 +73,15 @@ fn shown(NamedCurve { name, curve }: &NamedCurve) -> ShownCurve {
         highest: curve.last().im,
         component: curve.component().map(|component| component.to_string()),
         source: curve.source().to_owned(),
+        warning: warning(curve),
     }
+}
+
+/// What is hardly possible by the curve, if its measure and unit are those of a study.
+fn warning(curve: &HazardCurve) -> Option<String> {
+    let measure: IntensityMeasure = curve.measure().parse().ok()?;
+    let is_in_field_units = curve.unit().to_string() == measure.unit();
+    hardly_possible(curve, measure).filter(|_| is_in_field_units).map(|found| found.to_string())
 }
 
 fn level(curve: &HazardCurve, probability: f64) -> Option<f64> {

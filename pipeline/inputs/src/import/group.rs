@@ -82,7 +82,7 @@ pub(super) fn pairs(components: Vec<Component>, search: &SearchResults, warnings
             count => warnings.push(Warning {
                 kind: "more than two",
                 text: format!(
-                    "{id}: {count} horizontal components ({}), and nothing tells which two belong together; left out: \
+                    "{id}: {count} horizontal components ({}), and it is unclear which two belong together; left out: \
                      add a row of the manifest for each pair by hand",
                     shortened(&names())
                 ),

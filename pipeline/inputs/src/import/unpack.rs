@@ -101,7 +101,7 @@ impl<'a> Opened<'a> {
         let path = self.path;
         if self.archive.len() > MOST_FILES {
             let count = self.archive.len();
-            return Err(refusal(path, &format!("it holds {count} files, and {MOST_FILES} are read at most")));
+            return Err(refusal(path, &format!("it has {count} files, more than {MOST_FILES}")));
         }
         let mut wanted = BTreeMap::new();
         for index in 0..self.archive.len() {
@@ -143,9 +143,7 @@ impl<'a> Opened<'a> {
         let read = entry.take(limit + 1).read_to_end(&mut content);
         if content.len() as u64 > limit {
             let [file, all] = [LARGEST_FILE_BYTES >> 20, LARGEST_BYTES >> 20];
-            return Err(told(&format!(
-                "unpacked it goes beyond what is read, {file} MiB a file and {all} MiB an archive"
-            )));
+            return Err(told(&format!("unpacked it exceeds {file} MiB a file or {all} MiB an archive")));
         }
         read.map_err(|error| told(&format!("{DAMAGED} ({error})")))?;
         Ok(content)
@@ -204,7 +202,7 @@ fn refuse_other_files(archive: &Path, folder: &Path, checksums: &BTreeMap<PathBu
         if !entry.file_type().is_dir() && !is_same(entry.path()) {
             return Err(JobError::Usage(format!(
                 "{} would be unpacked into {}, where {} is another file than that of the archive: import that folder, \
-                 or give the manifest a place elsewhere",
+                 or write the manifest to another folder",
                 archive.display(),
                 folder.display(),
                 entry.path().display()

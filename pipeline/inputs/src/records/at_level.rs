@@ -36,7 +36,7 @@ pub struct AtLevelOptions {
     pub both: bool,
     /// The table, CSV.
     pub output: PathBuf,
-    /// Whether whatever is at its place gives way.
+    /// Whether an existing file there is overwritten.
     pub force: bool,
 }
 
@@ -109,7 +109,7 @@ pub fn at_level(options: &AtLevelOptions) -> Result<AtLevelReport, InputsError> 
     sets.sort_by(|(_, one, _), (_, other, _)| one.total_cmp(other));
     for pair in sets.windows(2).filter(|pair| pair[0].1 == pair[1].1) {
         let (one, other, level) = (pair[0].0.display(), pair[1].0.display(), pair[0].1);
-        mistakes.push(format!("{one} and {other} are both of {level} {}: give one of them", measure.unit()));
+        mistakes.push(format!("{one} and {other} both have the level {level} {}: give one of them", measure.unit()));
     }
     let mut rows = Rows::default();
     for (file, level, set) in &sets {
@@ -254,8 +254,8 @@ impl Rows {
     fn notes(&self) -> Vec<String> {
         let numbered = (self.numbered > 0).then(|| {
             format!(
-                "{} known by 1 or 2 in the tool's database alone, which are taken for h1 and h2 of the manifest: \
-                 compare the order of their files",
+                "{} named only by 1 or 2 of the tool's database, taken for h1 and h2 of the manifest: compare the \
+                 order of their files",
                 count(self.numbered, "component")
             )
         });

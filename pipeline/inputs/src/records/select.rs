@@ -22,7 +22,7 @@ pub struct SelectOptions {
     pub set: SetOptions,
     /// A manifest of the chosen records; none for no file.
     pub output: Option<PathBuf>,
-    /// Whether whatever is at the place of the manifest gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 

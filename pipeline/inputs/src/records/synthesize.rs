@@ -21,7 +21,7 @@ pub struct SynthesizeOptions {
     pub folder: PathBuf,
     /// The scenario, the number of pairs and the seed.
     pub set: SyntheticSetOptions,
-    /// Whether whatever is at the places of the files gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 

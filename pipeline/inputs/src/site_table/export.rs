@@ -92,7 +92,7 @@ impl Index {
             if *kind != site.kind && !tally.other_kind {
                 tally.other_kind = true;
                 let reason = format!(
-                    "{}: curves of {kind} and of {} in one file: export one of them",
+                    "{}: curves of {kind} and of {} in one file: export only one kind",
                     path.display(),
                     site.kind
                 );
@@ -111,7 +111,7 @@ impl Index {
         }
         if rows.is_empty() && tally.mistakes.is_empty() {
             let found: Vec<String> = tally.other_measures.iter().cloned().collect();
-            tally.mistake(format!("{}: holds {}, and no {label}", path.display(), found.join(", ")));
+            tally.mistake(format!("{}: has {}, but no {label}", path.display(), found.join(", ")));
         }
         if tally.more > 0 {
             tally.mistakes.push(format!("{}: {} more mistakes like these", path.display(), tally.more));

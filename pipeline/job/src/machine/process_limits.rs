@@ -3,7 +3,7 @@
 use std::path::Path;
 
 /// The limit `name` of this process on the machine whose files are below `root`, bytes; none where there is no limit,
-/// or none is told: Linux has it in a file.
+/// or none is reported: Linux has it in a file.
 pub(super) fn of(root: &Path, name: &str) -> Option<u64> {
     let text = std::fs::read_to_string(root.join("proc/self/limits")).unwrap_or_default();
     let soft = text.lines().find_map(|line| line.strip_prefix(name)?.split_whitespace().next())?;

@@ -9,7 +9,7 @@ fn refused(path: &Path, kind: OutputKind, inputs: &[&Path], force: bool) -> Opti
 fn only_an_earlier_output_of_the_same_kind_gives_way() {
     let folder = tempfile::tempdir().unwrap();
     let place = |name: &str| folder.path().join(name);
-    // as tables were once, and give way still
+    // as tables were once, and still give way
     let history = "# uplift 0.1.0 (abc); record a\ntime_s,displacement_m\n0,0\n";
     let cases: [(&str, OutputKind, &[u8], &[u8]); 6] = [
         ("a.csv", OutputKind::Table("time_s"), history.as_bytes(), b"# uplift 0.1.0 (abc)\nrecord_id,file_h1\n"),

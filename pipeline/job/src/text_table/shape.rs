@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rows_that_are_too_long_and_open_quotes_are_told_by_their_line() {
+    fn long_rows_and_open_quotes_are_reported_by_their_line() {
         for table in
             ["a,b\n1,2\n", "a,b\r\n\r\n1\r\n", "# c,d,e\na,b\n\"1,5\",2\n", "a,b\n\"x\n\"\"y,\"\"\",2\n5\" pipe,1"]
         {

@@ -74,7 +74,7 @@ impl BlockPlan {
 }
 
 impl PulsePlan {
-    /// Whether there are such blocks and pulses, and no more of them than a figure shows, so that a mistake is told
+    /// Whether there are such blocks and pulses, and no more of them than a figure shows, so that a mistake is reported
     /// before the work.
     ///
     /// # Errors
@@ -84,8 +84,7 @@ impl PulsePlan {
             let points = sizes.len() * self.accelerations.len();
             if points > MOST_POINTS {
                 return Err(JobError::Usage(format!(
-                    "the axes of {name} and accelerations make a map of {} points: take larger steps, {} points are \
-                     the most",
+                    "the axes of {name} and accelerations give a map of {} points, more than {}: use larger steps",
                     thousands(points as u64),
                     thousands(MOST_POINTS as u64)
                 ))

@@ -20,7 +20,7 @@ pub struct PulseOptions {
     pub plan: PulsePlan,
     /// Folder for the tables; none for no tables.
     pub folder: Option<PathBuf>,
-    /// Whether whatever is at the places of the files gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 

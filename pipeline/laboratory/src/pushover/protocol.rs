@@ -22,7 +22,7 @@ pub struct ProtocolOptions {
     pub parts: u32,
     /// Where its history is written, CSV.
     pub table: Option<PathBuf>,
-    /// Whether whatever is at that place gives way.
+    /// Whether an existing file there is overwritten.
     pub force: bool,
 }
 

@@ -35,7 +35,7 @@ pub struct PushoverOptions {
     pub measured: Option<PathBuf>,
     /// Where the rows are written, CSV; those of the protocol where there is one.
     pub table: Option<PathBuf>,
-    /// Whether whatever is at the place of the table gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 
@@ -85,7 +85,7 @@ pub struct LinearCurve {
     pub rows: Vec<LinearState>,
 }
 
-/// What a pushover tells.
+/// The report of a pushover.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PushoverReport {
     /// Name for people.
@@ -212,8 +212,8 @@ pub fn pushover(
 pub fn pushed(structure: &Structure, lost: u32) -> Result<RestrainedColumns, LaboratoryError> {
     let Some(columns) = structure.columns.clone() else {
         return Err(JobError::Usage(format!(
-            "{}: a pushover is of columns with flat ends, and kind \"{}\" has none: it is computed for block, frame \
-             and restrained-frame",
+            "{}: a pushover needs columns with flat ends, and kind \"{}\" has none: use block, frame or \
+             restrained-frame",
             structure.file.display(),
             structure.description.kind.name()
         ))
@@ -225,7 +225,7 @@ pub fn pushed(structure: &Structure, lost: u32) -> Result<RestrainedColumns, Lab
     let tendons = columns.restrainer().map_or(0, |_| columns.restrained());
     match tendons.checked_sub(lost) {
         Some(left) => Ok(columns.with_restrained(left)?),
-        None => Err(JobError::Usage(format!("{lost} tendons lost of {tendons}: there are not so many")).into()),
+        None => Err(JobError::Usage(format!("{lost} lost tendons: give at most {tendons}")).into()),
     }
 }
 
@@ -323,8 +323,8 @@ fn warnings(columns: &RestrainedColumns, to_m: f64) -> Vec<String> {
     if columns.restrainer().is_some() && lost > 0 {
         let left = columns.restrained();
         warnings.push(format!(
-            "{left} of {} columns are restrained: the deck would twist as well, which is not counted; sections are \
-             those of a restrained column",
+            "{left} of {} columns are restrained: the twist of the deck is ignored; sections are those of a \
+             restrained column",
             columns.columns()
         ));
     }

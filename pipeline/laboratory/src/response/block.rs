@@ -67,7 +67,7 @@ impl BlockResponseOptions {
             (Some(slenderness_rad), None, None, Some(size_m)) => RockingBlock::new(size_m, slenderness_rad)?,
             _ => {
                 return Err(JobError::Usage(
-                    "two numbers make a block: its width and height, or its slenderness and one of width, height and \
+                    "a block needs two numbers: its width and height, or its slenderness and one of width, height and \
                      size (half the diagonal)"
                         .to_owned(),
                 )

@@ -55,7 +55,7 @@ pub struct FrameResponseOptions {
     pub history: bool,
     /// A CSV file for the time history.
     pub history_file: Option<PathBuf>,
-    /// Whether whatever is at the place of that file gives way.
+    /// Whether whatever is at the place of that file is overwritten.
     pub force: bool,
 }
 
@@ -322,8 +322,8 @@ fn notes(
     }
     if model == Model::Wobbling && loses_nothing {
         notes.push(
-            "a wobbling column loses no energy in this model, by impact or friction: it ends where the energy is \
-             below that of the amplitude of rest (docs/frames.md)"
+            "a wobbling column loses no energy in this model; it rests when its energy falls below that of the \
+             amplitude of rest (docs/frames.md)"
                 .to_owned(),
         );
     }

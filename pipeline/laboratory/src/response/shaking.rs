@@ -38,7 +38,7 @@ pub struct Shaking {
     pub history: bool,
     /// A CSV file for the time history.
     pub history_file: Option<PathBuf>,
-    /// Whether whatever is at the place of that file gives way.
+    /// Whether whatever is at the place of that file is overwritten.
     pub force: bool,
 }
 
@@ -103,8 +103,8 @@ impl Shaking {
         let told = |(file, format): &(&Path, RecordFormat)| format!("{} ({format})", file.display());
         let files: Vec<String> = files.iter().map(told).collect();
         Err(JobError::Usage(format!(
-            "{} of a record that says its own, {}: leave it out, or make a text file of the values if the head is \
-             wrong",
+            "{} of a record that states its own, {}: leave it out, or write the values into a text file if the header \
+             is wrong",
             given.join(" and "),
             files.join(", ")
         ))
@@ -132,7 +132,7 @@ impl Shaking {
         Ok((file.component(&self.record.display().to_string(), self.channel)?.accelerogram, format))
     }
 
-    /// What is told of `motion`, the record read.
+    /// What is reported of `motion`, the record read.
     pub(super) fn told(&self, motion: &Accelerogram) -> ShakenBy {
         let scale = self.scale.abs();
         ShakenBy {

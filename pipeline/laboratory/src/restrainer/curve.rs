@@ -27,7 +27,7 @@ pub struct RestrainerCurveOptions {
     pub rows: u32,
     /// Where they are written, CSV.
     pub table: Option<PathBuf>,
-    /// Whether whatever is at that place gives way.
+    /// Whether an existing file there is overwritten.
     pub force: bool,
 }
 

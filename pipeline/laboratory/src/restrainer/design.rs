@@ -22,11 +22,11 @@ use crate::pushover::pushed;
 
 /// A column of every list of stacks, and of no other table.
 const STACK_COLUMN: &str = "tendon_utilisation";
-/// Slack of which the effect is told, m.
+/// Slack of which the effect is reported, m.
 const SLACK_M: f64 = 0.002;
-/// Prestress of which the effect is told, as a share of the load on a column: that of column J, 2 kN of 52.2 kN.
+/// Prestress of which the effect is reported, as a share of the load on a column: that of column J, 2 kN of 52.2 kN.
 const PRESTRESS_SHARE: f64 = 0.04;
-/// Gap of a duct of which the effect is told where the structure has none, m: the specimen's of Chapter 6.
+/// Gap of a duct of which the effect is reported where the structure has none, m: the specimen's of Chapter 6.
 const DUCT_GAP_M: f64 = 0.0087;
 
 /// What the stack is for.
@@ -73,14 +73,14 @@ pub struct RestrainerDesignOptions {
     pub ranking: Ranking,
     /// A stopper to be sized for each.
     pub stopper: Option<StopperOptions>,
-    /// The stack whose tolerances are told, as it is called in the list, `6 x 2 x 160/82/10`; the first where none is
-    /// given.
+    /// The stack whose tolerances are reported, as it is called in the list, `6 x 2 x 160/82/10`; the first where none
+    /// is given.
     pub tolerances_of: Option<String>,
-    /// Most stacks that are told.
+    /// Most stacks that are reported.
     pub most: usize,
     /// Where all of them are written, CSV.
     pub table: Option<PathBuf>,
-    /// Whether whatever is at that place gives way.
+    /// Whether an existing file there is overwritten.
     pub force: bool,
 }
 
@@ -122,7 +122,7 @@ pub struct StopperReport {
     pub most_yield_n: Option<f64>,
 }
 
-/// What a design tells.
+/// The report of a design.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RestrainerDesign {
     /// Name for people.
@@ -323,14 +323,14 @@ fn named<'a>(stacks: &'a [Candidate], name: Option<&str>) -> Result<&'a Candidat
     let plain = |name: &str| name.split_whitespace().collect::<String>();
     Ok(stacks.iter().find(|stack| plain(&stack_name(stack)) == plain(name)).ok_or_else(|| {
         JobError::Usage(format!(
-            "{name:?} is none of the {} stacks that meet the target: name one as they are listed, e.g. \"{}\"",
+            "{name:?} is none of the {} stacks that meet the target: name one of the list, e.g. \"{}\"",
             stacks.len(),
             stack_name(&stacks[0])
         ))
     })?)
 }
 
-/// The target as the search takes it, as it is told, and what is to be known of the spectrum that it comes from.
+/// The target as the search takes it, as it is reported, and what to know of the spectrum that it comes from.
 fn target_of(
     structure: &Structure,
     options: &RestrainerDesignOptions,
@@ -462,12 +462,12 @@ fn none_found(
     let snapping = discs.iter().filter(|disc| disc.disc.snaps_through()).count();
     let advice = match nearest {
         None if snapping == discs.len() => {
-            "every disc snaps through (h0/t from 1.414 on), and behind a tendon has no unique state: take discs of \
+            "every disc snaps through (h0/t from 1.414 on), and behind a tendon has no unique state: use discs of \
              less cone height"
                 .to_owned()
         }
         None => {
-            "no stack of these discs comes near it: take other discs, or allow more in a row with --springs".to_owned()
+            "no stack of these discs comes near it: use other discs, or allow more in a row with --springs".to_owned()
         }
         Some(near) => format!(
             "the nearest without limits is {}, {:+.1} % of the target, pressed by {:.0} % of its stroke, {:.0} \

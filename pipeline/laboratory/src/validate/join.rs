@@ -160,7 +160,7 @@ pub(super) fn as_samples(measured: &Peaks, computed: &Peaks) -> Result<(Joined, 
     let mut sample = |table: &Peaks, blank: &mut Vec<String>| {
         for name in &table.missing_groups {
             mistakes.push(format!(
-                "{}: it has no column {name} to group by, and no key by which to take it from the other table",
+                "{}: has no column {name} to group by, and no key to find it in the other table",
                 table.name
             ));
         }

@@ -156,7 +156,8 @@ fn column_of(table: &ReferenceTable, value: &str) -> Result<(String, f64), Labor
         [of_table] => Ok((named(of_table), if of_table == unit { 1.0 } else { si(of_table) / si(unit) })),
         [] => Err(table
             .fail(format!(
-                "it has none of the columns {}: name that of the peaks by --value, with its unit at its end. It has {}",
+                "it has none of the columns {}: name the column of the peaks by --value, with its unit at the end. It \
+                 has {}",
                 all(&mut UNITS[quantity].iter().map(|(unit, _)| *unit)),
                 table.columns().join(", ")
             ))
@@ -170,8 +171,8 @@ fn peak(cell: &str, factor: f64) -> Result<Option<PeakValue>, String> {
     let number = |text: &str| {
         let value: f64 = text.trim().parse().map_err(|_| {
             format!(
-                "{cell:?} is no peak: write a number with a decimal point, inf or overturned for a collapse, >0.35 \
-                     for one above a limit, or nothing where there is none"
+                "{cell:?} is not a peak: write a number with a decimal point, inf or overturned for a collapse, >0.35 \
+                 above a limit, or leave it blank"
             )
         })?;
         if value < 0.0 {

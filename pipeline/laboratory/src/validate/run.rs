@@ -66,7 +66,7 @@ pub struct ValidateOptions {
     pub band: BandRule,
     /// Where the statistics are written, CSV.
     pub table: Option<PathBuf>,
-    /// Whether whatever is at the place of the table gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 
@@ -292,19 +292,19 @@ fn notes(options: &ValidateOptions, groups: &[GroupReport], unmatched: &Unmatche
     let mut notes = unmatched.notes();
     if are_pairs {
         notes.push(
-            "the peaks are of the same motions, and the tests are for independent ones: where both go up and down \
-             together their p is too large; p by swaps within pairs: --permutation"
+            "the peaks are paired, and the tests assume independence: if both rise and fall together, p is too large. \
+             Use --permutation"
                 .to_owned(),
         );
     } else {
         notes.push(format!(
-            "the tables have no common column {USUAL_KEY}, so that their rows are taken for two independent samples: \
-             name a column that says which rows are of the same motion by --key, if there is one"
+            "the tables have no common column {USUAL_KEY}, so their rows are two independent samples: if a column \
+             identifies the motion, name it by --key"
         ));
     }
     if groups.len() > 1 {
         notes.push(format!(
-            "of {} groups {:.1} fall below p = {} by chance alone; Holm's p is adjusted for all of them",
+            "of {} groups {:.1} fall below p = {} by chance alone; use Holm's p",
             groups.len(),
             options.significance * groups.len() as f64,
             options.significance
@@ -314,7 +314,7 @@ fn notes(options: &ValidateOptions, groups: &[GroupReport], unmatched: &Unmatche
         notes.push("very many peaks: p is Kolmogorov's, to which the exact p tends".to_owned());
     }
     if let Some(fewest) = groups.iter().map(|group| group.replicates).min().filter(|few| *few < options.replicates) {
-        notes.push(format!("very many peaks: bands are of {fewest} replicates"));
+        notes.push(format!("many peaks: the bands have only {fewest} replicates"));
     }
     if groups.iter().any(|group| group.kolmogorov_smirnov.has_ties) {
         notes.push("some peaks are equal: the exact p of their groups is too large rather than too small".to_owned());
@@ -328,8 +328,8 @@ fn notes(options: &ValidateOptions, groups: &[GroupReport], unmatched: &Unmatche
     }
     if groups.iter().any(|group| group.measured_collapses + group.computed_collapses > 0) {
         notes.push(
-            "collapses are infinite in ranks, medians and distributions; bias, dispersion and Pearson's correlation \
-             are of pairs of which both are finite and above 0"
+            "collapses count as infinite in ranks, medians and distributions; bias, dispersion and Pearson's \
+             correlation use pairs of finite peaks above 0"
                 .to_owned(),
         );
     }

@@ -22,7 +22,7 @@ pub fn resampled(file: ResultFile, events: &dyn Events) -> Result<ResultFile, Qu
     }
     let Some(plan) = resampling_plan(&file)? else {
         events.note(&format!(
-            "no confidence bands: {} keeps no draws; `uplift bootstrap` makes them, for any probability",
+            "no confidence bands: {} keeps no draws; compute them: `uplift bootstrap`",
             file.path().display()
         ));
         return Ok(file);

@@ -101,7 +101,7 @@ pub struct SpectraBands {
 pub struct RepairedBands {
     /// The bands.
     pub bands: SpectraBands,
-    /// Share of the samples whose weights do not bring the site's hazard `[site, size]`.
+    /// Share of the samples whose weights miss the site's hazard `[site, size]`.
     pub failed: Array<2>,
     /// Those of the repaired spectra of all records there could be, and of another set.
     pub inferred: InferredBands,

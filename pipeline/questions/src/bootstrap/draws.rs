@@ -72,7 +72,7 @@ pub(super) fn draws(
     Ok((plan, format!("seed {seed}{unit}")))
 }
 
-/// Where levels have records of their own: samples that would leave one without any are drawn anew.
+/// Where levels have records of their own: samples that would leave one without any are drawn again.
 fn without_empty_levels(
     plan: ResamplingPlan,
     stored: &StoredStripes,
@@ -90,8 +90,8 @@ fn without_empty_levels(
     let (plan, refused) = plan.drawn_anew(seed, is_whole)?;
     if refused > 0 {
         events.note(&format!(
-            "{refused} of {} samples left a level without any of its records and were drawn anew: the percentile bands \
-             are narrower for it (docs/method.md, section 3.1)",
+            "{refused} of {} samples left a level without records and were drawn again, which narrows the percentile \
+             bands (docs/method.md, section 3.1)",
             plan.samples().len()
         ));
     }
@@ -109,8 +109,8 @@ fn refuse_endless(sizes: &[u32], replicates: u64, records: usize) -> Result<(), 
     let most = ALWAYS.max(MOST_OF_SET * records as u64);
     let Some(size) = sizes.iter().find(|&&size| u64::from(size) > most) else { return Ok(()) };
     Err(JobError::Usage(format!(
-        "--sizes: samples of {size} records from a set of {records}, {replicates} of them: at most {most} are drawn, \
-         {MOST_OF_SET} times the set or {ALWAYS}: give sizes of the order of the set"
+        "--sizes: {replicates} samples of {size} records from a set of {records}: the largest size is {most}, \
+         {MOST_OF_SET} times the set or {ALWAYS}"
     ))
     .into())
 }
@@ -143,7 +143,7 @@ pub(super) fn announce(
     events.remark(
         "plan",
         &format!(
-            "samples of {} records, {} of each size, drawn with replacement from {}",
+            "resamples of {} records, {} of each size, from {}",
             sizes.join(", "),
             plan.replicates(),
             plan.record_count()
@@ -152,18 +152,11 @@ pub(super) fn announce(
     if plan.unit() != Unit::Record {
         let groups = if plan.unit() == Unit::Pair { "pairs" } else { "earthquakes" };
         let drawn: Vec<String> = plan.sizes().iter().map(|&size| plan.units_drawn(size).to_string()).collect();
-        events.remark(
-            "",
-            &format!(
-                "with their {groups}, {} of {}: a sample has so many records on average",
-                drawn.join(", "),
-                plan.unit_count()
-            ),
-        );
+        events.remark("", &format!("with their {groups}, {} of {}, on average", drawn.join(", "), plan.unit_count()));
         if plan.unit() == Unit::Event && !Question::from_result(file)?.shares_earthquakes() {
             events.note(
-                "no two pairs are known to share an earthquake: the band is that of pairs drawn one by one (column \
-                 event of the manifest)",
+                "no two pairs share an earthquake (column event of the manifest): the band is that of pairs drawn one \
+                 by one",
             );
         }
     }

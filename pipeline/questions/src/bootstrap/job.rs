@@ -41,7 +41,7 @@ pub struct BootstrapOptions {
     pub plan: Option<PathBuf>,
     /// Figures to compare with, which the report hands on: see [`read_reference`](super::read_reference).
     pub reference: Vec<ReferenceRow>,
-    /// Whether whatever is at the places of the tables gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 

@@ -110,8 +110,8 @@ impl JointSiteBands {
     }
 }
 
-/// The joint bands of the repaired spectra of a site, whose `demands` are of all strengths: the weights are solved anew
-/// for every pair of a sample and a branch. NaN where a branch has no repair.
+/// The joint bands of the repaired spectra of a site, whose `demands` are of all strengths: the weights are solved
+/// again for every pair of a sample and a branch. NaN where a branch has no repair.
 pub(super) fn joint_bands_of_site(
     branches: &[ReweighedBranch<'_>],
     (demands, targets_per_year): (&[PooledDemand], &[f64]),

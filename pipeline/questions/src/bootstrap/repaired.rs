@@ -1,4 +1,4 @@
-//! Confidence bands of repaired spectra: the weights are solved anew for every sample of the records.
+//! Confidence bands of repaired spectra: the weights are solved again for every sample of the records.
 //!
 //! With the weights of the whole set for every sample, bands would be too narrow. Weights are those of all strengths
 //! together, so that a site is done at once, where plain bands are done a strength after the other.
@@ -23,7 +23,7 @@ pub(super) struct SiteBands {
     pub(super) simultaneous_m: Vec<(f64, f64)>,
     /// The spectra of all records `[poe, strength]`, m, read exactly.
     pub(super) spectra_m: Vec<f64>,
-    /// Share of the samples whose weights do not bring the site's hazard `[size]`.
+    /// Share of the samples whose weights miss the site's hazard `[size]`.
     pub(super) failed: Vec<f64>,
 }
 
@@ -126,7 +126,7 @@ pub(super) fn replicates_m<'a>(
     &drawn.ordinates_m[(strength * shape.poes + poe) * samples + size * replicates..][..replicates]
 }
 
-/// Share of the samples of each size whose weights do not bring the hazard.
+/// Share of the samples of each size whose weights miss the hazard.
 pub(super) fn failed_shares<'a>(drawn: &'a Reweighed, plan: &ResamplingPlan) -> impl Iterator<Item = f64> + use<'a> {
     let replicates = plan.replicates();
     let failed = |reached: &[bool]| reached.iter().filter(|is_reached| !**is_reached).count();

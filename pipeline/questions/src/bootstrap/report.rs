@@ -11,7 +11,7 @@ use uplift_uniform_risk::StoredStripes;
 use super::bands::{BandSettings, Bands, SpectraBands};
 use crate::error::QuestionsError;
 
-/// What a bootstrap tells.
+/// The report of a bootstrap.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct BootstrapReport {
@@ -93,13 +93,13 @@ pub struct RepairedFigures {
     pub e_median: Option<f64>,
     /// Range of the interval (Eq. 4.10), per cent.
     pub r_90ci: Option<f64>,
-    /// Samples whose weights do not bring the site's hazard, per cent.
+    /// Samples whose weights miss the site's hazard, per cent.
     pub failed: f64,
     /// Range of the interval over records and weighted hazard curves together (Eq. 4.10), per cent; none where the site
     /// has no such curves, or one of them has no repair.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_r_90ci: Option<f64>,
-    /// Pairs of a sample and a curve whose weights do not bring the hazard of the curve, per cent.
+    /// Pairs of a sample and a curve whose weights miss the hazard of the curve, per cent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_failed: Option<f64>,
 }

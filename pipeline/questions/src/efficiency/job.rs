@@ -22,7 +22,7 @@ use crate::error::QuestionsError;
 pub struct EfficiencyOptions {
     /// The measures beside those that the records were scaled to.
     pub measures: Vec<IntensityMeasure>,
-    /// Whether whatever is at the place of the table gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 
@@ -49,11 +49,11 @@ pub fn efficiency(
     events: &dyn Events,
 ) -> Result<EfficiencyReport, QuestionsError> {
     let (locked, file) = LockedResult::open(result, events)?;
-    file.refuse_records_at_level("how a measure ranks is asked of records that rise through the levels")?;
+    file.refuse_records_at_level("measures are ranked by records scaled through all levels")?;
     if file.stored_study()?.structures_of_a_motion() > 1 {
         return Err(JobError::input(format!(
-            "{}: its oscillators are not known exactly ([uncertainty]), and how a measure ranks is asked of one \
-             structure: ask a result of a study without it",
+            "{}: its oscillators are uncertain ([uncertainty]), but measures are ranked for one structure: use a \
+             study without it",
             file.path().display()
         ))
         .into());
@@ -89,8 +89,7 @@ pub fn efficiency(
             match restated(&stored, own, (from, to))? {
                 Some(restated) => measures.push(efficiency_restated(&stored, own, &restated, &covariates)?),
                 None => events.note(&format!(
-                    "{measure} is left out: the levels of {} bring the records to no two levels of it that all of them \
-                     reach",
+                    "{measure} is left out: the records reach no two common levels of it at the levels of {}",
                     own.measure
                 )),
             }

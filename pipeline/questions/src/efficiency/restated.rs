@@ -151,7 +151,7 @@ mod tests {
     proptest! {
         // u = c (level of the other measure)^b of every record: told by it, no scatter is left.
         #[test]
-        fn a_measure_that_tells_all_leaves_no_scatter(
+        fn a_perfect_measure_leaves_no_scatter(
             pairs in prop::collection::vec((0.5..2.0_f64, 0.5..2.0_f64), 2..12), exponent in 0.2..3.0_f64,
         ) {
             let (x, y): (Vec<f64>, Vec<f64>) = pairs.into_iter().unzip();

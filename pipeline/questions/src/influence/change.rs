@@ -90,7 +90,7 @@ fn shares_of(curve: &RiskCurve<'_>, ordinate_m: f64, bins: usize) -> Result<Vec<
     Ok(below.chain(between).chain([parts.upper_tail_per_year / total]).collect())
 }
 
-/// The same of the repaired spectra, whose weights are solved anew without each record.
+/// The same of the repaired spectra, whose weights are solved again without each record.
 pub(super) fn influence_on_repaired(
     stored: &StoredStripes,
     measure: &StoredMeasure,

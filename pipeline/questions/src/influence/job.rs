@@ -14,7 +14,7 @@ use super::report::InfluenceReport;
 use super::write::{influence_path, write_influence};
 use crate::error::QuestionsError;
 
-/// What is told of the influence; the files hold all of it.
+/// What is reported of the influence; the files hold all of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InfluenceOptions {
     /// The probability of exceedance whose risk is taken apart, one of the result; the smallest where none is given.
@@ -23,7 +23,7 @@ pub struct InfluenceOptions {
     pub return_period: Option<f64>,
     /// Records of each spectrum.
     pub top: usize,
-    /// Whether whatever is at the place of the table gives way.
+    /// Whether existing files are overwritten.
     pub force: bool,
 }
 

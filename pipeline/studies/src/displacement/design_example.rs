@@ -181,7 +181,7 @@ pub fn strength(width_m: f64, height_m: f64) -> f64 {
     (width_m / height_m).tan()
 }
 
-/// Passes on that the work is to stop, and nothing of its progress: that is told example by example.
+/// Passes on that the work is to stop, and nothing of its progress: that is reported example by example.
 struct Within<'a>(&'a dyn Watch);
 
 impl Watch for Within<'_> {

@@ -24,7 +24,7 @@ const CALIBRATION: Duration = Duration::from_secs(2);
 /// What a study of displacement spectra costs.
 #[derive(Debug, Clone, Serialize)]
 pub struct Plan {
-    /// What every kind tells.
+    /// What every kind reports.
     #[serde(flatten)]
     pub head: PlanHead,
     /// `displacement spectra`.

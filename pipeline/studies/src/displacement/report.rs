@@ -1,4 +1,4 @@
-//! What a run of a study of displacement spectra tells.
+//! The report of a run of a study of displacement spectra.
 
 use std::path::PathBuf;
 
@@ -13,10 +13,10 @@ use uplift_study::{DisplacementStudy, Kind, Structures};
 use super::{DisplacementOutcome, printed};
 use crate::error::StudiesError;
 
-/// What a run tells.
+/// The report of a run.
 #[derive(Debug, Clone, Serialize)]
 pub struct RunReport {
-    /// What every kind tells.
+    /// What every kind reports.
     #[serde(flatten)]
     pub head: RunHead,
     /// `displacement spectra`.

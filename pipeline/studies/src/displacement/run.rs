@@ -136,8 +136,7 @@ fn warnings_of(study: &DisplacementStudy, sets: &[MotionSet<'_>]) -> Vec<String>
             .collect();
         if !few.is_empty() {
             warnings.push(format!(
-                "{}: {motions} motions are few for the percentiles {}: fewer than {FEW_BEYOND} lie beyond, and one of \
-                 them decides",
+                "{}: {motions} motions are few for the percentiles {}: fewer than {FEW_BEYOND} are beyond them",
                 set.name(),
                 few.join(", ")
             ));

@@ -81,8 +81,7 @@ fn frame(structure: &Structure) -> Result<RockingFrame, StudiesError> {
     let of = &structure.description;
     if of.deck_mass_kg.is_none() || structure.columns.is_none() {
         return Err(fail(format!(
-            "a frame stands on a shaking table, with columns and a deck: kind \"{}\" has none; give a frame or a \
-             restrained-frame",
+            "a shaking table needs columns and a deck: kind \"{}\" has none; give a frame or a restrained-frame",
             of.kind.name()
         ))
         .into());

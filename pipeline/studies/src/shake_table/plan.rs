@@ -21,7 +21,7 @@ const TEST_BYTES: u64 = 400;
 /// What a study of a shaking table costs.
 #[derive(Debug, Clone, Serialize)]
 pub struct Plan {
-    /// What every kind tells.
+    /// What every kind reports.
     #[serde(flatten)]
     pub head: PlanHead,
     /// `shake table`.

@@ -1,4 +1,4 @@
-//! What a run of a study of a shaking table tells.
+//! The report of a run of a study of a shaking table.
 
 use serde::Serialize;
 use uplift_job::study_run::RunHead;
@@ -7,10 +7,10 @@ use uplift_study::Kind;
 
 use crate::error::StudiesError;
 
-/// What a run tells.
+/// The report of a run.
 #[derive(Debug, Clone, Serialize)]
 pub struct RunReport {
-    /// What every kind tells.
+    /// What every kind reports.
     #[serde(flatten)]
     pub head: RunHead,
     /// `shake table`.

@@ -30,7 +30,7 @@ const CALIBRATION: Duration = Duration::from_secs(1);
 /// What a study of uniform risk costs.
 #[derive(Debug, Clone, Serialize)]
 pub struct Plan {
-    /// What every kind tells.
+    /// What every kind reports.
     #[serde(flatten)]
     pub head: PlanHead,
     /// How far down and up the levels of each measure reach, where sites say what the study is for.
@@ -89,7 +89,7 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
     Ok(Plan { head, levels, consistency })
 }
 
-/// What the study and its records are told of.
+/// What the study and its records are reported of.
 fn of_inputs(study: &UniformRiskStudy, set: &RecordSet) -> impl Iterator<Item = Alarm> {
     let of_records = if let Some(at_level) = &set.at_level {
         let first = study.measures.first();

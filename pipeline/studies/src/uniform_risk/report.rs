@@ -1,4 +1,4 @@
-//! What a run of a study of uniform risk tells.
+//! The report of a run of a study of uniform risk.
 
 use serde::Serialize;
 use uplift_job::study_run::RunHead;
@@ -11,10 +11,10 @@ use uplift_uniform_risk::{
 
 use crate::error::StudiesError;
 
-/// What a run tells.
+/// The report of a run.
 #[derive(Debug, Clone, Serialize)]
 pub struct RunReport {
-    /// What every kind tells.
+    /// What every kind reports.
     #[serde(flatten)]
     pub head: RunHead,
     /// The analysis of each measure.
@@ -34,7 +34,7 @@ pub struct RunReport {
     /// Their spread over weighted hazard curves, for the sites that have some.
     #[serde(skip)]
     pub branches: Vec<BranchReport>,
-    /// Their spread over the structures that may be, where all records shake the same ones.
+    /// Their spread over the possible structures, where all records shake the same ones.
     #[serde(rename = "structure_spread", skip_serializing_if = "Vec::is_empty")]
     pub structures: Vec<BranchReport>,
 }
@@ -68,7 +68,7 @@ pub struct CoefficientsReport {
     pub bound_active: Option<bool>,
 }
 
-/// The spread of one spectrum over weighted hazard curves or structures that may be, over the strengths, m.
+/// The spread of one spectrum over weighted hazard curves or possible structures, over the strengths, m.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BranchReport {
     /// The site.

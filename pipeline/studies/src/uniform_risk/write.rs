@@ -80,7 +80,7 @@ fn write_axes(writer: &mut LabelledWriter, outcome: &ComputedStudy<'_>) -> Resul
         writer.axis_f64(axis::THRESHOLD, &study.risk.thresholds_m, "m", "displacement threshold")?;
     }
     if let Some(structures) = outcome.spectra.first().and_then(|spectra| spectra.structures.first()) {
-        writer.axis_text(axis::STRUCTURE, &structures.names, "structure that may be")?;
+        writer.axis_text(axis::STRUCTURE, &structures.names, "possible structure")?;
     }
     let sites: Vec<String> = study.sites.iter().map(|site| site.name.clone()).collect();
     if !sites.is_empty() {

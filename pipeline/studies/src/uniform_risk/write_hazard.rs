@@ -87,7 +87,7 @@ pub(super) fn write_branches(
     Ok(())
 }
 
-/// Write the spectra of the structures that may be, their mean and their fractiles.
+/// Write the spectra of the possible structures, their mean and their fractiles.
 pub(super) fn write_structures(
     writer: &mut LabelledWriter,
     outcome: &ComputedStudy<'_>,

@@ -1,4 +1,4 @@
-//! The spectra of a repaired set for other samples of its records: each gets weights of its own, solved anew.
+//! The spectra of a repaired set for other samples of its records: each gets weights of its own, solved again.
 
 use rayon::prelude::*;
 use uplift_bootstrap::weighted_replicates;

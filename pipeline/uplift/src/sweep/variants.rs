@@ -129,7 +129,7 @@ pub fn product(over: &[String]) -> Result<Vec<Variant>, UpliftError> {
     }
     let count = axes.iter().fold(1_usize, |count, (_, values)| count.saturating_mul(values.len()));
     if count > MOST_VARIANTS {
-        mistakes.push(format!("--over: {count} combinations, and at most {MOST_VARIANTS} are run: take fewer values"));
+        mistakes.push(format!("--over: {count} combinations, more than {MOST_VARIANTS}: give fewer values"));
     }
     if !mistakes.is_empty() {
         return Err(JobError::Usage(mistakes.join("\n")).into());
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn all_mistakes_of_a_product_are_told_at_once() {
+    fn all_mistakes_of_a_product_are_reported_at_once() {
         let error = over(&["a", "b=1,,2", "c=1,1", "d=1", "d=2"]).unwrap_err().to_string();
         for words in ["--over a: write", "a value is missing", "1 is given twice", "d is given twice"] {
             assert!(error.contains(words), "{error}");

@@ -35,7 +35,7 @@ pub(crate) struct FoundResult {
 }
 
 impl ResultArguments {
-    /// Whether files that are there give way.
+    /// Whether files that are there are overwritten.
     pub(crate) fn force(&self) -> bool {
         self.overwriting.force
     }

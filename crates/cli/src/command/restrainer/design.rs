@@ -20,8 +20,8 @@ use crate::terminal::Terminal;
 #[derive(Debug, Args)]
 #[command(
     group = ArgGroup::new("target").required(true).multiple(false),
-    after_help = "The tendon, its prestress and its path are those of [restrainer] in the structure file; until there \
-                  is a stack its kind is \"tendon\". A worked design: docs/restrained-columns.md"
+    after_help = "The tendon, its prestress and its path come from [restrainer] in the structure file; before a stack \
+                  is chosen its kind is \"tendon\". A worked design: docs/restrained-columns.md"
 )]
 pub(super) struct DesignArguments {
     /// Structure file: a restrained frame with its tendon

@@ -1,4 +1,4 @@
-//! `uplift bootstrap`: how sure the spectra are (Section 4.5, Table 4.1).
+//! `uplift bootstrap`: confidence bands (Section 4.5, Table 4.1).
 
 use std::path::PathBuf;
 

@@ -33,7 +33,7 @@ pub(crate) struct RunArguments {
         value_parser = shard
     )]
     shard: Option<Shard>,
-    /// Write the result anew even if it is there
+    /// Compute the result again, even if it exists
     #[arg(long)]
     again: bool,
     /// Print JSON

@@ -57,7 +57,7 @@ pub(super) fn print_design(out: &mut impl Write, report: &DesignTable) -> Result
     if report.compared {
         let held: Vec<String> =
             by.iter().zip(held).map(|(by, held)| format!("{held} of {compared_with} by {by}")).collect();
-        writeln!(out, "within: whose range holds the reference, as rounded: {}", held.join(", "))?;
+        writeln!(out, "within: the range holds the rounded reference: {}", held.join(", "))?;
     }
     Ok(())
 }

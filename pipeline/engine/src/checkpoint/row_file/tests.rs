@@ -97,7 +97,7 @@ fn rows_of_other_work_are_carried_over() {
     assert!(RowFile::open(&path, &shard).unwrap_err().to_string().contains("other work"));
 }
 
-/// A checkpoint of version 0.1 is read, and gives way: its keys are of no work of this version. A shard stays.
+/// A checkpoint of version 0.1 is read, and is overwritten: its keys are of no work of this version. A shard stays.
 #[test]
 fn a_file_of_the_version_before_is_no_mistake() {
     let folder = tempfile::tempdir().unwrap();

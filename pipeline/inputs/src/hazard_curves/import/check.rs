@@ -48,8 +48,8 @@ pub(super) fn remarks(written: &[Chosen]) -> Vec<String> {
             let unit = measure.unit();
             let (section, key) = levels_place(measure);
             remarks.push(format!(
-                "the {measure} curves span {least:.4} to {most:.4} {unit}, and the default stripes do not: in the \
-                 study, in [{section}], {key} = {levels} (or risk.extrapolate = \"loglog\")"
+                "the {measure} curves span {least:.4} to {most:.4} {unit}, less than the default levels: add to the \
+                 study [{section}] {key} = {levels}"
             ));
         }
     }
@@ -66,7 +66,7 @@ pub(super) fn remarks(written: &[Chosen]) -> Vec<String> {
 /// The name of the site that all curves belong to.
 pub(super) fn one_site(curves: &[ExportedCurve], options: &HazardImportOptions) -> Result<String, InputsError> {
     let Some(first) = curves.first() else {
-        return Err(JobError::input("the export holds no hazard curve").into());
+        return Err(JobError::input("the export has no hazard curve").into());
     };
     let key = |curve: &ExportedCurve| {
         (curve.site.name.clone(), curve.site.longitude_deg.to_bits(), curve.site.latitude_deg.to_bits())

@@ -82,8 +82,7 @@ fn run_rank(
     let threads = rayon::current_num_threads();
     // said now, since a launcher that ends the ranks may no longer listen to them
     own.say(&format!(
-        "ranks    {}, this one with {threads} threads; whatever ends them, what they finished is in their files and \
-         the same command goes on",
+        "ranks    {}, this one with {threads} threads; finished rows are kept, and the same command resumes",
         shard.count
     ));
     let file = shard_path(&path, shard);
