@@ -148,7 +148,7 @@ mod tests {
         let message = "\u{1b}GMRotD50".parse::<ComponentDefinition>().unwrap_err().to_string();
         assert_eq!(
             message,
-            "component definition \"\\u{1b}GMRotD50\" is not known; use one of geometric mean, GMRotI50, RotD50, \
+            "unknown component definition \"\\u{1b}GMRotD50\"; use one of geometric mean, GMRotI50, RotD50, \
              RotD100, larger, arbitrary"
         );
     }

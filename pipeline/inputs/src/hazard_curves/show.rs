@@ -80,7 +80,7 @@ fn shown(NamedCurve { name, curve }: &NamedCurve) -> ShownCurve {
 /// What is hardly possible by the curve, if its measure and unit are those of a study.
 fn warning(curve: &HazardCurve) -> Option<String> {
     let measure: IntensityMeasure = curve.measure().parse().ok()?;
-    let is_in_field_units = curve.unit().to_string() == measure.unit();
+    let is_in_field_units = curve.unit() == measure.unit();
     hardly_possible(curve, measure).filter(|_| is_in_field_units).map(|found| found.to_string())
 }
 
