@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use serde_json::Value;
+use tempfile::TempDir;
 use uplift_plot::{Axis, Figure, Look, Panel, Series, Tone, Width, svg};
 
 use super::images::compare;
@@ -45,13 +46,19 @@ fn free(width_m: f64, height_m: f64) -> String {
     )
 }
 
-/// Minutes: 13 designs.
-#[test]
-#[ignore = "minutes: make doc-figures"]
-fn demands_on_frames_and_their_proxies() {
+/// A folder with the result of the quick study.
+fn with_result() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let study = repository().join("configs/quick.toml").to_str().unwrap().to_owned();
     uplift(folder.path(), &["run", &study, "-o", "r.h5", "-q"]).ok();
+    folder
+}
+
+/// Minutes: four designs.
+#[test]
+#[ignore = "minutes: make doc-figures"]
+fn demands_on_frames_and_their_proxies() {
+    let folder = with_result();
     let mut table = "\n| frame | oscillator, 0.95 | planar, 0.95 | planar, 1 | wobbling, 0.95 | wobbling, 1 |\n\
                      |---|---|---|---|---|---|\n"
         .to_owned();
@@ -65,14 +72,20 @@ fn demands_on_frames_and_their_proxies() {
         table.push_str("|\n");
     }
     hold("frames", &[("frames.table".to_owned(), table)]);
+}
 
+/// Minutes: nine designs.
+#[test]
+#[ignore = "minutes: make doc-figures"]
+fn demands_by_strength_and_size() {
+    let folder = with_result();
     let strengths = [0.1, 0.15, 0.25];
     let mut lines: Vec<(&str, Vec<(f64, f64)>)> =
-        ["wobbling, 5 m", "wobbling, 10 m", "wobbling 0.95, 5 m", "planar, 5 m"]
+        ["wobbling, 10 m", "wobbling, 20 m", "wobbling 0.95, 10 m", "planar, 10 m"]
             .map(|name| (name, Vec::new()))
             .to_vec();
     for strength in strengths {
-        let [small, large] = [5.0, 10.0].map(|height_m| free(strength * height_m, height_m));
+        let [small, large] = [10.0, 20.0].map(|height_m| free(strength * height_m, height_m));
         let [own, twice] = [&small, &large].map(|text| demands(folder.path(), text, [KEPT, "1.0"]));
         let loses = demands(folder.path(), &small, [KEPT, KEPT]);
         let over = |demands: &Demands, demand_m: f64| (strength, demand_m / demands.oscillator_m);
