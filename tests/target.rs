@@ -57,8 +57,8 @@ fn target_and_risk_are_inverses() {
     let poe = format!("{}", -(-50.0_f64 * 2e-3).exp_m1());
     let same = json(&study, &["--poe", &poe, "--years", "50", "--vary", "width", "--tolerance", "1e-3"]);
     assert_eq!(same["value"], found["value"]);
-    let band: Vec<f64> = found["band"]["value"].as_array().unwrap().iter().map(number).collect();
-    assert!(band[0] < band[2] && band[0] <= value && value <= band[2], "{band:?} {value}");
+    let band: Vec<f64> = found["bands"][0]["value"].as_array().unwrap().iter().map(number).collect();
+    assert!(band[0] < band[1] && band[0] <= value && value <= band[1], "{band:?} {value}");
     let at = found["at_return_periods"].as_array().unwrap();
     assert!(number(&at[0]["probability"]) <= number(&at[1]["probability"]) && at[1]["records"] == 20, "{found}");
 }

@@ -2,7 +2,9 @@
 //!
 //! The risk of each value that is tried is that of the structure's own oscillator under the records and the hazard of a
 //! result, from exact stripes. Counts of records step, and a chaotic system may step back: every crossing of the target
-//! is followed, and the value that is told is the one from which on all that was tried meets it.
+//! is followed, and the best estimate is the value from which on all that was tried meets it. The safe value is the one
+//! from which on the upper limit of the frequency's band meets it too; between the two every quarter of a per cent is
+//! tried. Values have as many digits as are printed.
 
 mod band;
 mod candidate;
@@ -21,7 +23,7 @@ use uplift_spectra::{NoiseSweep, Noisy};
 use uplift_structure::EquivalentSystem;
 use uplift_study::Structure;
 
-pub use band::{Drawn, TargetBand, TargetUncertainty};
+pub use band::{TargetBand, TargetUncertainty};
 pub use request::{TargetEvent, TargetFrequency, TargetOptions};
 pub use search::Crossing;
 
@@ -34,7 +36,7 @@ use super::risk::own_risk;
 use super::uncertain::Spread;
 use crate::error::DesignError;
 use candidate::Attempt;
-use search::{crossings, search, spread};
+use search::{crossings, digits, extend, least, rounded, search, spread};
 use trial::Trials;
 use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
 use uplift_job::JobError;
@@ -42,13 +44,15 @@ use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_result::ResultFile;
 use uplift_uniform_risk::EventRisk;
-use uplift_uniform_risk::consistency::Question;
 use words::{Words, assumptions, with_mistakes};
 
 /// Values tried before the search narrows, over the range.
 const VALUES: usize = 33;
 /// How far the range reaches below and above the structure's own value, where it is not given.
 const REACH: f64 = 4.0;
+/// Steps between the best estimate and the safe value, relative to the value, and the most of them.
+const STEP: f64 = 0.0025;
+const MOST_STEPS: f64 = 200.0;
 /// Half the width of the sweep that shows the noise, relative to the value, and its points.
 const NOISE: (f64, usize) = (0.01, 11);
 
@@ -78,7 +82,10 @@ pub struct TargetReport {
     pub target_per_year: f64,
     /// Years that probabilities refer to.
     pub years: f64,
-    /// The least value from which on everything tried meets the target.
+    /// The least value from which on the upper limit of the fullest band of the frequency meets the target, whatever was
+    /// tried; infinite beyond the values searched.
+    pub safe_value: f64,
+    /// The best estimate: the least value from which on everything tried meets the target.
     pub value: f64,
     /// The largest value tried that misses it.
     pub missed_at: f64,
@@ -90,10 +97,8 @@ pub struct TargetReport {
     pub found: FoundSystem,
     /// The frequency within one per cent of the value, 1/yr: the noise of a chaotic system.
     pub per_year_within_one_percent: Noisy,
-    /// What other records would have given.
-    pub band: TargetBand,
-    /// The same with each of the weighted hazard curves of the site; none where it has but one.
-    pub band_with_hazard: Option<TargetBand>,
+    /// Bands of the value, the one that takes account of most last; none of a single record.
+    pub bands: Vec<TargetBand>,
     /// The structures that every value may be; none where the structure file says that all is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<TargetUncertainty>,
@@ -232,7 +237,17 @@ pub fn target(
     trials.refuse_untellable(place.name, target_per_year)?;
 
     let meets = |attempt: &Attempt| attempt.meets(target_per_year);
-    let tried = search(spread(range, VALUES), options.tolerance, |values| trials.attempt(values), meets)?;
+    let digits = digits(options.tolerance);
+    let mut tried = Vec::new();
+    extend(&mut tried, spread(range, VALUES, digits), &mut |values: &[f64]| trials.attempt(values))?;
+    loop {
+        let attempt = |values: &[f64]| trials.attempt(values);
+        search(&mut tried, options.tolerance, attempt, |of| of.meets_with_band(target_per_year))?;
+        let next = between_estimates(&tried, target_per_year, digits);
+        if !extend(&mut tried, next, &mut |values: &[f64]| trials.attempt(values))? {
+            break;
+        }
+    }
     let words = Words { options, target_per_year };
     let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
     let mut alarms = alarms_of_inputs(&file, &scope)?;
@@ -249,7 +264,8 @@ pub fn target(
     let (value, found) = (tried[at].0, &tried[at].1);
     let crossings = crossings(&tried, meets);
     let mut notes = words.notes(&crossings, &tried);
-    let neighbours: Vec<f64> = NoiseSweep::new(NOISE.0, NOISE.1)?.factors().iter().map(|by| by * value).collect();
+    let factors = NoiseSweep::new(NOISE.0, NOISE.1)?.factors();
+    let neighbours: Vec<f64> = factors.iter().map(|by| rounded(by * value, digits)).collect();
     let noise: Vec<f64> = trials.attempt(&neighbours)?.iter().map(|attempt| attempt.risk.per_year).collect();
     let noise = Noisy::of(&noise);
     if noise.highest > target_per_year {
@@ -268,10 +284,9 @@ pub fn target(
     let counts = (trials.record_count(), trials.pairs().len());
     let event = options.event.words();
     alarms.extend(own_risk_alarms(&[own_risk((&event, found.risk), (place.name, measure), counts)]));
-    let motions = Question::from_motions(&file)?;
-    let bands = band::band((&tried, at), (target_per_year, &hazard), &source.study, &motions)?;
+    let bands = TargetBand::all((&tried, at), target_per_year);
     let mut report = TargetReport {
-        uncertainty: trials.around().map(|around| TargetUncertainty::from_bands(around, bands.structures)),
+        uncertainty: trials.around().map(|around| TargetUncertainty::from_tried(around, &tried, target_per_year)),
         structure: StructureReport::from_structure(structure, Some(trials.restitution())),
         site: place.name.to_owned(),
         im: measure.measure().label(),
@@ -282,14 +297,14 @@ pub fn target(
         event,
         target_per_year,
         years,
+        safe_value: bands.last().map_or(value, |band| band.value[1]),
         value,
         missed_at: tried[at - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
         risk: found.risk,
         found: FoundSystem::from_system(&found.candidate.system),
         per_year_within_one_percent: noise,
-        band: bands.records,
-        band_with_hazard: bands.with_hazard,
+        bands,
         crossings,
         at_return_periods,
         generic: generic.flatten(),
@@ -309,6 +324,20 @@ pub fn target(
     }
     trials.finish();
     Ok(report)
+}
+
+/// Values from the best estimate to the safe one in small steps: below the safe value the frequency may rise above the
+/// target again.
+fn between_estimates(tried: &[(f64, Attempt)], target_per_year: f64, digits: usize) -> Vec<f64> {
+    let at = |limit: usize| least(tried, |of| of.meets_with_band(target_per_year)[limit]).map(|at| tried[at].0);
+    let Some(from) = at(0) else { return Vec::new() };
+    let to = at(2).or_else(|| tried.last().map(|(value, _)| *value)).unwrap_or(from);
+    // the same grid whatever the estimates are, so that a later round adds none between
+    let first = tried.first().map_or(from, |(value, _)| *value);
+    let step = STEP.max(((to / from).ln() / MOST_STEPS).exp_m1()).ln_1p();
+    let (begin, end) = (((from / first).ln() / step).ceil(), ((to / first).ln() / step).floor());
+    let count = (end - begin).clamp(-1.0, MOST_STEPS) + 1.0;
+    (0..count as usize).map(|place| rounded(first * ((begin + place as f64) * step).exp(), digits)).collect()
 }
 
 /// What the generic fragility that was asked for makes of `curve`; none where none was.

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{Drawn, TargetBand, TargetReport};
+use uplift::structure::{TargetBand, TargetReport};
 use uplift::text::{Table, per_cent, short, thousands};
 
 use super::alarms::print_warnings;
@@ -28,14 +28,16 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let TargetReport { event, site, im, quantity, target_per_year, value, .. } = report;
     let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
     let own = report.own_value.map_or_else(String::new, |own| format!("; the structure has {}", unit(short(own))));
-    let [lower, _, upper] =
-        report.band.value.map(|of| if of.is_finite() { short(of) } else { "beyond the range".to_owned() });
-    let confidence = per_cent(report.band.confidence);
-    writeln!(out, "Least     {quantity} {} ({confidence} band {lower} to {upper}){own}", unit(short(*value)))?;
+    // tried values have few digits: printed whole, they can be tried again
+    let best = unit(value.to_string());
+    let safe =
+        if report.safe_value.is_finite() { unit(report.safe_value.to_string()) } else { "beyond the range".to_owned() };
+    let of = report.bands.last().map_or_else(String::new, |band| format!(" (90 % confidence, by {})", band.of));
+    writeln!(out, "Safe      {quantity} {safe}; best estimate {best}{of}{own}")?;
     let years = 1.0 / target_per_year;
     writeln!(out, "Target    {event} at most {target_per_year:.3e} per year (once in {years:.0} years)")?;
     let [per_year, ..] = risk_cells(&report.risk);
-    writeln!(out, "Risk      {per_year} per year; the target is missed at {}", unit(short(report.missed_at)))?;
+    writeln!(out, "At best   {per_year} per year; missed at {}", unit(report.missed_at.to_string()))?;
     writeln!(out, "At        {site} by {im}; {}", report.source.record_set)?;
     Ok(())
 }
@@ -72,13 +74,12 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
     )?;
     let noise = &report.per_year_within_one_percent;
     writeln!(out, "  within 1 % of it     {} to {} per year", rate(noise.lowest), rate(noise.highest))?;
-    print_band(out, report, &report.band)?;
-    if let Some(band) = &report.band_with_hazard {
+    for band in &report.bands {
         print_band(out, report, band)?;
     }
-    let uncertain = report.uncertainty.iter();
-    for band in uncertain.flat_map(|uncertain| [&uncertain.by_structure, &uncertain.by_all]).flatten() {
-        print_band(out, report, band)?;
+    if let Some(percentiles) = report.uncertainty.as_ref().and_then(|of| of.by_structure) {
+        let [lower, median, upper] = percentiles.map(|value| limit(value, report));
+        writeln!(out, "  by structure         {lower} to {upper}, median {median} (90 % of the structures)")?;
     }
     let found = &report.found;
     let capacity = found.capacity_m.map_or_else(|| "none".to_owned(), |capacity_m| format!("{capacity_m:.4} m"));
@@ -103,32 +104,20 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
 }
 
 fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) -> Result<(), CommandError> {
-    let [lower, median, upper] = band.value.map(|value| {
-        if value.is_finite() {
-            format!("{} {}", short(value), report.quantity_unit).trim_end().to_owned()
-        } else {
-            "beyond the range".to_owned()
-        }
-    });
-    let (drawn, whose) = match band.drawn {
-        Drawn { records: None, .. } => (format!("by {}", band.drawn.words()), "structures"),
-        Drawn { hazard: true, structures: false, .. } => (band.drawn.words(), "pairs of a resample and a hazard curve"),
-        _ => (band.drawn.words(), "resamples"),
-    };
-    writeln!(
-        out,
-        "  {drawn:<19}  {lower} to {upper}, median {median} ({} of {} {whose})",
-        per_cent(band.confidence),
-        band.replicates
-    )?;
-    let [lower, _, upper] = band.per_year;
-    writeln!(out, "                       {} to {} per year at the value found", rate(lower), rate(upper))?;
-    for (share, where_to) in [(band.below_share, "below"), (band.beyond_share, "above")] {
-        if share > 0.0 {
-            writeln!(out, "                       {} of the {whose} lie {where_to} the range", per_cent(share))?;
-        }
-    }
+    let [lower, upper] = band.value.map(|value| limit(value, report));
+    writeln!(out, "  {:<19}  {lower} to {upper} (90 % confidence)", band.of)?;
+    let [lower, upper] = band.per_year;
+    writeln!(out, "                       {} to {} per year at the best estimate", rate(lower), rate(upper))?;
     Ok(())
+}
+
+/// A limit of the value with its unit.
+fn limit(value: f64, report: &TargetReport) -> String {
+    if value.is_finite() {
+        format!("{value} {}", report.quantity_unit).trim_end().to_owned()
+    } else {
+        "beyond the range".to_owned()
+    }
 }
 
 fn print_crossings(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
