@@ -59,6 +59,14 @@ fn target_and_risk_are_inverses() {
     assert_eq!(same["value"], found["value"]);
     let band: Vec<f64> = found["bands"][0]["value"].as_array().unwrap().iter().map(number).collect();
     assert!(band[0] < band[1] && band[0] <= value && value <= band[1], "{band:?} {value}");
+    // the safe value, as it is printed, meets the target too, and is the upper limit
+    let safe = number(&found["safe_value"]);
+    assert!(value <= safe && band[1] <= safe && safe <= 1.001 * band[1], "{band:?} {safe}");
+    assert_eq!(overturning_per_year(safe).to_bits(), number(&found["safe_risk"]["per_year"]).to_bits());
+    assert!(overturning_per_year(safe) <= 2e-3);
+    let ask = ["target", "frame.toml", "--urs", "r.h5", "--overturning", "2e-3", "--vary", "width"];
+    let shown = study.uplift(&[&ask[..], &["--tolerance", "1e-3"]].concat()).ok().stdout;
+    assert!(shown.starts_with(&format!("Safe width {safe} m; best estimate {value} m (")), "{shown}");
     let at = found["at_return_periods"].as_array().unwrap();
     assert!(number(&at[0]["probability"]) <= number(&at[1]["probability"]) && at[1]["records"] == 20, "{found}");
 }

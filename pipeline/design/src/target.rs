@@ -1,10 +1,9 @@
 //! The least strength, size, width, capacity or tendon stiffness with which a structure meets a target risk.
 //!
 //! The risk of each value that is tried is that of the structure's own oscillator under the records and the hazard of a
-//! result, from exact stripes. Counts of records step, and a chaotic system may step back: every crossing of the target
-//! is followed, and the best estimate is the value from which on all that was tried meets it. The safe value is the one
-//! from which on the upper limit of the frequency's band meets it too; between the two every quarter of a per cent is
-//! tried. Values have as many digits as are printed.
+//! result, from exact stripes. Counts of records step, and a chaotic system may step back: the best estimate is the value
+//! from which on all that was tried meets the target. The safe value is the one at which the upper limit of the
+//! frequency's band meets it; up to there every per cent is tried. Values have as many digits as are printed.
 
 mod band;
 mod candidate;
@@ -19,7 +18,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use uplift_hazard::HazardCurve;
 use uplift_risk::risk_targeted_level;
-use uplift_spectra::{NoiseSweep, Noisy};
+use uplift_spectra::Noisy;
 use uplift_structure::EquivalentSystem;
 use uplift_study::Structure;
 
@@ -35,8 +34,9 @@ use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::uncertain::Spread;
 use crate::error::DesignError;
+use band::Frequencies;
 use candidate::Attempt;
-use search::{crossings, digits, extend, least, rounded, search, spread};
+use search::{crossings, digits, extend, lattice, least, narrow, rounded_up, spread};
 use trial::Trials;
 use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
 use uplift_job::JobError;
@@ -47,14 +47,15 @@ use uplift_uniform_risk::EventRisk;
 use words::{Words, assumptions, with_mistakes};
 
 /// Values tried before the search narrows, over the range.
-const VALUES: usize = 33;
+const VALUES: usize = 13;
 /// How far the range reaches below and above the structure's own value, where it is not given.
 const REACH: f64 = 4.0;
-/// Steps between the best estimate and the safe value, relative to the value, and the most of them.
-const STEP: f64 = 0.0025;
-const MOST_STEPS: f64 = 200.0;
-/// Half the width of the sweep that shows the noise, relative to the value, and its points.
-const NOISE: (f64, usize) = (0.01, 11);
+/// Steps of the values tried within the band, and from the best estimate to the safe value, relative to the value.
+const STEPS: [f64; 2] = [0.04, 0.01];
+/// Rounds in which new values may move the ends between which they are tried.
+const ROUNDS: usize = 4;
+/// Half the width about the value in which the frequencies show the noise, relative to it.
+const NOISE: f64 = 0.01;
 
 /// What a search for a target risk tells.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -82,9 +83,11 @@ pub struct TargetReport {
     pub target_per_year: f64,
     /// Years that probabilities refer to.
     pub years: f64,
-    /// The least value from which on the upper limit of the fullest band of the frequency meets the target, whatever was
-    /// tried; infinite beyond the values searched.
+    /// The value at which the upper limit of the fullest band of the frequency meets the target; infinite beyond the
+    /// values searched.
     pub safe_value: f64,
+    /// The risk at it; none beyond the values searched.
+    pub safe_risk: Option<EventRisk>,
     /// The best estimate: the least value from which on everything tried meets the target.
     pub value: f64,
     /// The largest value tried that misses it.
@@ -239,15 +242,29 @@ pub fn target(
     let meets = |attempt: &Attempt| attempt.meets(target_per_year);
     let digits = digits(options.tolerance);
     let mut tried = Vec::new();
-    extend(&mut tried, spread(range, VALUES, digits), &mut |values: &[f64]| trials.attempt(values))?;
-    loop {
-        let attempt = |values: &[f64]| trials.attempt(values);
-        search(&mut tried, options.tolerance, attempt, |of| of.meets_with_band(target_per_year))?;
-        let next = between_estimates(&tried, target_per_year, digits);
-        if !extend(&mut tried, next, &mut |values: &[f64]| trials.attempt(values))? {
-            break;
+    let attempt = &mut |values: &[f64]| trials.attempt(values);
+    extend(&mut tried, spread(range, VALUES, digits), attempt)?;
+    let of_records = (&hazard, &scatter);
+    for (part, step) in STEPS.into_iter().enumerate() {
+        for _ in 0..ROUNDS {
+            let [best, lower, upper] = Frequencies::of(&tried, of_records)?.crossings(target_per_year);
+            // missed by the largest, or met by all
+            if least(&tried, meets).is_none_or(|at| at == 0) {
+                break;
+            }
+            let next = lattice(&tried, [[lower, best][part], upper], step.max(options.tolerance), digits);
+            if !extend(&mut tried, next, attempt)? {
+                break;
+            }
         }
     }
+    narrow(&mut tried, (options.tolerance, digits), &mut *attempt, meets)?;
+    let frequencies = Frequencies::of(&tried, of_records)?;
+    let safe_value = rounded_up(frequencies.crossings(target_per_year)[2], digits);
+    if safe_value.is_finite() && least(&tried, meets).is_some_and(|at| at > 0) {
+        extend(&mut tried, vec![safe_value], attempt)?;
+    }
+    let frequencies = Frequencies::of(&tried, of_records)?;
     let words = Words { options, target_per_year };
     let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
     let mut alarms = alarms_of_inputs(&file, &scope)?;
@@ -264,10 +281,9 @@ pub fn target(
     let (value, found) = (tried[at].0, &tried[at].1);
     let crossings = crossings(&tried, meets);
     let mut notes = words.notes(&crossings, &tried);
-    let factors = NoiseSweep::new(NOISE.0, NOISE.1)?.factors();
-    let neighbours: Vec<f64> = factors.iter().map(|by| rounded(by * value, digits)).collect();
-    let noise: Vec<f64> = trials.attempt(&neighbours)?.iter().map(|attempt| attempt.risk.per_year).collect();
-    let noise = Noisy::of(&noise);
+    let is_near = |other: f64| (other / value - 1.0).abs() <= NOISE;
+    let near = tried.iter().filter(|(other, _)| is_near(*other)).map(|(_, attempt)| attempt.risk.per_year);
+    let noise = Noisy::around(found.risk.per_year, near);
     if noise.highest > target_per_year {
         notes.push(format!(
             "within 1 % of the value the frequency goes from {:.3e} to {:.3e} per year: choose the value with a margin",
@@ -284,7 +300,10 @@ pub fn target(
     let counts = (trials.record_count(), trials.pairs().len());
     let event = options.event.words();
     alarms.extend(own_risk_alarms(&[own_risk((&event, found.risk), (place.name, measure), counts)]));
-    let bands = TargetBand::all((&tried, at), target_per_year);
+    let bands = frequencies.bands(at, target_per_year);
+    // the best estimate may lie above where the frequency that falls meets the target
+    let safe_value = safe_value.max(value);
+    let safe = tried.iter().find(|(tried, _)| tried.total_cmp(&safe_value).is_eq());
     let mut report = TargetReport {
         uncertainty: trials.around().map(|around| TargetUncertainty::from_tried(around, &tried, target_per_year)),
         structure: StructureReport::from_structure(structure, Some(trials.restitution())),
@@ -297,7 +316,8 @@ pub fn target(
         event,
         target_per_year,
         years,
-        safe_value: bands.last().map_or(value, |band| band.value[1]),
+        safe_value,
+        safe_risk: safe.map(|(_, attempt)| attempt.risk),
         value,
         missed_at: tried[at - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
@@ -324,20 +344,6 @@ pub fn target(
     }
     trials.finish();
     Ok(report)
-}
-
-/// Values from the best estimate to the safe one in small steps: below the safe value the frequency may rise above the
-/// target again.
-fn between_estimates(tried: &[(f64, Attempt)], target_per_year: f64, digits: usize) -> Vec<f64> {
-    let at = |limit: usize| least(tried, |of| of.meets_with_band(target_per_year)[limit]).map(|at| tried[at].0);
-    let Some(from) = at(0) else { return Vec::new() };
-    let to = at(2).or_else(|| tried.last().map(|(value, _)| *value)).unwrap_or(from);
-    // the same grid whatever the estimates are, so that a later round adds none between
-    let first = tried.first().map_or(from, |(value, _)| *value);
-    let step = STEP.max(((to / from).ln() / MOST_STEPS).exp_m1()).ln_1p();
-    let (begin, end) = (((from / first).ln() / step).ceil(), ((to / first).ln() / step).floor());
-    let count = (end - begin).clamp(-1.0, MOST_STEPS) + 1.0;
-    (0..count as usize).map(|place| rounded(first * ((begin + place as f64) * step).exp(), digits)).collect()
 }
 
 /// What the generic fragility that was asked for makes of `curve`; none where none was.

@@ -23,22 +23,29 @@ pub(crate) fn print_target(report: &TargetReport, terminal: &Terminal) -> Result
     print_more(out, terminal)
 }
 
-/// The least value with its band, and what it is for.
+/// The safe value, then the best estimate with its band, and what they are for.
 fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
     let TargetReport { event, site, im, quantity, target_per_year, value, .. } = report;
+    // values that were tried have few digits: printed whole, they can be tried again
     let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
-    let own = report.own_value.map_or_else(String::new, |own| format!("; the structure has {}", unit(short(own))));
-    // tried values have few digits: printed whole, they can be tried again
-    let best = unit(value.to_string());
-    let safe =
-        if report.safe_value.is_finite() { unit(report.safe_value.to_string()) } else { "beyond the range".to_owned() };
-    let of = report.bands.last().map_or_else(String::new, |band| format!(" (90 % confidence, by {})", band.of));
-    writeln!(out, "Safe      {quantity} {safe}; best estimate {best}{of}{own}")?;
+    let safe = limit(report.safe_value, report);
+    let band = report.bands.last().map_or_else(String::new, |band| {
+        let upper = if report.safe_value.is_finite() { report.safe_value.to_string() } else { "beyond".to_owned() };
+        format!(" ({} to {upper}, 90 % by {})", short(band.value[0]), band.of)
+    });
+    writeln!(out, "Safe {quantity} {safe}; best estimate {}{band}", unit(value.to_string()))?;
     let years = 1.0 / target_per_year;
     writeln!(out, "Target    {event} at most {target_per_year:.3e} per year (once in {years:.0} years)")?;
     let [per_year, ..] = risk_cells(&report.risk);
-    writeln!(out, "At best   {per_year} per year; missed at {}", unit(report.missed_at.to_string()))?;
-    writeln!(out, "At        {site} by {im}; {}", report.source.record_set)?;
+    let at_safe =
+        report.safe_risk.map_or_else(String::new, |risk| format!(", {} at the safe value", risk_cells(&risk)[0]));
+    writeln!(out, "Risk      {per_year} per year at the best estimate{at_safe}")?;
+    if report.least_met < report.missed_at {
+        let [met, missed] = [report.least_met, report.missed_at].map(|value| unit(value.to_string()));
+        writeln!(out, "Noise     {met} meets the target too, but {missed} misses it")?;
+    }
+    let own = report.own_value.map_or_else(String::new, |own| format!("; the structure has {}", unit(short(own))));
+    writeln!(out, "At        {site} by {im}; {}{own}", report.source.record_set)?;
     Ok(())
 }
 
@@ -58,14 +65,8 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
     for note in &report.notes {
         writeln!(out, "note       {note}")?;
     }
-    let own = report.own_value.map_or_else(String::new, |own| format!("; the structure has {}", unit(short(own))));
-    writeln!(out, "\nThe least {quantity} that meets it: {}{own}", unit(short(*value)))?;
-    writeln!(
-        out,
-        "  missed at {}, and met at everything tried from {} on",
-        unit(short(report.missed_at)),
-        short(*value)
-    )?;
+    let missed = unit(report.missed_at.to_string());
+    writeln!(out, "\nThe least {quantity} that meets it: {}; {missed} misses it", unit(value.to_string()))?;
     let [per_year, probability, return_period] = risk_cells(&report.risk);
     writeln!(
         out,
@@ -104,7 +105,9 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
 }
 
 fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) -> Result<(), CommandError> {
-    let [lower, upper] = band.value.map(|value| limit(value, report));
+    let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
+    let [lower, upper] =
+        band.value.map(|value| if value.is_finite() { unit(short(value)) } else { limit(value, report) });
     writeln!(out, "  {:<19}  {lower} to {upper} (90 % confidence)", band.of)?;
     let [lower, upper] = band.per_year;
     writeln!(out, "                       {} to {} per year at the best estimate", rate(lower), rate(upper))?;

@@ -1,7 +1,7 @@
 //! How sure a found value is: where the band of the frequency, by all records like those at hand, meets the target.
 
 use serde::Serialize;
-use uplift_bootstrap::{inferred_mean, inferred_mean_over_alternatives};
+use uplift_bootstrap::{crossing, falling, inferred_mean, inferred_mean_over_alternatives};
 
 use super::candidate::{Attempt, StructureRisk};
 use super::search::least;
@@ -13,8 +13,7 @@ use crate::uncertain::{Around, QuantityReport, Spread};
 /// From where to where a value may lie, with 90 % confidence.
 ///
 /// The frequency at every value has a band (docs/method.md, section 9). A value belongs to the band of the target where
-/// its frequency may be the target's: the upper limit is the least from which on no frequency that may be exceeds the
-/// target.
+/// its frequency may be the target's: the upper limit is where the upper limit of the frequency meets the target.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TargetBand {
     /// What it takes account of: `records`, `earthquakes`, `records and hazard`, `structure, records and hazard`, ….
@@ -26,58 +25,95 @@ pub struct TargetBand {
     pub per_year: [f64; 2],
 }
 
-impl TargetBand {
-    /// The bands of the values that were `tried`, ascending, the best estimate at `found`; the fullest band last.
-    pub(super) fn all((tried, found): (&[(f64, Attempt)], usize), target_per_year: f64) -> Vec<Self> {
-        let band = |(place, (of, per_year)): (usize, &(String, [f64; 2]))| Self {
-            of: of.clone(),
-            value: [0, 1].map(|end| {
-                let at = least(tried, |attempt| attempt.frequencies[place].1[end] <= target_per_year);
-                at.map_or(f64::INFINITY, |at| tried[at].0)
-            }),
-            per_year: *per_year,
+/// The frequencies of everything that was tried, made to fall with the value ([`falling`]), with their bands.
+pub(super) struct Frequencies {
+    values: Vec<f64>,
+    /// By the mean hazard curve, 1/yr, `[value]`.
+    means: Vec<f64>,
+    /// What each band takes account of, and the limits, 1/yr, `[value]`; the fullest last. None of a single record.
+    bands: Vec<(String, Vec<[f64; 2]>)>,
+}
+
+impl Frequencies {
+    /// Of what was `tried`, ascending.
+    pub(super) fn of(
+        tried: &[(f64, Attempt)],
+        (hazard, scatter): (&Hazard<'_>, &Scatter),
+    ) -> Result<Self, DesignError> {
+        let values: Vec<f64> = tried.iter().map(|(value, _)| *value).collect();
+        // [value][record], of one hazard curve or structure
+        let fallen = |of: &dyn Fn(&Attempt) -> &[f64]| {
+            falling(&values, &tried.iter().map(|(_, attempt)| of(attempt)).collect::<Vec<_>>())
         };
-        tried[found].1.frequencies.iter().enumerate().map(band).collect()
+        let contributions = fallen(&|attempt| &attempt.record_per_year);
+        let means = contributions.iter().map(|of| of.iter().sum::<f64>() / of.len() as f64).collect();
+        let by_units = |units: &[Vec<usize>]| {
+            contributions
+                .iter()
+                .map(|of| Ok(inferred_mean(of, units, CONFIDENCE)?))
+                .collect::<Result<Vec<_>, DesignError>>()
+        };
+        let mut bands = vec![("records".to_owned(), by_units(&scatter.pairs)?)];
+        let mut records = "records";
+        if let Some(earthquakes) = scatter.earthquakes.as_ref().filter(|earthquakes| earthquakes.len() > 1) {
+            records = "earthquakes";
+            bands.push((records.to_owned(), by_units(earthquakes)?));
+        }
+        let mut over = |of: String, alternatives: Vec<(f64, Vec<Vec<f64>>)>| -> Result<(), DesignError> {
+            let at = |place: usize| {
+                let there: Vec<_> = alternatives.iter().map(|(weight, of)| (*weight, of[place].clone())).collect();
+                Ok(inferred_mean_over_alternatives(&there, scatter.coarsest(), CONFIDENCE)?)
+            };
+            bands.push((of, (0..values.len()).map(at).collect::<Result<_, DesignError>>()?));
+            Ok(())
+        };
+        if !hazard.branches.is_empty() {
+            let by_curve = |(place, (weight, _)): (usize, &(f64, _))| (*weight, fallen(&|of| &of.by_branch[place]));
+            over(format!("{records} and hazard"), hazard.branches.iter().enumerate().map(by_curve).collect())?;
+        }
+        let structures = tried.first().map_or(1, |(_, attempt)| attempt.structures.len());
+        if structures > 1 {
+            // every structure with the hazard curve that goes with it
+            let by_structure = |place: usize| (1.0, fallen(&|of| of.structures[place].with_its_hazard()));
+            let of = match hazard.branches.is_empty() {
+                true => format!("structure and {records}"),
+                false => format!("structure, {records} and hazard"),
+            };
+            over(of, (0..structures).map(by_structure).collect())?;
+        }
+        // NaN of a single record
+        bands.retain(|(_, limits)| limits.iter().all(|of| !of[1].is_nan()));
+        Ok(Self { values, means, bands })
+    }
+
+    /// Where the frequency, and the lower and the upper limit of its fullest band, meet a target: [`crossing`].
+    pub(super) fn crossings(&self, target_per_year: f64) -> [f64; 3] {
+        let best = crossing(&self.values, self.means.iter().copied(), target_per_year);
+        let limits = self.bands.last().map(|(_, limits)| self.limits(limits, target_per_year));
+        let [lower, upper] = limits.unwrap_or([best; 2]);
+        [best, lower.min(best), upper.max(best)]
+    }
+
+    fn limits(&self, limits: &[[f64; 2]], target_per_year: f64) -> [f64; 2] {
+        [0, 1].map(|end| crossing(&self.values, limits.iter().map(|of| of[end]), target_per_year))
+    }
+
+    /// The bands of the value, about the best estimate at the position `found`.
+    pub(super) fn bands(&self, found: usize, target_per_year: f64) -> Vec<TargetBand> {
+        let best = self.values[found];
+        let band = |(of, limits): &(String, Vec<[f64; 2]>)| {
+            let [lower, upper] = self.limits(limits, target_per_year);
+            TargetBand { of: of.clone(), value: [lower.min(best), upper.max(best)], per_year: limits[found] }
+        };
+        self.bands.iter().map(band).collect()
     }
 }
 
-/// Bands of the frequency of one value, 1/yr, each with what it takes account of; the fullest last. None of a single
-/// record.
-///
-/// - `contributions`: of each record by the mean curve of the `hazard`, and by the weights of any curve.
-/// - `structures`: the branches that the structure may be; one where there are none.
-pub(super) fn frequency_bands(
-    (contributions, by_curve): (&[f64], &dyn Fn(&[f64]) -> Vec<f64>),
-    structures: &[StructureRisk],
-    (hazard, scatter): (&Hazard<'_>, &Scatter),
-) -> Result<Vec<(String, [f64; 2])>, DesignError> {
-    let mut bands = vec![("records".to_owned(), inferred_mean(contributions, &scatter.pairs, CONFIDENCE)?)];
-    let mut records = "records";
-    if let Some(earthquakes) = scatter.earthquakes.as_ref().filter(|earthquakes| earthquakes.len() > 1) {
-        records = "earthquakes";
-        bands.push((records.to_owned(), inferred_mean(contributions, earthquakes, CONFIDENCE)?));
+impl StructureRisk {
+    /// What each record contributes by the hazard curve that goes with the structure, 1/yr.
+    fn with_its_hazard(&self) -> &[f64] {
+        self.with_hazard.as_ref().unwrap_or(&self.record_per_year)
     }
-    let mut over = |of: String, alternatives: &[(f64, Vec<f64>)]| -> Result<(), DesignError> {
-        bands.push((of, inferred_mean_over_alternatives(alternatives, scatter.coarsest(), CONFIDENCE)?));
-        Ok(())
-    };
-    if !hazard.branches.is_empty() {
-        let of_curve = |(weight, stripes): &(f64, uplift_risk::StripeWeights)| (*weight, by_curve(&stripes.per_year()));
-        over(format!("{records} and hazard"), &hazard.branches.iter().map(of_curve).collect::<Vec<_>>())?;
-    }
-    if structures.len() > 1 {
-        // every structure with the hazard curve that goes with it
-        let of_structure =
-            |one: &StructureRisk| (1.0, one.with_hazard.as_ref().unwrap_or(&one.record_per_year).clone());
-        let of = match hazard.branches.is_empty() {
-            true => format!("structure and {records}"),
-            false => format!("structure, {records} and hazard"),
-        };
-        over(of, &structures.iter().map(of_structure).collect::<Vec<_>>())?;
-    }
-    // NaN of a single record
-    bands.retain(|(_, limits)| !limits[1].is_nan());
-    Ok(bands)
 }
 
 /// The structures that every value of a search may be.

@@ -30,8 +30,10 @@ pub(super) struct Attempt {
     pub(super) candidate: Candidate,
     /// On average over the structures that it may be.
     pub(super) risk: EventRisk,
-    /// Bands of the frequency, 1/yr, each with what it takes account of; the fullest last.
-    pub(super) frequencies: Vec<(String, [f64; 2])>,
+    /// What each record contributes on average by the mean hazard curve, 1/yr: their mean is the frequency.
+    pub(super) record_per_year: Vec<f64>,
+    /// The same by every weighted hazard curve, `[curve][record]`; none where there is but one.
+    pub(super) by_branch: Vec<Vec<f64>>,
     /// The same risk of every branch; of one where all is known, and where each record has structures of its own.
     pub(super) structures: Vec<StructureRisk>,
 }
@@ -49,12 +51,6 @@ pub(super) struct StructureRisk {
 impl Attempt {
     pub(super) fn meets(&self, target_per_year: f64) -> bool {
         self.risk.per_year <= target_per_year
-    }
-
-    /// Whether the target is met by the frequency itself, and by the lower and the upper limit of its fullest band.
-    pub(super) fn meets_with_band(&self, target_per_year: f64) -> [bool; 3] {
-        let [lower, upper] = self.frequencies.last().map_or([self.risk.per_year; 2], |(_, limits)| *limits);
-        [self.risk.per_year, lower, upper].map(|per_year| per_year <= target_per_year)
     }
 }
 

@@ -1,26 +1,23 @@
-//! Values of a quantity tried until every place between a met and a missed target is narrow enough.
+//! Values of a quantity that are tried, until the largest that misses a target lies near enough to the next.
 
 use serde::Serialize;
 
 use crate::error::DesignError;
 
-/// Parts into which the interval between a met and a missed value is cut at once.
-const PARTS: usize = 4;
+/// Rounds of halving, so that the widest interval ends at neighbouring numbers.
+const ROUNDS: usize = 64;
 
-/// Rounds of cutting: a quarter each, so that the widest interval ends at neighbouring numbers.
-const ROUNDS: usize = 32;
-
-/// Crossings of a limit that are followed: more are noise, told as they were found.
-pub(super) const MOST_CROSSINGS: usize = 12;
+/// Most steps of a lattice.
+const MOST_STEPS: f64 = 20.0;
 
 /// Where the frequency crosses the target, between two values that were analysed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Crossing {
-    /// The smaller value.
+    /// The lower value.
     pub from: f64,
-    /// The larger value.
+    /// The upper value.
     pub to: f64,
-    /// Whether the target is met at the larger value, and missed at the smaller.
+    /// Whether the target is met from here on; missed otherwise.
     pub becomes_met: bool,
 }
 
@@ -47,35 +44,47 @@ pub(super) fn rounded(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
-/// Tries `values`, ascending, and then between every two neighbours of which one meets a limit and the other does not,
-/// until these differ by no more than the share `tolerance` of the smaller. Everything tried, ascending.
-///
-/// * `meets` — whether each of the limits is met
+/// The same, and not below `value`.
+pub(super) fn rounded_up(value: f64, digits: usize) -> f64 {
+    let near = rounded(value, digits);
+    let last_digit = 10.0_f64.powf(value.log10().floor() + 1.0 - digits as f64);
+    if near >= value || !value.is_finite() { near } else { rounded(near + last_digit, digits) }
+}
+
+/// Values about `step` apart, as a share of the value, from `from` to `to` and one beyond either, within what was
+/// `tried`. They lie on a lattice that does not depend on these ends, so that others later add none between.
+pub(super) fn lattice<T>(tried: &[(f64, T)], [from, to]: [f64; 2], step: f64, digits: usize) -> Vec<f64> {
+    let (Some((first, _)), Some((last, _))) = (tried.first(), tried.last()) else { return Vec::new() };
+    let to = to.min(*last);
+    // twice as wide until they are few
+    let mut width = step.ln_1p();
+    while (to / from).ln() > MOST_STEPS * width {
+        width *= 2.0;
+    }
+    let [begin, end] = [((from / first).ln() / width).floor(), ((to / first).ln() / width).ceil()];
+    let steps = (0..).map(|place| begin + f64::from(place)).take_while(|place| *place <= end);
+    let values = steps.map(|place| rounded(first * (place * width).exp(), digits));
+    values.filter(|value| first < value && value < last).collect()
+}
+
+/// Tries values between the largest that does not `meet` the target and the next, until these differ by no more than
+/// the share `tolerance` of the smaller.
 ///
 /// # Errors
-/// What `attempt` ends with, which gets the values of a round together.
-pub(super) fn search<T, const LIMITS: usize>(
+/// What `attempt` ends with.
+pub(super) fn narrow<T>(
     tried: &mut Vec<(f64, T)>,
-    tolerance: f64,
+    (tolerance, digits): (f64, usize),
     mut attempt: impl FnMut(&[f64]) -> Result<Vec<T>, DesignError>,
-    meets: impl Fn(&T) -> [bool; LIMITS],
+    meets: impl Fn(&T) -> bool,
 ) -> Result<(), DesignError> {
-    let digits = digits(tolerance);
     for _ in 0..ROUNDS {
-        let wide = |limit: usize| {
-            let wide = |crossing: &Crossing| crossing.to > crossing.from * (1.0 + tolerance);
-            let found: Vec<Crossing> = crossings(tried, |of| meets(of)[limit]).into_iter().filter(wide).collect();
-            // the highest first: there lies the value from which on all is met
-            found.into_iter().rev().take(MOST_CROSSINGS)
-        };
-        let within = |crossing: Crossing| {
-            let Crossing { from, to, .. } = crossing;
-            let inner = spread([from, to], PARTS + 1, digits);
-            // neighbouring numbers have none between
-            inner.into_iter().filter(move |value| *value > from && *value < to).collect::<Vec<_>>()
-        };
-        let next: Vec<f64> = (0..LIMITS).flat_map(wide).flat_map(within).collect();
-        if !extend(tried, next, &mut attempt)? {
+        let Some(at) = least(tried, &meets).filter(|at| *at > 0) else { break };
+        let [missed, met] = [tried[at - 1].0, tried[at].0];
+        let middle = rounded((missed * met).sqrt(), digits);
+        // neighbouring numbers have none between
+        let is_between = missed < middle && middle < met;
+        if met <= missed * (1.0 + tolerance) || !is_between || !extend(tried, vec![middle], &mut attempt)? {
             break;
         }
     }
@@ -85,7 +94,7 @@ pub(super) fn search<T, const LIMITS: usize>(
 /// Tries those of `values` that were not yet; whether there were any.
 ///
 /// # Errors
-/// What `attempt` ends with.
+/// What `attempt` ends with, which gets them together.
 pub(super) fn extend<T>(
     tried: &mut Vec<(f64, T)>,
     mut values: Vec<f64>,
@@ -111,9 +120,9 @@ pub(super) fn least<T>(tried: &[(f64, T)], meets: impl Fn(&T) -> bool) -> Option
 
 /// Every place between neighbours of which one `meets` the target and the other does not, ascending.
 pub(super) fn crossings<T>(tried: &[(f64, T)], meets: impl Fn(&T) -> bool) -> Vec<Crossing> {
-    let between = |pair: &[(f64, T)]| match pair {
-        [(from, a), (to, b)] if meets(a) != meets(b) => Some(Crossing { from: *from, to: *to, becomes_met: meets(b) }),
-        _ => None,
+    let between = |pair: &[(f64, T)]| {
+        let becomes_met = meets(&pair[1].1);
+        (meets(&pair[0].1) != becomes_met).then(|| Crossing { from: pair[0].0, to: pair[1].0, becomes_met })
     };
     tried.windows(2).filter_map(between).collect()
 }
@@ -132,12 +141,12 @@ mod tests {
     ) -> Vec<(f64, T)> {
         let mut tried = Vec::new();
         extend(&mut tried, values, &mut attempt).unwrap();
-        search(&mut tried, tolerance, attempt, |of| [meets(of)]).unwrap();
+        narrow(&mut tried, (tolerance, digits(tolerance)), attempt, meets).unwrap();
         tried
     }
 
     #[test]
-    fn one_crossing_is_found_to_the_tolerance() {
+    fn the_crossing_is_found_to_the_tolerance() {
         let mut analysed = 0;
         let attempt = |values: &[f64]| {
             analysed += values.len();
@@ -147,8 +156,8 @@ mod tests {
         let found = crossings(&tried, |rate| *rate <= 0.15);
         let [Crossing { from, to, becomes_met: true }] = found[..] else { panic!("{found:?}") };
         assert!(from < 1.0 / 0.15 && 1.0 / 0.15 <= to && to <= from * 1.001);
-        // a factor of 2 to 0.1 %: five rounds of three values
-        assert_eq!((analysed, tried.len()), (5 + 5 * 3, 20));
+        // a factor of 2 to 0.1 %: ten halvings
+        assert_eq!((analysed, tried.len()), (15, 15));
         assert!(tried.windows(2).all(|pair| pair[0].0 < pair[1].0));
         assert_eq!(least(&tried, |rate| *rate <= 0.15).map(|at| tried[at].0), Some(to));
         // the digits that are printed are all there are
@@ -156,30 +165,18 @@ mod tests {
     }
 
     #[test]
-    fn every_crossing_of_a_wave_is_found() {
+    fn of_a_wave_the_last_crossing_is_followed() {
         let met = |value: f64| (4.0 * value).sin() < 0.0;
         let attempt = |values: &[f64]| Ok(values.iter().map(|&value| met(value)).collect());
         let tried = searched(spread([0.5, 4.0], 33, 4), 1e-6, attempt, |met| *met);
         let found = crossings(&tried, |met| *met);
         assert_eq!(found.len(), 5);
         for (place, crossing) in found.iter().enumerate() {
-            let root = (place + 1) as f64 * std::f64::consts::PI / 4.0;
-            assert!(crossing.from <= root && root <= crossing.to && crossing.to < crossing.from * (1.0 + 1e-6));
+            let root = (place + 1) as f64 * std::f64::consts::FRAC_PI_4;
+            assert!(crossing.from <= root && root <= crossing.to, "{crossing:?} {root}");
             assert_eq!(crossing.becomes_met, place % 2 == 0);
         }
-    }
-
-    #[test]
-    fn every_limit_is_followed() {
-        let attempt = |values: &[f64]| Ok(values.iter().map(|value| 1.0 / value).collect::<Vec<f64>>());
-        let mut tried: Vec<(f64, f64)> = Vec::new();
-        extend(&mut tried, spread([1.0, 16.0], 5, 4), &mut { attempt }).unwrap();
-        search(&mut tried, 1e-3, attempt, |rate| [*rate <= 0.1, *rate <= 0.3, *rate <= 1e-9]).unwrap();
-        for limit in [0.1, 0.3] {
-            let at = tried[least(&tried, |rate| *rate <= limit).unwrap()].0;
-            assert!(at >= 1.0 / limit && at <= 1.001 / limit, "{at} {limit}");
-        }
-        assert_eq!(least(&tried, |rate| *rate <= 1e-9), None);
+        assert!(found[4].to <= found[4].from * (1.0 + 1e-6), "{:?}", found[4]);
     }
 
     #[test]
@@ -187,6 +184,24 @@ mod tests {
         assert_eq!([0.5, 0.005, 1e-3, 1e-4, 0.0].map(digits), [4, 4, 4, 5, 17]);
         assert_eq!(spread([1.0, 1.0003], 5, 4), [1.0, 1.0003]);
         assert_eq!((rounded(0.634_249, 4), rounded(1_234_567.0, 4)), (0.6342, 1_235_000.0));
+        assert_eq!(
+            [0.634_21, 0.6342, 9.999_9, 1_234_100.0].map(|of| rounded_up(of, 4)),
+            [0.6343, 0.6342, 10.0, 1_235_000.0]
+        );
+        assert_eq!(rounded_up(f64::INFINITY, 4), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_lattice_covers_its_ends_and_is_the_same_from_others() {
+        let tried = [(1.0, ()), (16.0, ())];
+        let wide = lattice(&tried, [2.0, 3.0], 0.04, 4);
+        assert!(wide[0] <= 2.0 && wide[wide.len() - 1] >= 3.0 && wide.len() == 12, "{wide:?}");
+        assert!(wide.windows(2).all(|pair| (pair[1] / pair[0] - 1.04).abs() < 1e-3), "{wide:?}");
+        let part = lattice(&tried, [2.2, 2.9], 0.04, 4);
+        assert!(part.iter().all(|value| wide.contains(value)) && part.len() < wide.len(), "{part:?}");
+        // never beyond what was tried, and not too many
+        let all = lattice(&tried, [1.0, f64::INFINITY], 0.01, 4);
+        assert!(all.len() <= 21 && all[0] > 1.0 && all[all.len() - 1] < 16.0, "{}", all.len());
     }
 
     #[test]

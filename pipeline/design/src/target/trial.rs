@@ -14,7 +14,6 @@ use uplift_risk::StripeWeights;
 use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_levels};
 
-use super::band::frequency_bands;
 use super::candidate::{Attempt, Candidate, StructureRisk, threshold_m};
 use super::{LevelShare, TargetEvent, TargetOptions};
 use crate::certainty::Scatter;
@@ -193,12 +192,13 @@ impl<'a> Trials<'a> {
         }
         let record_per_year: Vec<f64> =
             (0..self.records.count()).map(|record| of(&|one| one.record_per_year[record])).collect();
-        let by_curve = |per_year: &[f64]| -> Vec<f64> {
-            let of_record = |shares: &[f64]| shares.iter().zip(per_year).map(|(share, weight)| share * weight).sum();
+        let by_curve = |(_, stripes): &(f64, StripeWeights)| -> Vec<f64> {
+            let per_year = stripes.per_year();
+            let of_record = |shares: &[f64]| shares.iter().zip(&per_year).map(|(share, weight)| share * weight).sum();
             happening.chunks_exact(per_year.len()).map(of_record).collect()
         };
-        let frequencies = frequency_bands((&record_per_year, &by_curve), &structures, (self.hazard, self.scatter))?;
-        Ok(Attempt { candidate, risk, frequencies, structures })
+        let by_branch = self.hazard.branches.iter().map(by_curve).collect();
+        Ok(Attempt { candidate, risk, record_per_year, by_branch, structures })
     }
 
     /// The risk of the structures at `places` of a `candidate`, each with its own threshold; counts in `happens` to how

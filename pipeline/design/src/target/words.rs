@@ -8,7 +8,7 @@ use uplift_uniform_risk::EventRisk;
 
 use super::TargetOptions;
 use super::candidate::Attempt;
-use super::search::{Crossing, MOST_CROSSINGS, crossings};
+use super::search::{Crossing, crossings};
 
 /// A refusal with the numbers that are probably mistaken: the reason for it, most likely.
 pub(super) fn with_mistakes(reason: String, alarms: &[Alarm]) -> String {
@@ -16,6 +16,9 @@ pub(super) fn with_mistakes(reason: String, alarms: &[Alarm]) -> String {
     let line = |alarm: &Alarm| format!("\n{} {alarm}: {}", alarm.severity.word(), alarm.what_to_do);
     mistakes.fold(reason, |said, alarm| said + &line(alarm))
 }
+
+/// Crossings that are listed: more are noise.
+const MOST_CROSSINGS: usize = 12;
 
 /// What is to be said of the values that were tried.
 pub(super) struct Words<'a> {
