@@ -12,7 +12,7 @@
 /// - `contributions`: `[value][record]`, in the unit of a rate.
 ///
 /// # Source
-/// R. E. Barlow, D. J. Bartholomew, J. M. Bremner and H. D. Brunk, Statistical Inference under Order Restrictions, 1972.
+/// R. E. Barlow, D. J. Bartholomew, J. M. Bremner, H. D. Brunk, Statistical Inference under Order Restrictions, 1972.
 pub fn falling(values: &[f64], contributions: &[&[f64]]) -> Vec<Vec<f64>> {
     let mut fallen: Vec<Vec<f64>> = contributions.iter().map(|records| records.to_vec()).collect();
     let last = values.len().saturating_sub(1);
@@ -38,8 +38,8 @@ pub fn falling(values: &[f64], contributions: &[&[f64]]) -> Vec<Vec<f64>> {
     fallen
 }
 
-/// The value above which `rates` stay at or below `target`, on straight lines in logarithms between `values`, ascending;
-/// the first of these where they always do, infinite where the last is above.
+/// The value above which `rates` stay at or below `target`, on straight lines in logarithms between `values`,
+/// ascending; the first of these where they always do, infinite where the last is above.
 pub fn crossing(values: &[f64], rates: impl DoubleEndedIterator<Item = f64> + ExactSizeIterator, target: f64) -> f64 {
     let mut after: Option<(f64, f64)> = None;
     for (&value, rate) in values.iter().zip(rates).rev() {

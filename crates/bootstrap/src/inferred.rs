@@ -149,9 +149,9 @@ fn interval(
     rates.mean().interval(&StudentQuantiles::new(confidence, units.len()))
 }
 
-/// Limits of the rate of all records there could be, 1/yr, where each record at hand contributes so much and the mean of
-/// them is the rate: what [`inferred_rate`] tells of single runs. NaN of a single unit; both the rate where no record
-/// differs from another.
+/// Limits of the rate of all records there could be, 1/yr, where each record at hand contributes so much and the mean
+/// of them is the rate: what [`inferred_rate`] tells of single runs. NaN of a single unit; both the rate where no
+/// record differs from another.
 ///
 /// - `contributions_per_year`: of each record, 1/yr, `[record]`.
 /// - `units`: the records of each unit, `[unit]`, by their positions; each record in one of them.

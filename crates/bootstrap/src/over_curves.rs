@@ -84,8 +84,8 @@ pub fn inferred_limits_over_curves(
 /// structures, of which one holds: what [`inferred_mean`](crate::inferred_mean) tells of one. NaN of a single unit, and
 /// of no alternative.
 ///
-/// - `alternatives`: weight of each, and what every record contributes by it, 1/yr, `[record]`; the weights need not add
-///   up to 1.
+/// - `alternatives`: weight of each, and what every record contributes by it, 1/yr, `[record]`; the weights need not
+///   add up to 1.
 ///
 /// # Errors
 /// Units of other records.

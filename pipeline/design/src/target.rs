@@ -1,8 +1,8 @@
 //! The least strength, size, width, capacity or tendon stiffness with which a structure meets a target risk.
 //!
 //! The risk of each value that is tried is that of the structure's own oscillator under the records and the hazard of a
-//! result, from exact stripes. Counts of records step, and a chaotic system may step back: the best estimate is the value
-//! from which on all that was tried meets the target. The safe value is the one at which the upper limit of the
+//! result, from exact stripes. Counts of records step, and a chaotic system may step back: the best estimate is the
+//! value from which on all that was tried meets the target. The safe value is the one at which the upper limit of the
 //! frequency's band meets it; up to there every per cent is tried. Values have as many digits as are printed.
 
 mod band;
@@ -260,11 +260,13 @@ pub fn target(
     }
     narrow(&mut tried, (options.tolerance, digits), &mut *attempt, meets)?;
     let frequencies = Frequencies::of(&tried, of_records)?;
-    let safe_value = rounded_up(frequencies.crossings(target_per_year)[2], digits);
-    if safe_value.is_finite() && least(&tried, meets).is_some_and(|at| at > 0) {
+    // by these, whatever the safe value shows
+    let [_, _, upper] = frequencies.crossings(target_per_year);
+    let best = least(&tried, meets).map_or(f64::INFINITY, |at| tried[at].0);
+    let safe_value = rounded_up(upper, digits).max(best);
+    if safe_value.is_finite() {
         extend(&mut tried, vec![safe_value], attempt)?;
     }
-    let frequencies = Frequencies::of(&tried, of_records)?;
     let words = Words { options, target_per_year };
     let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
     let mut alarms = alarms_of_inputs(&file, &scope)?;
@@ -300,8 +302,8 @@ pub fn target(
     let counts = (trials.record_count(), trials.pairs().len());
     let event = options.event.words();
     alarms.extend(own_risk_alarms(&[own_risk((&event, found.risk), (place.name, measure), counts)]));
-    let bands = frequencies.bands(at, target_per_year);
-    // the best estimate may lie above where the frequency that falls meets the target
+    let bands = frequencies.bands(value, target_per_year);
+    // where the safe value itself misses the target
     let safe_value = safe_value.max(value);
     let safe = tried.iter().find(|(tried, _)| tried.total_cmp(&safe_value).is_eq());
     let mut report = TargetReport {

@@ -4,7 +4,6 @@ use serde::Serialize;
 use uplift_bootstrap::{crossing, falling, inferred_mean, inferred_mean_over_alternatives};
 
 use super::candidate::{Attempt, StructureRisk};
-use super::search::least;
 use crate::certainty::{CONFIDENCE, Scatter};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
@@ -98,12 +97,12 @@ impl Frequencies {
         [0, 1].map(|end| crossing(&self.values, limits.iter().map(|of| of[end]), target_per_year))
     }
 
-    /// The bands of the value, about the best estimate at the position `found`.
-    pub(super) fn bands(&self, found: usize, target_per_year: f64) -> Vec<TargetBand> {
-        let best = self.values[found];
+    /// The bands of the value, about the `best` estimate, which is one of the values.
+    pub(super) fn bands(&self, best: f64, target_per_year: f64) -> Vec<TargetBand> {
+        let place = self.values.partition_point(|value| *value < best).min(self.values.len().saturating_sub(1));
         let band = |(of, limits): &(String, Vec<[f64; 2]>)| {
             let [lower, upper] = self.limits(limits, target_per_year);
-            TargetBand { of: of.clone(), value: [lower.min(best), upper.max(best)], per_year: limits[found] }
+            TargetBand { of: of.clone(), value: [lower.min(best), upper.max(best)], per_year: limits[place] }
         };
         self.bands.iter().map(band).collect()
     }
@@ -140,9 +139,10 @@ impl TargetUncertainty {
     pub(super) fn from_tried(around: &Around<'_>, tried: &[(f64, Attempt)], target_per_year: f64) -> Self {
         let (kind, sampling, seed) = around.sampled();
         let branches = tried.first().map_or(1, |(_, attempt)| attempt.structures.len());
+        let values: Vec<f64> = tried.iter().map(|(value, _)| *value).collect();
         let needed = |branch: usize| {
-            let at = least(tried, |attempt| attempt.structures[branch].risk.per_year <= target_per_year);
-            at.map_or(f64::INFINITY, |at| tried[at].0)
+            let rates = tried.iter().map(|(_, attempt)| attempt.structures[branch].risk.per_year);
+            crossing(&values, rates, target_per_year)
         };
         let by_structure = (branches > 1).then(|| {
             let [lower, _, median, _, upper] = Spread::from_values((0..branches).map(needed).collect()).percentiles;
