@@ -240,33 +240,9 @@ pub fn target(
     trials.refuse_untellable(place.name, target_per_year)?;
 
     let meets = |attempt: &Attempt| attempt.meets(target_per_year);
-    let digits = digits(options.tolerance);
-    let mut tried = Vec::new();
-    let attempt = &mut |values: &[f64]| trials.attempt(values);
-    extend(&mut tried, spread(range, VALUES, digits), attempt)?;
     let of_records = (&hazard, &scatter);
-    for (part, step) in STEPS.into_iter().enumerate() {
-        for _ in 0..ROUNDS {
-            let [best, lower, upper] = Frequencies::of(&tried, of_records)?.crossings(target_per_year);
-            // missed by the largest, or met by all
-            if least(&tried, meets).is_none_or(|at| at == 0) {
-                break;
-            }
-            let next = lattice(&tried, [[lower, best][part], upper], step.max(options.tolerance), digits);
-            if !extend(&mut tried, next, attempt)? {
-                break;
-            }
-        }
-    }
-    narrow(&mut tried, (options.tolerance, digits), &mut *attempt, meets)?;
-    let frequencies = Frequencies::of(&tried, of_records)?;
-    // by these, whatever the safe value shows
-    let [_, _, upper] = frequencies.crossings(target_per_year);
-    let best = least(&tried, meets).map_or(f64::INFINITY, |at| tried[at].0);
-    let safe_value = rounded_up(upper, digits).max(best);
-    if safe_value.is_finite() {
-        extend(&mut tried, vec![safe_value], attempt)?;
-    }
+    let Searched { tried, frequencies, safe_value } =
+        searched((&mut trials, of_records), range, options.tolerance, target_per_year)?;
     let words = Words { options, target_per_year };
     let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
     let mut alarms = alarms_of_inputs(&file, &scope)?;
@@ -283,9 +259,7 @@ pub fn target(
     let (value, found) = (tried[at].0, &tried[at].1);
     let crossings = crossings(&tried, meets);
     let mut notes = words.notes(&crossings, &tried);
-    let is_near = |other: f64| (other / value - 1.0).abs() <= NOISE;
-    let near = tried.iter().filter(|(other, _)| is_near(*other)).map(|(_, attempt)| attempt.risk.per_year);
-    let noise = Noisy::around(found.risk.per_year, near);
+    let noise = noise_about(&tried, at);
     if noise.highest > target_per_year {
         notes.push(format!(
             "within 1 % of the value the frequency goes from {:.3e} to {:.3e} per year: choose the value with a margin",
@@ -346,6 +320,61 @@ pub fn target(
     }
     trials.finish();
     Ok(report)
+}
+
+/// What a search has tried.
+struct Searched {
+    /// Everything, ascending.
+    tried: Vec<(f64, Attempt)>,
+    /// Without the safe value, which follows from them.
+    frequencies: Frequencies,
+    /// Infinite beyond the range.
+    safe_value: f64,
+}
+
+/// Tries values of the `range`: few all over it, more within the band, and most from the best estimate to the safe
+/// value.
+fn searched(
+    (trials, of_records): (&mut Trials<'_>, (&Hazard<'_>, &Scatter)),
+    range: [f64; 2],
+    tolerance: f64,
+    target_per_year: f64,
+) -> Result<Searched, DesignError> {
+    let meets = |attempt: &Attempt| attempt.meets(target_per_year);
+    let digits = digits(tolerance);
+    let mut tried = Vec::new();
+    let attempt = &mut |values: &[f64]| trials.attempt(values);
+    extend(&mut tried, spread(range, VALUES, digits), attempt)?;
+    for (part, step) in STEPS.into_iter().enumerate() {
+        for _ in 0..ROUNDS {
+            let [best, lower, upper] = Frequencies::of(&tried, of_records)?.crossings(target_per_year);
+            // missed by the largest, or met by all
+            if least(&tried, meets).is_none_or(|at| at == 0) {
+                break;
+            }
+            let next = lattice(&tried, [[lower, best][part], upper], step.max(tolerance), digits);
+            if !extend(&mut tried, next, attempt)? {
+                break;
+            }
+        }
+    }
+    narrow(&mut tried, (tolerance, digits), &mut *attempt, meets)?;
+    let frequencies = Frequencies::of(&tried, of_records)?;
+    // by these, whatever the safe value shows
+    let [_, _, upper] = frequencies.crossings(target_per_year);
+    let best = least(&tried, meets).map_or(f64::INFINITY, |at| tried[at].0);
+    let safe_value = rounded_up(upper, digits).max(best);
+    if safe_value.is_finite() {
+        extend(&mut tried, vec![safe_value], attempt)?;
+    }
+    Ok(Searched { tried, frequencies, safe_value })
+}
+
+/// The frequencies of what was `tried` near the value at this position.
+fn noise_about(tried: &[(f64, Attempt)], at: usize) -> Noisy {
+    let (value, found) = &tried[at];
+    let near = tried.iter().filter(|(other, _)| (other / value - 1.0).abs() <= NOISE);
+    Noisy::around(found.risk.per_year, near.map(|(_, attempt)| attempt.risk.per_year))
 }
 
 /// What the generic fragility that was asked for makes of `curve`; none where none was.

@@ -74,9 +74,10 @@ impl Frequencies {
         if structures > 1 {
             // every structure with the hazard curve that goes with it
             let by_structure = |place: usize| (1.0, fallen(&|of| of.structures[place].with_its_hazard()));
-            let of = match hazard.branches.is_empty() {
-                true => format!("structure and {records}"),
-                false => format!("structure, {records} and hazard"),
+            let of = if hazard.branches.is_empty() {
+                format!("structure and {records}")
+            } else {
+                format!("structure, {records} and hazard")
             };
             over(of, (0..structures).map(by_structure).collect())?;
         }

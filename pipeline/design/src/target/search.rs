@@ -36,7 +36,7 @@ pub(super) fn spread([from, to]: [f64; 2], count: usize, digits: usize) -> Vec<f
 /// Significant digits of values that a `tolerance` tells apart.
 pub(super) fn digits(tolerance: f64) -> usize {
     // a tenth of the tolerance, and no less than what is usual
-    (0..17_i32).find(|digits| tolerance >= 10.0_f64.powi(-digits)).map_or(17, |digits| digits as usize + 1).clamp(4, 17)
+    (4..17_usize).find(|digits| tolerance >= 10.0_f64.powf(1.0 - *digits as f64)).unwrap_or(17)
 }
 
 /// `value` with so many significant `digits`.
