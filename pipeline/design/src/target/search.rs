@@ -195,7 +195,7 @@ mod tests {
     fn a_lattice_covers_its_ends_and_is_the_same_from_others() {
         let tried = [(1.0, ()), (16.0, ())];
         let wide = lattice(&tried, [2.0, 3.0], 0.04, 4);
-        assert!(wide[0] <= 2.0 && wide[wide.len() - 1] >= 3.0 && wide.len() == 12, "{wide:?}");
+        assert!(wide[0] <= 2.0 && wide[wide.len() - 1] >= 3.0 && wide.len() == 13, "{wide:?}");
         assert!(wide.windows(2).all(|pair| (pair[1] / pair[0] - 1.04).abs() < 1e-3), "{wide:?}");
         let part = lattice(&tried, [2.2, 2.9], 0.04, 4);
         assert!(part.iter().all(|value| wide.contains(value)) && part.len() < wide.len(), "{part:?}");
