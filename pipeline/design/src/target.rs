@@ -3,7 +3,7 @@
 //! The risk of each value that is tried is that of the structure's own oscillator under the records and the hazard of a
 //! result, from exact stripes. Counts of records step, and a chaotic system may step back: the best estimate is the
 //! value from which on all that was tried meets the target. The safe value is the one at which the upper limit of the
-//! frequency's band meets it; up to there every per cent is tried. Values have as many digits as are printed.
+//! frequency's band meets it. Values have as many digits as are printed.
 
 mod band;
 mod candidate;
@@ -50,8 +50,10 @@ use words::{Words, assumptions, with_mistakes};
 const VALUES: usize = 13;
 /// How far the range reaches below and above the structure's own value, where it is not given.
 const REACH: f64 = 4.0;
-/// Steps of the values tried within the band, and from the best estimate to the safe value, relative to the value.
+/// Steps of the values tried within the band, and just above the best estimate, relative to the value.
 const STEPS: [f64; 2] = [0.04, 0.01];
+/// Up to how many times the best estimate, or to the safe value, the noise of single records is looked for.
+const NOISY: f64 = 1.1;
 /// Rounds in which new values may move the ends between which they are tried.
 const ROUNDS: usize = 4;
 /// Half the width about the value in which the frequencies show the noise, relative to it.
@@ -332,8 +334,7 @@ struct Searched {
     safe_value: f64,
 }
 
-/// Tries values of the `range`: few all over it, more within the band, and most from the best estimate to the safe
-/// value.
+/// Tries values of the `range`: few all over it, more within the band, and most just above the best estimate.
 fn searched(
     (trials, of_records): (&mut Trials<'_>, (&Hazard<'_>, &Scatter)),
     range: [f64; 2],
@@ -352,7 +353,8 @@ fn searched(
             if least(&tried, meets).is_none_or(|at| at == 0) {
                 break;
             }
-            let next = lattice(&tried, [[lower, best][part], upper], step.max(tolerance), digits);
+            let ends = [[lower, upper], [best, upper.min(NOISY * best)]][part];
+            let next = lattice(&tried, ends, step.max(tolerance), digits);
             if !extend(&mut tried, next, attempt)? {
                 break;
             }
