@@ -217,3 +217,17 @@ fn what_the_result_was_made_from_is_never_replaced() {
     }
     assert_eq!(std::fs::read(study.path().join("pga.csv")).unwrap(), curve);
 }
+
+// A frame on cylinders wobbles, and what is found is the width of its oscillator: the first line says so.
+#[test]
+fn the_width_of_a_frame_that_wobbles_is_that_of_its_proxy() {
+    let study = study();
+    let first_line = |text: &str| {
+        study.write("frame.toml", text);
+        let ask = ["target", "frame.toml", "--urs", "r.h5", "--overturning", "2e-3", "--vary", "width"];
+        study.uplift(&[&ask[..], &["--tolerance", "0.05"]].concat()).ok().stdout.lines().next().unwrap().to_owned()
+    };
+    assert!(!first_line(&frame(0.6)).contains("proxy"));
+    let wobbles = first_line(&format!("{}column_shape = \"cylinder\"\n", frame(0.6)));
+    assert!(wobbles.ends_with(", by its proxy alone"), "{wobbles}");
+}

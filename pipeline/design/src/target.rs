@@ -81,6 +81,8 @@ pub struct TargetReport {
     pub own_value: Option<f64>,
     /// What must not happen more often: `overturning`, or which displacement is exceeded.
     pub event: String,
+    /// Whether it is a frame that can wobble: all numbers are those of its proxy, the oscillator.
+    pub by_proxy: bool,
     /// How often it may happen, 1/yr.
     pub target_per_year: f64,
     /// Years that probabilities refer to.
@@ -269,7 +271,8 @@ pub fn target(
         ));
     }
     notes.extend(assumptions(structure, &file, trials.restitution()));
-    notes.extend(OwnFrame::is_described(structure).then(|| {
+    let by_proxy = OwnFrame::is_described(structure);
+    notes.extend(by_proxy.then(|| {
         "the value is that of the proxy, the equivalent oscillator: uplift design has the wobbling frame of that value"
             .to_owned()
     }));
@@ -292,6 +295,7 @@ pub fn target(
         quantity_unit: options.quantity.unit(),
         own_value,
         event,
+        by_proxy,
         target_per_year,
         years,
         safe_value,

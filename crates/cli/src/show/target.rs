@@ -33,7 +33,8 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         let upper = if report.safe_value.is_finite() { report.safe_value.to_string() } else { "beyond".to_owned() };
         format!(" ({} to {upper}, 90 % by {})", short(band.value[0]), band.of)
     });
-    writeln!(out, "Safe {quantity} {safe}; best estimate {}{band}", unit(value.to_string()))?;
+    let whose = if report.by_proxy { ", by its proxy alone" } else { "" };
+    writeln!(out, "Safe {quantity} {safe}; best estimate {}{band}{whose}", unit(value.to_string()))?;
     let years = 1.0 / target_per_year;
     writeln!(out, "Target    {event} at most {target_per_year:.3e} per year (once in {years:.0} years)")?;
     let [per_year, ..] = risk_cells(&report.risk);
