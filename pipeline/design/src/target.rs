@@ -271,11 +271,6 @@ pub fn target(
         ));
     }
     notes.extend(assumptions(structure, &file, trials.restitution()));
-    let by_proxy = OwnFrame::is_described(structure);
-    notes.extend(by_proxy.then(|| {
-        "the value is that of the proxy, the equivalent oscillator: uplift design has the wobbling frame of that value"
-            .to_owned()
-    }));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
     let counts = (trials.record_count(), trials.pairs().len());
@@ -295,7 +290,7 @@ pub fn target(
         quantity_unit: options.quantity.unit(),
         own_value,
         event,
-        by_proxy,
+        by_proxy: OwnFrame::is_described(structure),
         target_per_year,
         years,
         safe_value,

@@ -9,6 +9,7 @@ use uplift_uniform_risk::EventRisk;
 use super::TargetOptions;
 use super::candidate::Attempt;
 use super::search::{Crossing, crossings};
+use crate::own_frame::OwnFrame;
 
 /// A refusal with the numbers that are probably mistaken: the reason for it, most likely.
 pub(super) fn with_mistakes(reason: String, alarms: &[Alarm]) -> String {
@@ -126,6 +127,13 @@ pub(super) fn assumptions(structure: &Structure, file: &ResultFile, restitution:
         notes.push(
             "every value is looked for with the equivalent oscillator, which does not feel the vertical components of \
              the records: uplift risk and uplift overturning shake frames and blocks with them"
+                .to_owned(),
+        );
+    }
+    if OwnFrame::is_described(structure) {
+        notes.push(
+            "the value is that of the proxy, the equivalent oscillator: uplift design has the wobbling frame of that \
+             value"
                 .to_owned(),
         );
     }
