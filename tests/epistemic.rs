@@ -214,19 +214,19 @@ fn bands_of_structure(study: &SmallStudy) -> [Vec<[f64; 2]>; 2] {
     let design = &answer(study, &["design"])["exact"]["bands"];
     let overturning = &answer(study, &["overturning"])["overturning"][0]["sites"][0]["bands"];
     let target = answer(study, &TARGET);
-    let numbers = |whose: &str, of_target: &str| {
+    let numbers = |whose: &str, of_target: usize| {
         let own = [
             &design["demand_m"][whose],
             &design["capacity_less_demand_m"][whose],
             &design["beyond_capacity_per_year"][whose],
             &design["overturning_per_year"][whose],
             &overturning[whose],
-            &target[of_target]["value"],
-            &target[of_target]["per_year"],
+            &target["bands"][of_target]["value"],
+            &target["bands"][of_target]["per_year"],
         ];
         own.into_iter().filter(|value| !value.is_null()).map(limits).collect::<Vec<_>>()
     };
-    [numbers("by_record", "band"), numbers("with_hazard", "band_with_hazard")]
+    [numbers("by_record", 0), numbers("with_hazard", 1)]
 }
 
 #[test]

@@ -172,7 +172,7 @@ fn report_and_exports_tell_what_was_printed() {
     assert_eq!(row(overturning, "overturning, block")["value"], block["sites"][0]["per_year"]);
     let least = row(target, "least size that meets the target");
     assert_eq!(least["value"], target["document"]["value"]);
-    assert_eq!([&least["lower"], &least["upper"]], [0, 2].map(|limit| &target["document"]["band"]["value"][limit]));
+    assert_eq!([&least["lower"], &least["upper"]], [0, 1].map(|limit| &target["document"]["bands"][0]["value"][limit]));
     assert_eq!(row(risk, "demand, planar frame")["value"], risk["document"]["demands"][0]["demand_m"]["value"]);
     // and where there are thousands of bytes
     let mat = std::fs::read(study.path().join("r.mat")).unwrap();
@@ -193,18 +193,24 @@ fn a_target_of_uncertain_structures_keeps_every_band() {
     study.uplift(&["export", "r.h5", "--json", "-q"]).ok();
     let text = std::fs::read_to_string(study.path().join("r.json")).unwrap();
     let answer = serde_json::from_str::<Value>(&text).unwrap()["structures"][0].clone();
+    let bands = answer["document"]["bands"].as_array().unwrap();
+    let of: Vec<&str> = bands.iter().map(|band| band["of"].as_str().unwrap()).collect();
+    assert_eq!(of, ["records", "structure and records"]);
     for (quantity, of) in
         [("least size that meets the target", "value"), ("overturning at the value found", "per_year")]
     {
         let rows: Vec<&Value> =
             answer["rows"].as_array().unwrap().iter().filter(|row| row["quantity"] == quantity).collect();
-        assert_eq!(rows.len(), 3, "{answer:#}");
-        let bands = &answer["document"]["uncertainty"];
-        let drawn = [("by_structure", "structure"), ("by_all", "structure and records")];
-        for (row, (band, words)) in rows[1..].iter().zip(drawn) {
-            let band = &bands[band][of];
-            assert_eq!([&row["lower"], &row["upper"]], [&band[0], &band[2]], "{row}");
-            assert_eq!(row["band"], words);
+        for (row, band) in rows.iter().zip(bands) {
+            assert_eq!([&row["lower"], &row["upper"]], [&band[of][0], &band[of][1]], "{row}");
+            assert_eq!(row["band"], band["of"]);
+        }
+        // the value that each branch needs has percentiles too
+        let by_structure = &answer["document"]["uncertainty"]["by_structure"];
+        assert_eq!(rows.len(), if of == "value" { 3 } else { 2 }, "{answer:#}");
+        if let Some(row) = rows.get(2) {
+            assert_eq!((&row["lower"], &row["upper"]), (&by_structure[0], &by_structure[2]));
+            assert_eq!(row["band"], "structure");
         }
     }
 }

@@ -57,8 +57,16 @@ fn target_and_risk_are_inverses() {
     let poe = format!("{}", -(-50.0_f64 * 2e-3).exp_m1());
     let same = json(&study, &["--poe", &poe, "--years", "50", "--vary", "width", "--tolerance", "1e-3"]);
     assert_eq!(same["value"], found["value"]);
-    let band: Vec<f64> = found["band"]["value"].as_array().unwrap().iter().map(number).collect();
-    assert!(band[0] < band[2] && band[0] <= value && value <= band[2], "{band:?} {value}");
+    let band: Vec<f64> = found["bands"][0]["value"].as_array().unwrap().iter().map(number).collect();
+    assert!(band[0] < band[1] && band[0] <= value && value <= band[1], "{band:?} {value}");
+    // the safe value, as it is printed, meets the target too, and is the upper limit
+    let safe = number(&found["safe_value"]);
+    assert!(value <= safe && band[1] <= safe && safe <= 1.001 * band[1], "{band:?} {safe}");
+    assert_eq!(overturning_per_year(safe).to_bits(), number(&found["safe_risk"]["per_year"]).to_bits());
+    assert!(overturning_per_year(safe) <= 2e-3);
+    let ask = ["target", "frame.toml", "--urs", "r.h5", "--overturning", "2e-3", "--vary", "width"];
+    let shown = study.uplift(&[&ask[..], &["--tolerance", "1e-3"]].concat()).ok().stdout;
+    assert!(shown.starts_with(&format!("Safe width {safe} m; best estimate {value} m (")), "{shown}");
     let at = found["at_return_periods"].as_array().unwrap();
     assert!(number(&at[0]["probability"]) <= number(&at[1]["probability"]) && at[1]["records"] == 20, "{found}");
 }
@@ -209,4 +217,18 @@ fn what_the_result_was_made_from_is_never_replaced() {
         study.uplift(&ask).fails(2, &["pga.csv would overwrite an input"]);
     }
     assert_eq!(std::fs::read(study.path().join("pga.csv")).unwrap(), curve);
+}
+
+// A frame on cylinders wobbles, and what is found is the width of its oscillator: the first line says so.
+#[test]
+fn the_width_of_a_frame_that_wobbles_is_that_of_its_proxy() {
+    let study = study();
+    let first_line = |text: &str| {
+        study.write("frame.toml", text);
+        let ask = ["target", "frame.toml", "--urs", "r.h5", "--overturning", "2e-3", "--vary", "width"];
+        study.uplift(&[&ask[..], &["--tolerance", "0.05"]].concat()).ok().stdout.lines().next().unwrap().to_owned()
+    };
+    assert!(!first_line(&frame(0.6)).contains("proxy"));
+    let wobbles = first_line(&format!("{}column_shape = \"cylinder\"\n", frame(0.6)));
+    assert!(wobbles.ends_with(", by its proxy alone"), "{wobbles}");
 }

@@ -187,7 +187,7 @@ class StructureCommands:
         Returns
         -------
         dict
-            "value" and its "band", every crossing, and every value tried.
+            "safe_value", the best estimate "value" and its "bands", every crossing, what was tried.
         """
         options = {
             "vary": vary,

@@ -170,6 +170,32 @@ fn interval(
     rates.mean().interval(&StudentQuantiles::new(confidence, units.len()))
 }
 
+/// Limits of the rate of all records there could be, 1/yr, where each record at hand contributes so much and the mean
+/// of them is the rate: what [`inferred_rate`] tells of single runs. NaN of a single unit; both the rate where no
+/// record differs from another.
+///
+/// - `contributions_per_year`: of each record, 1/yr, `[record]`.
+/// - `units`: the records of each unit, `[unit]`, by their positions; each record in one of them.
+///
+/// # Errors
+/// Units of other records.
+pub fn inferred_mean(
+    contributions_per_year: &[f64],
+    units: &[Vec<usize>],
+    confidence: f64,
+) -> Result<[f64; 2], RiskError> {
+    let mean = mean_of(contributions_per_year, units)?;
+    Ok(mean.interval(&StudentQuantiles::new(confidence, units.len())))
+}
+
+/// The mean of what each record contributes, 1/yr, with the scatter of its units.
+pub(crate) fn mean_of(contributions_per_year: &[f64], units: &[Vec<usize>]) -> Result<SkewedMean, RiskError> {
+    fits("records of the units", units.iter().map(Vec::len).sum(), contributions_per_year.len())?;
+    let mut rates = UnitRates::new(units);
+    contributions_per_year.iter().enumerate().for_each(|(record, per_year)| rates.add(record, *per_year));
+    Ok(rates.mean())
+}
+
 /// A step of a displacement that falls through all runs.
 pub(crate) enum Step {
     /// No run lies between these displacements, m, the lower one first.
@@ -243,11 +269,12 @@ pub(crate) fn check_target(rate: f64) -> Result<(), RiskError> {
 
 /// Whether these belong together.
 pub(crate) fn check(demand: &PooledDemand, weights: &StripeWeights, units: &[Vec<usize>]) -> Result<(), RiskError> {
-    let fits = |what, found, expected| {
-        if found == expected { Ok(()) } else { Err(RiskError::Count { what, found, expected }) }
-    };
     fits("records of the units", units.iter().map(Vec::len).sum(), demand.record_count())?;
     fits("stripe weights", weights.level_count(), demand.level_count())
+}
+
+fn fits(what: &'static str, found: usize, expected: usize) -> Result<(), RiskError> {
+    if found == expected { Ok(()) } else { Err(RiskError::Count { what, found, expected }) }
 }
 
 /// The displacements of a band, while they are gone through from above.

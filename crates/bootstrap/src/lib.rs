@@ -11,6 +11,8 @@
 //!   resampling; [`inferred_rate`]: the same of the rate at which something is exceeded.
 //! - [`repaired_limits`], [`repaired_rate`]: the same of records with weights by which they bring a site's hazard.
 //! - [`inferred_limits_over_curves`], [`inferred_rate_over_curves`]: the same where there are weighted hazard curves.
+//! - [`inferred_mean`], [`inferred_mean_over_alternatives`]: the same of a rate of which each record's part is known;
+//!   [`falling`], [`crossing`]: the value at which such a rate meets a target.
 //! - [`simultaneous_bands`]: a band that holds whole spectra.
 //! - [`error_of_median`], [`range_of_interval`]: the two figures of Table 4.1 (Eq. 4.9, 4.10).
 //! - [`leave_one_out`]: the ordinates without each record, for influence and for BCa.
@@ -24,6 +26,7 @@
 
 mod accuracy;
 mod error;
+mod falling;
 mod inferred;
 mod interval;
 mod jackknife;
@@ -40,10 +43,11 @@ mod weighted_replicates;
 
 pub use accuracy::{error_of_median, range_of_interval};
 pub use error::BootstrapError;
-pub use inferred::{InferredLimits, inferred_limits, inferred_rate, repaired_limits, repaired_rate};
+pub use falling::{crossing, falling};
+pub use inferred::{InferredLimits, inferred_limits, inferred_mean, inferred_rate, repaired_limits, repaired_rate};
 pub use interval::{Band, Interval};
 pub use jackknife::{acceleration, leave_one_out, without_each};
-pub use over_curves::{inferred_limits_over_curves, inferred_rate_over_curves};
+pub use over_curves::{inferred_limits_over_curves, inferred_mean_over_alternatives, inferred_rate_over_curves};
 pub use plan::ResamplingPlan;
 pub use replicates::Replicates;
 pub use simultaneous::simultaneous_bands;

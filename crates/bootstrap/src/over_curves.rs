@@ -3,7 +3,7 @@
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use uplift_risk::{PooledDemand, RiskError, StripeWeights};
 
-use crate::inferred::{Rates, Search, Step, check, check_target, fall};
+use crate::inferred::{Rates, Search, Step, check, check_target, fall, mean_of};
 use crate::skewed_mean::{SkewedMean, StudentQuantiles};
 
 /// Limits of the rate at which `threshold_m` is exceeded, 1/yr, by all records there could be and by one of several
@@ -27,7 +27,7 @@ pub fn inferred_rate_over_curves(
     units: &[Vec<usize>],
     (threshold_m, confidence): (f64, f64),
 ) -> Result<[f64; 2], RiskError> {
-    let mixture = Mixture::new(curves, units, confidence);
+    let mixture = Mixture::new(weights_of(curves), units, confidence);
     let mut means = Vec::with_capacity(curves.len());
     for (_, weights) in curves {
         check(demand, weights, units)?;
@@ -60,7 +60,7 @@ pub fn inferred_limits_over_curves(
     if units.len() < 2 || curves.is_empty() {
         return Ok([f64::NAN; 2]);
     }
-    let mixture = Mixture::new(curves, units, confidence);
+    let mixture = Mixture::new(weights_of(curves), units, confidence);
     let per_year: Vec<Vec<f64>> = curves.iter().map(|(_, weights)| weights.per_year()).collect();
     let mut rates: Vec<Rates> = curves.iter().map(|_| Rates::of(demand, units)).collect();
     let mut means = Vec::with_capacity(curves.len());
@@ -82,6 +82,28 @@ pub fn inferred_limits_over_curves(
     Ok(search.limits_m())
 }
 
+/// Limits of the rate, 1/yr, where each record contributes so much by each of several alternatives, hazard curves or
+/// structures, of which one holds: what [`inferred_mean`](crate::inferred_mean) tells of one. NaN of a single unit, and
+/// of no alternative.
+///
+/// - `alternatives`: weight of each, and what every record contributes by it, 1/yr, `[record]`; the weights need not
+///   add up to 1.
+///
+/// # Errors
+/// Units of other records.
+pub fn inferred_mean_over_alternatives(
+    alternatives: &[(f64, Vec<f64>)],
+    units: &[Vec<usize>],
+    confidence: f64,
+) -> Result<[f64; 2], RiskError> {
+    let means = alternatives.iter().map(|(_, of)| mean_of(of, units)).collect::<Result<Vec<_>, _>>()?;
+    Ok(Mixture::new(weights_of(alternatives), units, confidence).interval(&means))
+}
+
+fn weights_of<T>(weighted: &[(f64, T)]) -> impl Iterator<Item = f64> + Clone {
+    weighted.iter().map(|(weight, _)| *weight)
+}
+
 /// The confidence of several curves together.
 struct Mixture {
     /// Of each curve; they add up to 1.
@@ -94,11 +116,11 @@ struct Mixture {
 }
 
 impl Mixture {
-    fn new(curves: &[(f64, StripeWeights)], units: &[Vec<usize>], confidence: f64) -> Self {
-        let total: f64 = curves.iter().map(|(weight, _)| weight).sum();
+    fn new(weights: impl Iterator<Item = f64> + Clone, units: &[Vec<usize>], confidence: f64) -> Self {
+        let total: f64 = weights.clone().sum();
         let students = (1..=units.len().max(1)).map_while(|freedom| StudentsT::new(0.0, 1.0, freedom as f64).ok());
         Self {
-            weights: curves.iter().map(|(weight, _)| weight / total).collect(),
+            weights: weights.map(|weight| weight / total).collect(),
             tail: 0.5 * (1.0 - confidence),
             quantiles: StudentQuantiles::new(confidence, units.len()),
             students: students.collect(),
@@ -172,9 +194,7 @@ mod tests {
     use crate::skewed_mean::tests::of;
 
     fn mixture(weights: &[f64], units: usize) -> Mixture {
-        let curves: Vec<(f64, StripeWeights)> =
-            weights.iter().map(|weight| (*weight, StripeWeights::new(&[1.0, 0.5], None).unwrap())).collect();
-        Mixture::new(&curves, &vec![vec![0]; units], 0.9)
+        Mixture::new(weights.iter().copied(), &vec![vec![0]; units], 0.9)
     }
 
     // Records that do not scatter: what is left is which curve holds.

@@ -15,7 +15,7 @@ use super::design::DesignReport;
 use super::frame_risk::{FrameRiskReport, ModelDemand};
 use super::overturning::{CollapseReport, OverturningOptions, OverturningReport};
 use super::own_frame::FrameModel;
-use super::target::{TargetOptions, TargetReport};
+use super::target::{TargetBand, TargetOptions, TargetReport};
 use super::uncertain::{AleatoryResult, EpistemicResult, UncertainFinding, UncertaintyReport};
 use crate::error::DesignError;
 pub use keep::keep;
@@ -257,37 +257,28 @@ impl TargetReport {
     fn finding_rows(&self) -> Vec<FindingRow> {
         let row = |what: String, value: f64, unit: &str| FindingRow::new(what, value, unit).at(&self.site, self.im);
         let of_quantity = |what: String, value: f64| row(what, value, self.quantity_unit);
-        let resampled = self.band.drawn.words();
-        let [lower, _, upper] = self.band.value;
         let quantity = self.quantity;
-        let mut rows = vec![
-            of_quantity(format!("least {quantity} that meets the target"), self.value)
-                .within([lower, upper], &resampled),
-            of_quantity(format!("{quantity} that misses it"), self.missed_at),
-        ];
+        let least = of_quantity(format!("least {quantity} that meets the target"), self.value);
+        let of_bands = |row: &FindingRow, limits: fn(&TargetBand) -> [f64; 2]| -> Vec<FindingRow> {
+            let banded = |band: &TargetBand| row.clone().within(limits(band), &band.of);
+            if self.bands.is_empty() { vec![row.clone()] } else { self.bands.iter().map(banded).collect() }
+        };
+        let mut rows = vec![of_quantity(format!("safe {quantity}"), self.safe_value)];
+        rows.extend(of_bands(&least, |band| band.value));
+        rows.push(of_quantity(format!("{quantity} that misses it"), self.missed_at));
         rows.extend(self.own_value.map(|own| of_quantity(format!("{quantity} of the structure"), own)));
         rows.extend(self.crossings.iter().map(|crossing| {
             let becomes = if crossing.becomes_met { "met" } else { "missed" };
             of_quantity(format!("target {becomes} from here on, {quantity}"), crossing.to)
         }));
-        let [lower, _, upper] = self.band.per_year;
         let there = row(format!("{} at the value found", self.event), self.risk.per_year, "1/yr");
-        rows.push(match self.risk.at_most_per_year {
-            Some(bound) => there.clone().within([f64::NAN, bound], "at most"),
-            None => there.clone().within([lower, upper], &resampled),
-        });
-        // hazard curves or structures drawn too: other bands of the same numbers
-        let uncertain = self.uncertainty.iter().flat_map(|of| [&of.by_structure, &of.by_all]).flatten();
-        for band in self.band_with_hazard.iter().chain(uncertain) {
-            let [lower, _, upper] = band.value;
-            let least = of_quantity(format!("least {quantity} that meets the target"), self.value);
-            rows.push(least.within([lower, upper], &band.drawn.words()));
+        match self.risk.at_most_per_year {
             // of what no run shows there is a bound, and no band
-            if self.risk.at_most_per_year.is_none() {
-                let [lower, _, upper] = band.per_year;
-                rows.push(there.clone().within([lower, upper], &band.drawn.words()));
-            }
+            Some(bound) => rows.push(there.within([f64::NAN, bound], "at most")),
+            None => rows.extend(of_bands(&there, |band| band.per_year)),
         }
+        let by_structure = self.uncertainty.as_ref().and_then(|of| of.by_structure);
+        rows.extend(by_structure.map(|[lower, _, upper]| least.within([lower, upper], "structure")));
         rows.push(row("strength of the spectrum at the value found".to_owned(), self.found.spectral_strength, "1"));
         rows.extend(self.found.capacity_m.map(|m| row("displacement capacity at the value found".to_owned(), m, "m")));
         rows.extend(self.at_return_periods.iter().map(|of| {

@@ -40,7 +40,7 @@ pub use report::{ReportSource, StructureReport};
 pub use rules::{RuleCheck, RuleOutcome};
 pub use spectrum::SpectrumDemand;
 pub use target::{
-    Crossing, Drawn, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrequency, TargetOptions,
+    Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrequency, TargetOptions,
     TargetReport, TargetUncertainty, TriedValue, target,
 };
 pub use uncertain::{

@@ -1,8 +1,9 @@
 //! The least strength, size, width, capacity or tendon stiffness with which a structure meets a target risk.
 //!
 //! The risk of each value that is tried is that of the structure's own oscillator under the records and the hazard of a
-//! result, from exact stripes. Counts of records step, and a chaotic system may step back: every crossing of the target
-//! is followed, and the value that is reported is the one from which on all that was tried meets it.
+//! result, from exact stripes. Counts of records step, and a chaotic system may step back: the best estimate is the
+//! value from which on all that was tried meets the target. The safe value is the one at which the upper limit of the
+//! frequency's band meets it. Values have as many digits as are printed.
 
 mod band;
 mod candidate;
@@ -17,11 +18,11 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use uplift_hazard::HazardCurve;
 use uplift_risk::risk_targeted_level;
-use uplift_spectra::{NoiseSweep, Noisy};
+use uplift_spectra::Noisy;
 use uplift_structure::EquivalentSystem;
 use uplift_study::Structure;
 
-pub use band::{Drawn, TargetBand, TargetUncertainty};
+pub use band::{TargetBand, TargetUncertainty};
 pub use request::{TargetEvent, TargetFrequency, TargetOptions};
 pub use search::Crossing;
 
@@ -33,8 +34,9 @@ use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::uncertain::Spread;
 use crate::error::DesignError;
+use band::Frequencies;
 use candidate::Attempt;
-use search::{crossings, search, spread};
+use search::{crossings, digits, extend, lattice, least, narrow, rounded_up, spread};
 use trial::Trials;
 use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
 use uplift_job::JobError;
@@ -43,15 +45,20 @@ use uplift_job::events::Events;
 use uplift_job::text::rate;
 use uplift_result::ResultFile;
 use uplift_uniform_risk::EventRisk;
-use uplift_uniform_risk::consistency::Question;
 use words::{Words, assumptions, with_mistakes};
 
 /// Values tried before the search narrows, over the range.
-const VALUES: usize = 33;
+const VALUES: usize = 13;
 /// How far the range reaches below and above the structure's own value, where it is not given.
 const REACH: f64 = 4.0;
-/// Half the width of the sweep that shows the noise, relative to the value, and its points.
-const NOISE: (f64, usize) = (0.01, 11);
+/// Steps of the values tried within the band, and just above the best estimate, relative to the value.
+const STEPS: [f64; 2] = [0.04, 0.01];
+/// Up to how many times the best estimate, or to the safe value, the noise of single records is looked for.
+const NOISY: f64 = 1.1;
+/// Rounds in which new values may move the ends between which they are tried.
+const ROUNDS: usize = 4;
+/// Half the width about the value in which the frequencies show the noise, relative to it.
+const NOISE: f64 = 0.01;
 
 /// The report of a search for a target risk.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -75,11 +82,18 @@ pub struct TargetReport {
     pub own_value: Option<f64>,
     /// What must not happen more often: `overturning`, or which displacement is exceeded.
     pub event: String,
+    /// Whether it is a frame that can wobble: all numbers are those of its proxy, the oscillator.
+    pub by_proxy: bool,
     /// How often it may happen, 1/yr.
     pub target_per_year: f64,
     /// Years that probabilities refer to.
     pub years: f64,
-    /// The least value from which on everything tried meets the target.
+    /// The value at which the upper limit of the fullest band of the frequency meets the target; infinite beyond the
+    /// values searched.
+    pub safe_value: f64,
+    /// The risk at it; none beyond the values searched.
+    pub safe_risk: Option<EventRisk>,
+    /// The best estimate: the least value from which on everything tried meets the target.
     pub value: f64,
     /// The largest value tried that misses it.
     pub missed_at: f64,
@@ -91,10 +105,8 @@ pub struct TargetReport {
     pub found: FoundSystem,
     /// The frequency within one per cent of the value, 1/yr: the noise of a chaotic system.
     pub per_year_within_one_percent: Noisy,
-    /// What other records would have given.
-    pub band: TargetBand,
-    /// The same with each of the weighted hazard curves of the site; none where it has but one.
-    pub band_with_hazard: Option<TargetBand>,
+    /// Bands of the value, the one that takes account of most last; none of a single record.
+    pub bands: Vec<TargetBand>,
     /// The structures that every value may be; none where the structure file says that all is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<TargetUncertainty>,
@@ -233,7 +245,9 @@ pub fn target(
     trials.refuse_untellable(place.name, target_per_year)?;
 
     let meets = |attempt: &Attempt| attempt.meets(target_per_year);
-    let tried = search(spread(range, VALUES), options.tolerance, |values| trials.attempt(values), meets)?;
+    let of_records = (&hazard, &scatter);
+    let Searched { tried, frequencies, safe_value } =
+        searched((&mut trials, of_records), range, options.tolerance, target_per_year)?;
     let words = Words { options, target_per_year };
     let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
     let mut alarms = alarms_of_inputs(&file, &scope)?;
@@ -250,9 +264,7 @@ pub fn target(
     let (value, found) = (tried[at].0, &tried[at].1);
     let crossings = crossings(&tried, meets);
     let mut notes = words.notes(&crossings, &tried);
-    let neighbours: Vec<f64> = NoiseSweep::new(NOISE.0, NOISE.1)?.factors().iter().map(|by| by * value).collect();
-    let noise: Vec<f64> = trials.attempt(&neighbours)?.iter().map(|attempt| attempt.risk.per_year).collect();
-    let noise = Noisy::of(&noise);
+    let noise = noise_about(&tried, at);
     if noise.highest > target_per_year {
         notes.push(format!(
             "values within 1 % of it have {} to {} per year: choose the value with a margin",
@@ -261,18 +273,17 @@ pub fn target(
         ));
     }
     notes.extend(assumptions(structure, &file, trials.restitution()));
-    notes.extend(OwnFrame::is_described(structure).then(|| {
-        "the value is for the proxy, the equivalent oscillator: check the wobbling frame with uplift design".to_owned()
-    }));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
     let counts = (trials.record_count(), trials.pairs().len());
     let event = options.event.words();
     alarms.extend(own_risk_alarms(&[own_risk((&event, found.risk), (place.name, measure), counts)]));
-    let motions = Question::from_motions(&file)?;
-    let bands = band::band((&tried, at), (target_per_year, &hazard), &source.study, &motions)?;
+    let bands = frequencies.bands(value, target_per_year);
+    // where the safe value itself misses the target
+    let safe_value = safe_value.max(value);
+    let safe = tried.iter().find(|(tried, _)| tried.total_cmp(&safe_value).is_eq());
     let mut report = TargetReport {
-        uncertainty: trials.around().map(|around| TargetUncertainty::from_bands(around, bands.structures)),
+        uncertainty: trials.around().map(|around| TargetUncertainty::from_tried(around, &tried, target_per_year)),
         structure: StructureReport::from_structure(structure, Some(trials.restitution())),
         site: place.name.to_owned(),
         im: measure.measure().label(),
@@ -281,16 +292,18 @@ pub fn target(
         quantity_unit: options.quantity.unit(),
         own_value,
         event,
+        by_proxy: OwnFrame::is_described(structure),
         target_per_year,
         years,
+        safe_value,
+        safe_risk: safe.map(|(_, attempt)| attempt.risk),
         value,
         missed_at: tried[at - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
         risk: found.risk,
         found: FoundSystem::from_system(&found.candidate.system),
         per_year_within_one_percent: noise,
-        band: bands.records,
-        band_with_hazard: bands.with_hazard,
+        bands,
         crossings,
         at_return_periods,
         generic: generic.flatten(),
@@ -310,6 +323,61 @@ pub fn target(
     }
     trials.finish();
     Ok(report)
+}
+
+/// What a search has tried.
+struct Searched {
+    /// Everything, ascending.
+    tried: Vec<(f64, Attempt)>,
+    /// Without the safe value, which follows from them.
+    frequencies: Frequencies,
+    /// Infinite beyond the range.
+    safe_value: f64,
+}
+
+/// Tries values of the `range`: few all over it, more within the band, and most just above the best estimate.
+fn searched(
+    (trials, of_records): (&mut Trials<'_>, (&Hazard<'_>, &Scatter)),
+    range: [f64; 2],
+    tolerance: f64,
+    target_per_year: f64,
+) -> Result<Searched, DesignError> {
+    let meets = |attempt: &Attempt| attempt.meets(target_per_year);
+    let digits = digits(tolerance);
+    let mut tried = Vec::new();
+    let attempt = &mut |values: &[f64]| trials.attempt(values);
+    extend(&mut tried, spread(range, VALUES, digits), attempt)?;
+    for (part, step) in STEPS.into_iter().enumerate() {
+        for _ in 0..ROUNDS {
+            let [best, lower, upper] = Frequencies::of(&tried, of_records)?.crossings(target_per_year);
+            // missed by the largest, or met by all
+            if least(&tried, meets).is_none_or(|at| at == 0) {
+                break;
+            }
+            let ends = [[lower, upper], [best, upper.min(NOISY * best)]][part];
+            let next = lattice(&tried, ends, step.max(tolerance), digits);
+            if !extend(&mut tried, next, attempt)? {
+                break;
+            }
+        }
+    }
+    narrow(&mut tried, (tolerance, digits), &mut *attempt, meets)?;
+    let frequencies = Frequencies::of(&tried, of_records)?;
+    // by these, whatever the safe value shows
+    let [_, _, upper] = frequencies.crossings(target_per_year);
+    let best = least(&tried, meets).map_or(f64::INFINITY, |at| tried[at].0);
+    let safe_value = rounded_up(upper, digits).max(best);
+    if safe_value.is_finite() {
+        extend(&mut tried, vec![safe_value], attempt)?;
+    }
+    Ok(Searched { tried, frequencies, safe_value })
+}
+
+/// The frequencies of what was `tried` near the value at this position.
+fn noise_about(tried: &[(f64, Attempt)], at: usize) -> Noisy {
+    let (value, found) = &tried[at];
+    let near = tried.iter().filter(|(other, _)| (other / value - 1.0).abs() <= NOISE);
+    Noisy::around(found.risk.per_year, near.map(|(_, attempt)| attempt.risk.per_year))
 }
 
 /// What the generic fragility that was asked for makes of `curve`; none where none was.

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{Drawn, TargetBand, TargetReport};
+use uplift::structure::{TargetBand, TargetReport};
 use uplift::text::{Table, per_cent, short, thousands};
 
 use super::alarms::print_warnings;
@@ -23,20 +23,30 @@ pub(crate) fn print_target(report: &TargetReport, terminal: &Terminal) -> Result
     print_more(out, terminal)
 }
 
-/// The least value with its band, and what it is for.
+/// The safe value, then the best estimate with its band, and what they are for.
 fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
     let TargetReport { event, site, im, quantity, target_per_year, value, .. } = report;
+    // values that were tried have few digits: printed whole, they can be tried again
     let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
-    let own = report.own_value.map_or_else(String::new, |own| format!("; the structure has {}", unit(short(own))));
-    let [lower, _, upper] =
-        report.band.value.map(|of| if of.is_finite() { short(of) } else { "beyond the range".to_owned() });
-    let confidence = per_cent(report.band.confidence);
-    writeln!(out, "Least     {quantity} {} ({confidence} band {lower} to {upper}){own}", unit(short(*value)))?;
+    let safe = limit(report.safe_value, report);
+    let band = report.bands.last().map_or_else(String::new, |band| {
+        let upper = if report.safe_value.is_finite() { report.safe_value.to_string() } else { "beyond".to_owned() };
+        format!(" ({} to {upper}, 90 % by {})", short(band.value[0]), band.of)
+    });
+    let whose = if report.by_proxy { ", by its proxy alone" } else { "" };
+    writeln!(out, "Safe {quantity} {safe}; best estimate {}{band}{whose}", unit(value.to_string()))?;
     let years = 1.0 / target_per_year;
     writeln!(out, "Target    {event} at most {} per year (once in {years:.0} years)", rate(*target_per_year))?;
     let [per_year, ..] = risk_cells(&report.risk);
-    writeln!(out, "Risk      {per_year} per year; the target is missed at {}", unit(short(report.missed_at)))?;
-    writeln!(out, "At        {site} by {im}; {}", report.source.record_set)?;
+    let at_safe =
+        report.safe_risk.map_or_else(String::new, |risk| format!(", {} at the safe value", risk_cells(&risk)[0]));
+    writeln!(out, "Risk      {per_year} per year at the best estimate{at_safe}")?;
+    if report.least_met < report.missed_at {
+        let [met, missed] = [report.least_met, report.missed_at].map(|value| unit(value.to_string()));
+        writeln!(out, "Noise     {met} meets the target too, but {missed} misses it")?;
+    }
+    let own = report.own_value.map_or_else(String::new, |own| format!("; the structure has {}", unit(short(own))));
+    writeln!(out, "At        {site} by {im}; {}{own}", report.source.record_set)?;
     Ok(())
 }
 
@@ -57,14 +67,8 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
     for note in &report.notes {
         writeln!(out, "note       {note}")?;
     }
-    let own = report.own_value.map_or_else(String::new, |own| format!("; the structure has {}", unit(short(own))));
-    writeln!(out, "\nThe least {quantity} that meets it: {}{own}", unit(short(*value)))?;
-    writeln!(
-        out,
-        "  missed at {}, and met at everything tried from {} on",
-        unit(short(report.missed_at)),
-        short(*value)
-    )?;
+    let missed = unit(report.missed_at.to_string());
+    writeln!(out, "\nThe least {quantity} that meets it: {}; {missed} misses it", unit(value.to_string()))?;
     let [per_year, probability, return_period] = risk_cells(&report.risk);
     writeln!(
         out,
@@ -73,13 +77,12 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
     )?;
     let noise = &report.per_year_within_one_percent;
     writeln!(out, "  within 1 % of it     {} to {} per year", rate(noise.lowest), rate(noise.highest))?;
-    print_band(out, report, &report.band)?;
-    if let Some(band) = &report.band_with_hazard {
+    for band in &report.bands {
         print_band(out, report, band)?;
     }
-    let uncertain = report.uncertainty.iter();
-    for band in uncertain.flat_map(|uncertain| [&uncertain.by_structure, &uncertain.by_all]).flatten() {
-        print_band(out, report, band)?;
+    if let Some(percentiles) = report.uncertainty.as_ref().and_then(|of| of.by_structure) {
+        let [lower, median, upper] = percentiles.map(|value| limit(value, report));
+        writeln!(out, "  by structure         {lower} to {upper}, median {median} (90 % of the structures)")?;
     }
     let found = &report.found;
     let capacity = found.capacity_m.map_or_else(|| "none".to_owned(), |capacity_m| format!("{capacity_m:.4} m"));
@@ -104,32 +107,22 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
 }
 
 fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) -> Result<(), CommandError> {
-    let [lower, median, upper] = band.value.map(|value| {
-        if value.is_finite() {
-            format!("{} {}", short(value), report.quantity_unit).trim_end().to_owned()
-        } else {
-            "beyond the range".to_owned()
-        }
-    });
-    let (drawn, whose) = match band.drawn {
-        Drawn { records: None, .. } => (format!("by {}", band.drawn.words()), "structures"),
-        Drawn { hazard: true, structures: false, .. } => (band.drawn.words(), "pairs of a resample and a hazard curve"),
-        _ => (band.drawn.words(), "resamples"),
-    };
-    writeln!(
-        out,
-        "  {drawn:<19}  {lower} to {upper}, median {median} ({} of {} {whose})",
-        per_cent(band.confidence),
-        band.replicates
-    )?;
-    let [lower, _, upper] = band.per_year;
-    writeln!(out, "                       {} to {} per year at the value found", rate(lower), rate(upper))?;
-    for (share, where_to) in [(band.below_share, "below"), (band.beyond_share, "above")] {
-        if share > 0.0 {
-            writeln!(out, "                       {} of the {whose} lie {where_to} the range", per_cent(share))?;
-        }
-    }
+    let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
+    let [lower, upper] =
+        band.value.map(|value| if value.is_finite() { unit(short(value)) } else { limit(value, report) });
+    writeln!(out, "  {:<19}  {lower} to {upper} (90 % confidence)", band.of)?;
+    let [lower, upper] = band.per_year;
+    writeln!(out, "                       {} to {} per year at the best estimate", rate(lower), rate(upper))?;
     Ok(())
+}
+
+/// A limit of the value with its unit.
+fn limit(value: f64, report: &TargetReport) -> String {
+    if value.is_finite() {
+        format!("{value} {}", report.quantity_unit).trim_end().to_owned()
+    } else {
+        "beyond the range".to_owned()
+    }
 }
 
 fn print_crossings(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {

@@ -30,11 +30,10 @@ pub(super) struct Attempt {
     pub(super) candidate: Candidate,
     /// On average over the structures that it may be.
     pub(super) risk: EventRisk,
-    /// What each record contributes on average: the sum of its weights where it happens, 1/yr; their mean is the
-    /// frequency.
+    /// What each record contributes on average by the mean hazard curve, 1/yr: their mean is the frequency.
     pub(super) record_per_year: Vec<f64>,
-    /// To which share of its structures it happens, 0 to 1, `[record, level]`.
-    pub(super) happening: Vec<f64>,
+    /// The same by every weighted hazard curve, `[curve][record]`; none where there is but one.
+    pub(super) by_branch: Vec<Vec<f64>>,
     /// The same risk of every branch; of one where all is known, and where each record has structures of its own.
     pub(super) structures: Vec<StructureRisk>,
 }
@@ -50,12 +49,6 @@ pub(super) struct StructureRisk {
 }
 
 impl Attempt {
-    /// What each record contributes on average where a level weighs `per_year`, 1/yr.
-    pub(super) fn record_per_year_by(&self, per_year: &[f64]) -> Vec<f64> {
-        let of_record = |shares: &[f64]| shares.iter().zip(per_year).map(|(share, weight)| share * weight).sum();
-        self.happening.chunks_exact(per_year.len()).map(of_record).collect()
-    }
-
     pub(super) fn meets(&self, target_per_year: f64) -> bool {
         self.risk.per_year <= target_per_year
     }

@@ -1,81 +1,128 @@
-//! Values of a quantity tried until every place between a met and a missed target is narrow enough.
+//! Values of a quantity that are tried, until the largest that misses a target lies near enough to the next.
 
 use serde::Serialize;
 
 use crate::error::DesignError;
 
-/// Parts into which the interval between a met and a missed value is cut at once.
-const PARTS: usize = 4;
+/// Rounds of halving, so that the widest interval ends at neighbouring numbers.
+const ROUNDS: usize = 64;
 
-/// Rounds of cutting: a quarter each, so that the widest interval ends at neighbouring numbers.
-const ROUNDS: usize = 32;
-
-/// Crossings that are followed: more are noise, told as they were found.
-pub(super) const MOST_CROSSINGS: usize = 12;
+/// Most steps of a lattice.
+const MOST_STEPS: f64 = 20.0;
 
 /// Where the frequency crosses the target, between two values that were analysed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Crossing {
-    /// The smaller value.
+    /// The lower value.
     pub from: f64,
-    /// The larger value.
+    /// The upper value.
     pub to: f64,
-    /// Whether the target is met at the larger value, and missed at the smaller.
+    /// Whether the target is met from here on; missed otherwise.
     pub becomes_met: bool,
 }
 
-/// Values from `from` to `to`, `count` of them, each the same factor above the one before.
-pub(super) fn spread([from, to]: [f64; 2], count: usize) -> Vec<f64> {
+/// Values from `from` to `to`, `count` of them, each about the same factor above the one before, with so many `digits`:
+/// what is printed is what was tried.
+pub(super) fn spread([from, to]: [f64; 2], count: usize, digits: usize) -> Vec<f64> {
     let steps = count.saturating_sub(1).max(1);
-    let at = |step: usize| from * (to / from).powf(step as f64 / steps as f64);
-    let mut values: Vec<f64> = (0..steps).map(at).collect();
+    let at = |step: usize| rounded(from * (to / from).powf(step as f64 / steps as f64), digits);
+    let mut values: Vec<f64> = std::iter::once(from).chain((1..steps).map(at)).collect();
+    values.retain(|value| *value < to);
     values.push(to);
+    values.dedup();
     values
 }
 
-/// Tries `values`, ascending, and then between every two neighbours of which one `meets` the target and the other does
-/// not, until these differ by no more than the share `tolerance` of the smaller. Everything tried, ascending.
+/// Significant digits of values that a `tolerance` tells apart.
+pub(super) fn digits(tolerance: f64) -> usize {
+    // a tenth of the tolerance, and no less than what is usual
+    (4..17_usize).find(|digits| tolerance >= 10.0_f64.powf(1.0 - *digits as f64)).unwrap_or(17)
+}
+
+/// `value` with so many significant `digits`.
+pub(super) fn rounded(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
+}
+
+/// The same, and not below `value`.
+pub(super) fn rounded_up(value: f64, digits: usize) -> f64 {
+    let near = rounded(value, digits);
+    let last_digit = 10.0_f64.powf(value.log10().floor() + 1.0 - digits as f64);
+    if near >= value || !value.is_finite() { near } else { rounded(near + last_digit, digits) }
+}
+
+/// Values about `step` apart, as a share of the value, from `from` to `to` and one beyond either, within what was
+/// `tried`. They lie on a lattice that does not depend on these ends, so that others later add none between.
+pub(super) fn lattice<T>(tried: &[(f64, T)], [from, to]: [f64; 2], step: f64, digits: usize) -> Vec<f64> {
+    let (Some((first, _)), Some((last, _))) = (tried.first(), tried.last()) else { return Vec::new() };
+    let to = to.min(*last);
+    // twice as wide until they are few
+    let mut width = step.ln_1p();
+    while (to / from).ln() > MOST_STEPS * width {
+        width *= 2.0;
+    }
+    let [begin, end] = [((from / first).ln() / width).floor(), ((to / first).ln() / width).ceil()];
+    let steps = (0..).map(|place| begin + f64::from(place)).take_while(|place| *place <= end);
+    let values = steps.map(|place| rounded(first * (place * width).exp(), digits));
+    values.filter(|value| first < value && value < last).collect()
+}
+
+/// Tries values between the largest that does not `meet` the target and the next, until these differ by no more than
+/// the share `tolerance` of the smaller.
 ///
 /// # Errors
-/// What `attempt` ends with, which gets the values of a round together.
-pub(super) fn search<T>(
-    values: Vec<f64>,
-    tolerance: f64,
+/// What `attempt` ends with.
+pub(super) fn narrow<T>(
+    tried: &mut Vec<(f64, T)>,
+    (tolerance, digits): (f64, usize),
     mut attempt: impl FnMut(&[f64]) -> Result<Vec<T>, DesignError>,
     meets: impl Fn(&T) -> bool,
-) -> Result<Vec<(f64, T)>, DesignError> {
-    let found = attempt(&values)?;
-    let mut tried: Vec<(f64, T)> = values.into_iter().zip(found).collect();
+) -> Result<(), DesignError> {
     for _ in 0..ROUNDS {
-        let wide: Vec<Crossing> = crossings(&tried, &meets)
-            .into_iter()
-            .filter(|crossing| crossing.to > crossing.from * (1.0 + tolerance))
-            .collect();
-        let within = |crossing: &Crossing| {
-            let Crossing { from, to, .. } = *crossing;
-            let inner = spread([from, to], PARTS + 1);
-            // neighbouring numbers have none between
-            inner.into_iter().filter(move |value| *value > from && *value < to).collect::<Vec<_>>()
-        };
-        // the highest first: there lies the value from which on all is met
-        let mut next: Vec<f64> = wide.iter().rev().take(MOST_CROSSINGS).flat_map(within).collect();
-        next.sort_by(f64::total_cmp);
-        next.dedup();
-        if next.is_empty() {
+        let Some(at) = least(tried, &meets).filter(|at| *at > 0) else { break };
+        let [missed, met] = [tried[at - 1].0, tried[at].0];
+        let middle = rounded((missed * met).sqrt(), digits);
+        // neighbouring numbers have none between
+        let is_between = missed < middle && middle < met;
+        if met <= missed * (1.0 + tolerance) || !is_between || !extend(tried, vec![middle], &mut attempt)? {
             break;
         }
-        let found = attempt(&next)?;
-        tried.extend(next.into_iter().zip(found));
-        tried.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     }
-    Ok(tried)
+    Ok(())
+}
+
+/// Tries those of `values` that were not yet; whether there were any.
+///
+/// # Errors
+/// What `attempt` ends with, which gets them together.
+pub(super) fn extend<T>(
+    tried: &mut Vec<(f64, T)>,
+    mut values: Vec<f64>,
+    attempt: &mut impl FnMut(&[f64]) -> Result<Vec<T>, DesignError>,
+) -> Result<bool, DesignError> {
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    values.retain(|value| tried.binary_search_by(|(of, _)| of.total_cmp(value)).is_err());
+    if values.is_empty() {
+        return Ok(false);
+    }
+    let found = attempt(&values)?;
+    tried.extend(values.into_iter().zip(found));
+    tried.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    Ok(true)
+}
+
+/// Position of the least value from which on all meet a limit; none where the largest does not.
+pub(super) fn least<T>(tried: &[(f64, T)], meets: impl Fn(&T) -> bool) -> Option<usize> {
+    let missed = tried.iter().rposition(|(_, of)| !meets(of)).map_or(0, |missed| missed + 1);
+    (missed < tried.len()).then_some(missed)
 }
 
 /// Every place between neighbours of which one `meets` the target and the other does not, ascending.
 pub(super) fn crossings<T>(tried: &[(f64, T)], meets: impl Fn(&T) -> bool) -> Vec<Crossing> {
-    let between = |pair: &[(f64, T)]| match pair {
-        [(from, a), (to, b)] if meets(a) != meets(b) => Some(Crossing { from: *from, to: *to, becomes_met: meets(b) }),
-        _ => None,
+    let between = |pair: &[(f64, T)]| {
+        let becomes_met = meets(&pair[1].1);
+        (meets(&pair[0].1) != becomes_met).then(|| Crossing { from: pair[0].0, to: pair[1].0, becomes_met })
     };
     tried.windows(2).filter_map(between).collect()
 }
@@ -85,41 +132,83 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
+    /// The values of a search from `values` on, with what was found.
+    fn searched<T>(
+        values: Vec<f64>,
+        tolerance: f64,
+        mut attempt: impl FnMut(&[f64]) -> Result<Vec<T>, DesignError>,
+        meets: impl Fn(&T) -> bool,
+    ) -> Vec<(f64, T)> {
+        let mut tried = Vec::new();
+        extend(&mut tried, values, &mut attempt).unwrap();
+        narrow(&mut tried, (tolerance, digits(tolerance)), attempt, meets).unwrap();
+        tried
+    }
+
     #[test]
-    fn one_crossing_is_found_to_the_tolerance() {
+    fn the_crossing_is_found_to_the_tolerance() {
         let mut analysed = 0;
         let attempt = |values: &[f64]| {
             analysed += values.len();
             Ok(values.iter().map(|value| 1.0 / value).collect())
         };
-        let tried = search(spread([1.0, 16.0], 5), 1e-3, attempt, |rate| *rate <= 0.15).unwrap();
+        let tried = searched(spread([1.0, 16.0], 5, 4), 1e-3, attempt, |rate| *rate <= 0.15);
         let found = crossings(&tried, |rate| *rate <= 0.15);
         let [Crossing { from, to, becomes_met: true }] = found[..] else { panic!("{found:?}") };
         assert!(from < 1.0 / 0.15 && 1.0 / 0.15 <= to && to <= from * 1.001);
-        // a factor of 2 to 0.1 %: five rounds of three values
-        assert_eq!((analysed, tried.len()), (5 + 5 * 3, 20));
+        // a factor of 2 to 0.1 %: ten halvings
+        assert_eq!((analysed, tried.len()), (15, 15));
         assert!(tried.windows(2).all(|pair| pair[0].0 < pair[1].0));
+        assert_eq!(least(&tried, |rate| *rate <= 0.15).map(|at| tried[at].0), Some(to));
+        // the digits that are printed are all there are
+        assert!(tried.iter().all(|(value, _)| rounded(*value, 4).to_bits() == value.to_bits()), "{tried:?}");
     }
 
     #[test]
-    fn every_crossing_of_a_wave_is_found() {
+    fn of_a_wave_the_last_crossing_is_followed() {
         let met = |value: f64| (4.0 * value).sin() < 0.0;
         let attempt = |values: &[f64]| Ok(values.iter().map(|&value| met(value)).collect());
-        let tried = search(spread([0.5, 4.0], 33), 1e-6, attempt, |met| *met).unwrap();
+        let tried = searched(spread([0.5, 4.0], 33, 4), 1e-6, attempt, |met| *met);
         let found = crossings(&tried, |met| *met);
         assert_eq!(found.len(), 5);
         for (place, crossing) in found.iter().enumerate() {
-            let root = (place + 1) as f64 * std::f64::consts::PI / 4.0;
-            assert!(crossing.from <= root && root <= crossing.to && crossing.to < crossing.from * (1.0 + 1e-6));
+            let root = (place + 1) as f64 * std::f64::consts::FRAC_PI_4;
+            assert!(crossing.from <= root && root <= crossing.to, "{crossing:?} {root}");
             assert_eq!(crossing.becomes_met, place % 2 == 0);
         }
+        assert!(found[4].to <= found[4].from * (1.0 + 1e-6), "{:?}", found[4]);
+    }
+
+    #[test]
+    fn values_have_the_digits_that_the_tolerance_needs() {
+        assert_eq!([0.5, 0.005, 1e-3, 1e-4, 0.0].map(digits), [4, 4, 4, 5, 17]);
+        assert_eq!(spread([1.0, 1.0003], 5, 4), [1.0, 1.0003]);
+        assert_eq!((rounded(0.634_249, 4), rounded(1_234_567.0, 4)), (0.6342, 1_235_000.0));
+        assert_eq!(
+            [0.634_21, 0.6342, 9.999_9, 1_234_100.0].map(|of| rounded_up(of, 4)),
+            [0.6343, 0.6342, 10.0, 1_235_000.0]
+        );
+        assert_eq!(rounded_up(f64::INFINITY, 4), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_lattice_covers_its_ends_and_is_the_same_from_others() {
+        let tried = [(1.0, ()), (16.0, ())];
+        let wide = lattice(&tried, [2.0, 3.0], 0.04, 4);
+        assert!(wide[0] <= 2.0 && wide[wide.len() - 1] >= 3.0 && wide.len() == 13, "{wide:?}");
+        assert!(wide.windows(2).all(|pair| (pair[1] / pair[0] - 1.04).abs() < 1e-3), "{wide:?}");
+        let part = lattice(&tried, [2.2, 2.9], 0.04, 4);
+        assert!(part.iter().all(|value| wide.contains(value)) && part.len() < wide.len(), "{part:?}");
+        // never beyond what was tried, and not too many
+        let all = lattice(&tried, [1.0, f64::INFINITY], 0.01, 4);
+        assert!(all.len() <= 21 && all[0] > 1.0 && all[all.len() - 1] < 16.0, "{}", all.len());
     }
 
     #[test]
     fn a_step_between_neighbouring_numbers_ends() {
         let step = 1.0 + f64::EPSILON;
         let attempt = |values: &[f64]| Ok(values.iter().map(|&value| value >= step).collect());
-        let tried = search(vec![1.0, 2.0], 0.0, attempt, |met| *met).unwrap();
+        let tried = searched(vec![1.0, 2.0], 0.0, attempt, |met| *met);
         let found = crossings(&tried, |met| *met);
         assert!(found.len() == 1 && found[0].from < step && step <= found[0].to);
         assert!(found[0].to - found[0].from <= 4.0 * f64::EPSILON, "{found:?}");

@@ -175,7 +175,7 @@ impl<'a> Trials<'a> {
         } else {
             all.map(|place| of_places(place..place + 1)).collect::<Result<_, _>>()?
         };
-        let happening = happens.iter().map(|&count| f64::from(count) / self.per_record() as f64).collect();
+        let happening: Vec<f64> = happens.iter().map(|&count| f64::from(count) / self.per_record() as f64).collect();
         let of = |value: &dyn Fn(&StructureRisk) -> f64| mean(structures.iter().map(value).collect());
         let tail = |share: fn(&EventRisk) -> f64| of(&|one: &StructureRisk| share(&one.risk) * one.risk.per_year);
         let mut risk = if let [one] = &structures[..] {
@@ -191,8 +191,15 @@ impl<'a> Trials<'a> {
         if candidate.systems.iter().any(may_happen) {
             risk = bounded(risk, &self.weights, self.pairs());
         }
-        let record_per_year = (0..self.records.count()).map(|record| of(&|one| one.record_per_year[record])).collect();
-        Ok(Attempt { candidate, risk, record_per_year, happening, structures })
+        let record_per_year: Vec<f64> =
+            (0..self.records.count()).map(|record| of(&|one| one.record_per_year[record])).collect();
+        let by_curve = |(_, stripes): &(f64, StripeWeights)| -> Vec<f64> {
+            let per_year = stripes.per_year();
+            let of_record = |shares: &[f64]| shares.iter().zip(&per_year).map(|(share, weight)| share * weight).sum();
+            happening.chunks_exact(per_year.len()).map(of_record).collect()
+        };
+        let by_branch = self.hazard.branches.iter().map(by_curve).collect();
+        Ok(Attempt { candidate, risk, record_per_year, by_branch, structures })
     }
 
     /// The risk of the structures at `places` of a `candidate`, each with its own threshold; counts in `happens` to how

@@ -9,7 +9,8 @@ use uplift_uniform_risk::EventRisk;
 
 use super::TargetOptions;
 use super::candidate::Attempt;
-use super::search::{Crossing, MOST_CROSSINGS, crossings};
+use super::search::{Crossing, crossings};
+use crate::own_frame::OwnFrame;
 
 /// A refusal with the numbers that are probably mistaken: the reason for it, most likely.
 pub(super) fn with_mistakes(reason: String, alarms: &[Alarm]) -> String {
@@ -17,6 +18,9 @@ pub(super) fn with_mistakes(reason: String, alarms: &[Alarm]) -> String {
     let line = |alarm: &Alarm| format!("\n{} {alarm}: {}", alarm.severity.word(), alarm.what_to_do);
     mistakes.fold(reason, |said, alarm| said + &line(alarm))
 }
+
+/// Crossings that are listed: more are noise.
+const MOST_CROSSINGS: usize = 12;
 
 /// What is to be said of the values that were tried.
 pub(super) struct Words<'a> {
@@ -125,6 +129,13 @@ pub(super) fn assumptions(structure: &Structure, file: &ResultFile, restitution:
         notes.push(
             "every value is found with the equivalent oscillator, which ignores the vertical components of the \
              records: uplift risk and uplift overturning apply them to frames and blocks"
+                .to_owned(),
+        );
+    }
+    if OwnFrame::is_described(structure) {
+        notes.push(
+            "the value is that of the proxy, the equivalent oscillator: uplift design has the wobbling frame of that \
+             value"
                 .to_owned(),
         );
     }

@@ -2,12 +2,13 @@
 //!
 //! Real records (both components of each, `UPLIFT_RECORDS` or `../shared/records`) and synthetic ones of other seeds
 //! stand for the world. Sets of 20, 40 and 105 are drawn from them with replacement, and each makes its bands as if it
-//! were all there is: of six sites, three probabilities, six strengths, by PGV and PGA. docs/confidence-bands.md has
-//! the table.
+//! were all there is: of six sites, three probabilities, six strengths, by PGV and PGA; and of the width by which a
+//! frame meets four targets. docs/confidence-bands.md has the table.
 #![allow(clippy::print_stdout, unreachable_pub)]
 
 mod sets;
 mod tally;
+mod values;
 
 use std::path::PathBuf;
 
@@ -31,6 +32,7 @@ fn main() -> Result<(), Failed> {
         let real = population(&[format!("records.manifest={}", manifest.display()), "records.component=both".into()])?;
         println!("{} real records", real.stored.records.len());
         print(&real, &real.records(&SIZES, sets)?, "records");
+        print(&real, &real.values(&SIZES, sets)?, "records");
         print(&real, &real.earthquakes(&EARTHQUAKES, sets)?, "earthquakes");
     } else {
         println!("skipped: no real records (set UPLIFT_RECORDS to a folder with a manifest.csv)");
@@ -38,6 +40,7 @@ fn main() -> Result<(), Failed> {
     let synthetic = population(&["records.synthetic.pairs=400".into(), "records.synthetic.seed=7".into()])?;
     println!("\n{} synthetic records", synthetic.stored.records.len());
     print(&synthetic, &synthetic.records(&SIZES, sets)?, "records");
+    print(&synthetic, &synthetic.values(&SIZES, sets)?, "records");
     Ok(())
 }
 

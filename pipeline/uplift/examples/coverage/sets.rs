@@ -17,7 +17,7 @@ use crate::tally::{Cell, Tally};
 
 pub type Failed = Box<dyn std::error::Error + Send + Sync>;
 
-const CONFIDENCE: f64 = 0.9;
+pub const CONFIDENCE: f64 = 0.9;
 /// Fewer effective records than this leave no repaired spectrum.
 const TOO_FEW: f64 = 5.0;
 /// Resamples of a set, for percentile bands; these are made of one set of so many.
@@ -32,7 +32,7 @@ pub type Tallies = BTreeMap<(&'static str, u32), Tally>;
 /// The records of a result, which stand for the world.
 pub struct Population {
     pub stored: StoredStripes,
-    file: ResultFile,
+    pub file: ResultFile,
     question: Question,
 }
 
@@ -226,7 +226,7 @@ impl Place<'_> {
 }
 
 /// The band of a cell, but for a truth of 0.
-fn see(found: &mut Tallies, key: (&'static str, u32), cell: (usize, Cell), limits_m: [f64; 2], truth_m: f64) {
+pub fn see(found: &mut Tallies, key: (&'static str, u32), cell: (usize, Cell), limits_m: [f64; 2], truth_m: f64) {
     if truth_m > 0.0 {
         found.entry(key).or_default().see(cell, limits_m, truth_m);
     }
@@ -240,7 +240,7 @@ fn percentile(replicates_m: &[f64]) -> [f64; 2] {
 }
 
 /// Each position as often as it is drawn.
-fn written_out(multiplicities: &[u32]) -> impl Iterator<Item = usize> + '_ {
+pub fn written_out(multiplicities: &[u32]) -> impl Iterator<Item = usize> + '_ {
     multiplicities.iter().enumerate().flat_map(|(position, &times)| (0..times).map(move |_| position))
 }
 
