@@ -58,7 +58,7 @@ mod tests {
         assert!(relative[1].is_nan());
         let told = far_factors(&relative, &names, (measure, &levels)).unwrap_or_default();
         assert!(
-            told.starts_with("1 of 3 factors") && told.ends_with("that of B at 10 cm/s is 100 times too small"),
+            told.starts_with("1 of 3 factors") && told.ends_with(": B at 10 cm/s is 100 times too small"),
             "{told}"
         );
         assert_eq!(far_factors(&relative[..3], &names, (measure, &levels)), None);

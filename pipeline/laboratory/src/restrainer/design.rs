@@ -203,34 +203,9 @@ pub fn design(
     }
     let stacks: Vec<Candidate> = all.iter().take(options.most.max(1)).cloned().collect();
     let with = |stack: &Candidate| columns.clone().with_restrainer(stack.restrainer.clone(), limits.path);
-    let stoppers = match options.stopper {
-        None => Vec::new(),
-        Some(stopper) => stacks
-            .iter()
-            .map(|stack| {
-                // a stack that is flat before the gap closes has no use for a stopper
-                let most_yield_n = match stopper_yield_force_n(
-                    &stack.restrainer,
-                    stopper.gap_m,
-                    stopper.stiffness_n_m,
-                    limits.tendon_factor,
-                ) {
-                    Err(StaticsError::StopperBehindFlat { .. }) => None,
-                    found => found?,
-                };
-                let (held, law) = (with(stack)?, stack.restrainer.parts());
-                let engages_at_n = match law.spring {
-                    uplift_statics::Spring::Discs(discs) => discs.law().force_n(stopper.gap_m),
-                    _ => f64::NAN,
-                };
-                let elongation_m = stack.restrainer.elongation_at_force_m(engages_at_n);
-                let rotation = elongation_m.and_then(|elongation_m| held.rotation_at_elongation_rad(elongation_m));
-                let engages_at_m =
-                    rotation.and_then(|rotation| held.at_rotation(rotation).ok()).map(|state| state.displacement_m);
-                Ok(StopperReport { engages_at_n, engages_at_m, most_yield_n })
-            })
-            .collect::<Result<Vec<_>, LaboratoryError>>()?,
-    };
+    let stopper = |(stack, stopper)| stopper_behind(stack, &with(stack)?, stopper, limits.tendon_factor);
+    let stoppers = stacks.iter().zip(options.stopper.into_iter().cycle()).map(stopper);
+    let stoppers = stoppers.collect::<Result<_, LaboratoryError>>()?;
     let at_demand = match told.demand_m {
         None => Vec::new(),
         Some(demand_m) => stacks.iter().map(|stack| at_demand(&with(stack)?, demand_m)).collect::<Result<_, _>>()?,
@@ -278,6 +253,29 @@ pub fn design(
         alarms,
         files,
     })
+}
+
+/// What a stopper does behind a stack in columns.
+fn stopper_behind(
+    stack: &Candidate,
+    held: &uplift_statics::RestrainedColumns,
+    stopper: StopperOptions,
+    tendon_factor: f64,
+) -> Result<StopperReport, LaboratoryError> {
+    let yields = stopper_yield_force_n(&stack.restrainer, stopper.gap_m, stopper.stiffness_n_m, tendon_factor);
+    let most_yield_n = match yields {
+        // a stack that is flat before the gap closes has no use for a stopper
+        Err(StaticsError::StopperBehindFlat { .. }) => None,
+        found => found?,
+    };
+    let engages_at_n = match stack.restrainer.parts().spring {
+        uplift_statics::Spring::Discs(discs) => discs.law().force_n(stopper.gap_m),
+        _ => f64::NAN,
+    };
+    let elongation_m = stack.restrainer.elongation_at_force_m(engages_at_n);
+    let rotation = elongation_m.and_then(|elongation_m| held.rotation_at_elongation_rad(elongation_m));
+    let engages_at_m = rotation.and_then(|rotation| held.at_rotation(rotation).ok()).map(|state| state.displacement_m);
+    Ok(StopperReport { engages_at_n, engages_at_m, most_yield_n })
 }
 
 /// Columns with a stack in them at the demand (m).
