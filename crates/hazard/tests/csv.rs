@@ -181,7 +181,7 @@ fn files_that_cannot_be_read() {
     let options = CsvOptions::new("PGV", "cm/s");
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let error = read_path(&folder.join("missing.csv"), &options).unwrap_err().to_string();
-    assert!(error.contains("missing.csv: cannot be read"), "{error}");
+    assert!(error.contains("missing.csv: there is no such file"), "{error}");
     assert!(read_path(folder, &options).unwrap_err().to_string().contains("not a file"));
     let file = std::env::temp_dir().join(format!("uplift-hazard-{}.csv", std::process::id()));
     std::fs::write(&file, b"iml,maf\n1,0.2\n2,0.1 \xff\n").unwrap();

@@ -286,7 +286,7 @@ fn gzip_is_unpacked() {
     let message = read_export(folder.path(), &SiteSelection::All).unwrap_err().to_string();
     assert!(message.contains("not a file"), "{message}");
     let message = read_export(&folder.path().join("missing"), &SiteSelection::All).unwrap_err().to_string();
-    assert!(message.contains("missing: cannot be read"), "{message}");
+    assert!(message.contains("missing: there is no such file"), "{message}");
 }
 
 #[test]

@@ -114,7 +114,7 @@ impl Needs {
         let needed = bytes(self.memory_bytes);
         match (&memory.most, &memory.available) {
             (Some(most), _) if self.memory_bytes > most.bytes => room.cannot.push(format!(
-                "about {needed} of memory are needed, and {} are free ({}): reduce strengths, levels, thresholds, \
+                "about {needed} of memory are needed, and there are {} ({}): reduce strengths, levels, thresholds, \
                  sites, records or replicates, leave large arrays out (`risk.maf_surface = false`), or use a larger \
                  machine",
                 bytes(most.bytes),

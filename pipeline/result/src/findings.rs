@@ -357,7 +357,7 @@ mod tests {
         let none = [f64::NAN; 2];
         assert_eq!(shown(0.123_456, "m", [0.1, f64::INFINITY]), ["0.1235", "0.1000 to overturns"]);
         assert_eq!(shown(f64::INFINITY, "m", none), ["overturns", ""]);
-        assert_eq!(shown(1.234_56e-4, "1/yr", [1e-5, 2e-4]), ["1.235e-4", "1.000e-5 to 2.000e-4"]);
+        assert_eq!(shown(1.234_56e-4, "1/yr", [1e-5, 2e-4]), ["1.2e-4", "1.0e-5 to 2.0e-4"]);
         assert_eq!(shown(0.0, "1/yr", [f64::NAN, 3e-6]), ["< 3.0e-6", ""]);
         assert_eq!(shown(0.0, "1/yr", none), ["none", ""]);
         assert_eq!(shown(f64::INFINITY, "", none), ["infinite", ""]);

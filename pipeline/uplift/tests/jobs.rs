@@ -165,7 +165,7 @@ fn a_bootstrap_reports_what_it_writes() {
     let report = bootstrap(&folder.result(), &options, &events).unwrap();
     assert_eq!((report.result.clone(), report.confidence), (folder.result(), 0.9));
     assert!(report.tables.iter().all(|table| table.is_file()));
-    assert!(events.remarks().contains("plan: samples of 2, 4 records, 30 of each size"), "{}", events.remarks());
+    assert!(events.remarks().contains("plan: resamples of 2, 4 records, 30 of each size"), "{}", events.remarks());
     // an ordinate a site, probability, sample and strength
     let steps = (SITES.len() * POES.len() * 2 * 30 * STRENGTHS) as u64;
     assert_eq!(events.phases(), [("PGV".to_owned(), "ordinates", steps), ("PGA".to_owned(), "ordinates", steps)]);

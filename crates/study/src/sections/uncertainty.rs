@@ -235,7 +235,11 @@ fn told(error: &UncertaintyError, quantities: &[UncertainQuantity]) -> String {
     match error {
         UncertaintyError::Pair { first, second } => {
             let name = |place: &usize| quantities.get(*place).map_or("?", |quantity| quantity.key());
-            format!("the correlation of {} with {} is impossible, or given twice", name(first), name(second))
+            format!(
+                "the correlation of {} with {}: name two different quantities, each pair once",
+                name(first),
+                name(second)
+            )
         }
         other => other.to_string(),
     }

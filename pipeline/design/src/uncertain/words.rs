@@ -155,6 +155,6 @@ mod tests {
         assert_eq!(shown(0.0, Some(1.23e-5), "1/yr"), "at most 1.2e-5 per year: no run shows it");
         assert_eq!(shown(0.0, None, "1/yr"), "cannot happen");
         assert_eq!(shown(0.0, None, "m"), "0.0000 m");
-        assert_eq!(range([0.0, 2e-4], "1/yr"), "none seen to 2.000e-4 per year");
+        assert_eq!(range([0.0, 2e-4], "1/yr"), "none seen to 2.0e-4 per year");
     }
 }
