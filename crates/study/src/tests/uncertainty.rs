@@ -110,7 +110,7 @@ fn what_does_not_go_together_is_refused() {
         (
             "[uncertainty.restitution]\ndistribution = \"uniform\"\nmean = 0.95\ncoefficient_of_variation = 0.1\n"
                 .to_owned(),
-            "it reaches from 0.7855 to 1.115, and",
+            "it reaches from 0.7855 to 1.115, but",
         ),
         (
             "[uncertainty.strength]\ndistribution = \"uniform\"\nlower = 0.1\nmode = 0.2\nupper = 0.3\n".to_owned(),
