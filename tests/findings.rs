@@ -154,7 +154,7 @@ fn report_and_exports_tell_what_was_printed() {
             let quantity = row["quantity"].as_str().unwrap();
             let shown = match row["unit"].as_str().unwrap() {
                 "m" if !quantity.contains("size") => format!("{value:.4}"),
-                "1/yr" if value > 0.0 => format!("{value:.3e}"),
+                "1/yr" if value > 0.0 => format!("{value:.1e}"),
                 _ => continue,
             };
             assert!(page.contains(&format!("<td class=\"number\">{shown}</td>")), "{quantity}: {shown}");

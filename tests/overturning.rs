@@ -241,12 +241,12 @@ fn what_rounding_decides_is_marked() {
     let is_moved = [lowest, highest].iter().any(|end| format!("{end:.1e}") != format!("{value:.1e}"));
     assert!(!is_moved || answer.contains("\n* the last digits are not significant (rounding)\n"), "{answer}");
     let shown = study.uplift(&[&arguments[..], &["--details"]].concat()).ok().stdout;
-    let mark = if [lowest, highest].map(|end| format!("{end:.3e}")) == [value; 2].map(|own| format!("{own:.3e}")) {
+    let mark = if [lowest, highest].map(|end| format!("{end:.1e}")) == [value; 2].map(|own| format!("{own:.1e}")) {
         ""
     } else {
         "*"
     };
-    assert!(shown.contains(&format!(" {value:.3e}{mark} ")), "{value:.3e}{mark}\n{shown}");
+    assert!(shown.contains(&format!(" {value:.1e}{mark} ")), "{value:.1e}{mark}\n{shown}");
     for level in hanging {
         let [fewest, most] = [0, 1].map(|end| &of_model["overturned_rounding"][level][end]);
         let words = format!("{fewest} to {most} at {}", of_model["levels"][level]);

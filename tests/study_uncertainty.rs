@@ -132,7 +132,7 @@ fn one_draw_is_another_structure_for_each_record() {
     for ask in [&["report", "r.h5", "-q"][..], &["export", "r.h5", "--csv", "-q"]] {
         both.uplift(ask).ok();
     }
-    both.uplift(&["measures", "r.h5"]).fails(4, &["not known exactly", "for one structure"]);
+    both.uplift(&["measures", "r.h5"]).fails(4, &["oscillators are uncertain", "for one structure"]);
 }
 
 /// All records shake the same structures: each has its spectrum, and the frequency of all is the mean of theirs.
