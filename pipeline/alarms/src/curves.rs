@@ -2,7 +2,7 @@
 
 use uplift_inputs::unit_that_explains;
 use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_job::text::short;
+use uplift_job::text::{rate, short};
 use uplift_motion::IntensityMeasure::{Pga, Pgv};
 use uplift_plausible::USUAL_GRAVITY;
 use uplift_study::UniformRiskStudy;
@@ -95,7 +95,7 @@ pub(super) fn without_common_rate(curves: &[CurvesAtSite<'_>]) -> Vec<Case> {
             let apart = (low[1] / high[0]).max(high[1] / low[0]);
             if apart > 1.0 {
                 let range = |of: &CurvesAtSite<'_>, [most, least]: [f64; 2]| {
-                    format!("{} from {most:.1e} to {least:.1e}", of.measure.label())
+                    format!("{} from {} to {}", of.measure.label(), rate(most), rate(least))
                 };
                 cases.push(Case {
                     severity: Severity::Mistake,

@@ -143,7 +143,7 @@ pub fn few(records: usize, pairs: usize) -> Option<Alarm> {
 const FEW_EARTHQUAKES: usize = 5;
 
 /// Where the records share so few `earthquakes` that no confidence band holds as often as it says.
-pub fn few_earthquakes(earthquakes: usize) -> Option<Alarm> {
+fn few_earthquakes(earthquakes: usize) -> Option<Alarm> {
     (earthquakes < FEW_EARTHQUAKES).then(|| {
         Alarm::new(
             Severity::Caution,

@@ -3,7 +3,7 @@
 use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_job::text::share;
+use uplift_job::text::{rate, share};
 use uplift_risk::{OrdinateFlag, TAIL_SHARE_LIMIT};
 use uplift_study::{MeasurePlan, levels_key};
 
@@ -201,12 +201,13 @@ fn never_exceeded(place: &Place<'_>, strengths: &[f64], target_per_year: f64) ->
         badness: count as f64,
         subject: place.name.clone(),
         what: format!(
-            "{count} of {} ordinates are 0: the hazard curve begins with {:.1e} a year at {} {}, below the target rate \
-             of {target_per_year:.1e}",
+            "{count} of {} ordinates are 0: the hazard curve begins with {} a year at {} {}, below the target rate \
+             of {}",
             place.strengths.len(),
-            foot.maf,
+            rate(foot.maf),
             foot.im,
-            place.curve.unit()
+            place.curve.unit(),
+            rate(target_per_year)
         ),
         what_to_do: "Extend the hazard curve to lower levels, or lower risk.poe".to_owned(),
     })

@@ -1,7 +1,7 @@
 //! What is to be raised about a structure: its own numbers, and risks of it that the analysed levels do not hold.
 
 use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_job::text::{per_cent, records_in_words, share as share_in_words};
+use uplift_job::text::{per_cent, rate, records_in_words, share as share_in_words};
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::USUAL_SAFETY_FACTOR;
 use uplift_risk::TAIL_SHARE_LIMIT;
@@ -99,11 +99,12 @@ fn none_seen(own: &OwnRisk) -> Option<Case> {
         badness: at_most_per_year,
         subject: own.subject.clone(),
         what: format!(
-            "0 of {} up to {} {}, so at most {at_most_per_year:.1e} a year: 0 of {pairs}{weighted} leave up to {} at \
+            "0 of {} up to {} {}, so at most {} a year: 0 of {pairs}{weighted} leave up to {} at \
              the last level ({} confidence)",
             records_in_words(own.records, own.pairs),
             own.levels.1,
             own.measure.unit(),
+            rate(at_most_per_year),
             share_in_words(share_at_most(own.effective_pairs)),
             per_cent(BOUND_CONFIDENCE),
             pairs = if own.pairs < own.records { format!("{} pairs", own.pairs) } else { own.records.to_string() },

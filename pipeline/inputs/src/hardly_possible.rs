@@ -4,6 +4,7 @@
 use std::fmt;
 
 use uplift_hazard::HazardCurve;
+use uplift_job::text;
 use uplift_motion::IntensityMeasure;
 
 /// A level that hardly any site exceeds, and one that nearly every site does, in field units.
@@ -50,7 +51,7 @@ pub(super) fn hardly_possible_if(
     let at_least = |level| at(level).or((curve.first().im > level * too_large).then_some(curve.first().maf));
     let at_most = |level| at(level).or((curve.last().im < level * too_large).then_some(curve.last().maf));
     if let Some(rate) = at_least(strong).filter(|&rate| rate > RARE_PER_YEAR) {
-        let often = if rate < 0.01 { format!("{rate:.1e}") } else { format!("{rate:.2}") };
+        let often = if rate < 0.01 { text::rate(rate) } else { format!("{rate:.2}") };
         let what = format!("{strong} {unit} is exceeded {often} times a year");
         return Some(HardlyPossible { what, times: rate / RARE_PER_YEAR, is_faint_and_frequent: false });
     }
@@ -59,7 +60,7 @@ pub(super) fn hardly_possible_if(
         return Some(HardlyPossible { what, times: rate / WEEKLY_PER_YEAR, is_faint_and_frequent: true });
     }
     let rate = at_most(faint).filter(|&rate| rate < RARE_PER_YEAR)?;
-    let what = format!("{faint} {unit} is exceeded only {rate:.1e} times a year");
+    let what = format!("{faint} {unit} is exceeded only {} times a year", text::rate(rate));
     Some(HardlyPossible { what, times: RARE_PER_YEAR / rate, is_faint_and_frequent: false })
 }
 

@@ -10,7 +10,7 @@ use crate::error::UniformRiskError;
 
 /// What a confidence band takes for independent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(into = "&'static str")]
 pub enum BandOf {
     /// Records; the components of a pair are one.
     Records,
@@ -18,12 +18,12 @@ pub enum BandOf {
     Earthquakes,
 }
 
-impl BandOf {
-    /// `records` or `earthquakes`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Records => "records",
-            Self::Earthquakes => "earthquakes",
+impl From<BandOf> for &'static str {
+    /// `records` or `earthquakes`, as files and JSON have it.
+    fn from(of: BandOf) -> Self {
+        match of {
+            BandOf::Records => "records",
+            BandOf::Earthquakes => "earthquakes",
         }
     }
 }

@@ -38,19 +38,21 @@ pub(super) fn print_warnings_and_more(
 
 /// The first lines, or `all`, and how to see the others; nothing where there are none. Whether some are left out.
 pub(super) fn print_lines(out: &mut impl Write, lines: &[String], all: bool) -> Result<bool, CommandError> {
-    if lines.is_empty() {
-        return Ok(false);
-    }
-    writeln!(out, "\nWarnings")?;
     let shown = if all { lines.len() } else { lines.len().min(SHOWN) };
-    for line in &lines[..shown] {
+    let more = lines.len() - shown;
+    print_shown(out, &lines[..shown], more)?;
+    Ok(more > 0)
+}
+
+/// These lines, and how to see so many `more`; nothing where there are none of either.
+pub(super) fn print_shown(out: &mut impl Write, lines: &[String], more: usize) -> Result<(), CommandError> {
+    if !lines.is_empty() || more > 0 {
+        writeln!(out, "\nWarnings")?;
+    }
+    for line in lines {
         writeln!(out, "  {line}")?;
     }
-    let more = lines.len() - shown;
-    if more > 0 {
-        writeln!(out, "  {more} more: --details")?;
-    }
-    Ok(more > 0)
+    if more > 0 { Ok(writeln!(out, "  {more} more: --details")?) } else { Ok(()) }
 }
 
 /// Every warning with all that it is about.

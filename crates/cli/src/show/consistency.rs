@@ -6,7 +6,7 @@ use uplift::alarms::synthetic_records;
 use uplift::consistency::{ConsistencyReport, ConsistencyRow, RepairRow};
 use uplift::text::{Table, per_cent, risk_name, risks_in_words};
 
-use super::alarms::warning;
+use super::alarms::{print_shown, warning};
 use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -102,15 +102,8 @@ fn more_warnings(report: &ConsistencyReport) -> usize {
 /// What speaks against the records, and how many other warnings there are.
 fn print_warnings(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     let synthetic = report.synthetic.then(|| warning(&synthetic_records()));
-    let (shown, more): (Vec<String>, _) =
-        (nearest(report).into_iter().chain(synthetic).collect(), more_warnings(report));
-    if !shown.is_empty() || more > 0 {
-        writeln!(out, "\nWarnings")?;
-    }
-    for line in shown {
-        writeln!(out, "  {line}")?;
-    }
-    if more > 0 { Ok(writeln!(out, "  {more} more: --details")?) } else { Ok(()) }
+    let shown: Vec<String> = nearest(report).into_iter().chain(synthetic).collect();
+    print_shown(out, &shown, more_warnings(report))
 }
 
 /// A line a row that is not consistent, and one for all that are.

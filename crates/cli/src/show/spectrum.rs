@@ -26,10 +26,7 @@ pub(crate) fn print_spectrum(report: &SpectrumReport, terminal: &Terminal) -> Re
 
 /// The number first, then what it is of.
 fn print_answers(out: &mut impl Write, report: &DisplacementReport) -> Result<(), CommandError> {
-    let of = match by_earthquake(report) {
-        "" => String::new(),
-        of => format!(", band{of}"),
-    };
+    let of = if report.band_of == BandOf::Earthquakes { ", band by earthquake" } else { "" };
     for own in &report.displacements {
         let Displacement { site, im, strength, u_m, band_m, .. } = own;
         let displacement = metres_with_named_band(*u_m, *band_m, CONFIDENCE);
@@ -37,14 +34,6 @@ fn print_answers(out: &mut impl Write, report: &DisplacementReport) -> Result<()
         writeln!(out, "{displacement}  {site}, strength {strength}, {}, by {im}{capacity}{of}", risk(own))?;
     }
     Ok(())
-}
-
-/// Said where a band is wider than the number of records tells.
-fn by_earthquake(report: &DisplacementReport) -> &'static str {
-    match report.band_of {
-        BandOf::Records => "",
-        BandOf::Earthquakes => " by earthquake",
-    }
 }
 
 /// A return period where one was asked for, else the probability.
@@ -74,11 +63,9 @@ pub(super) fn print_displacements(
         writeln!(out, "\n{kind}, {sites} {several}, {}{made} {records}, {risk}by {}", report.records, first.im)?;
         let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
         let is_banded = report.displacements.iter().any(|own| own.band_m.is_some());
-        let band = if is_banded {
-            format!(" ({} band{})", per_cent(CONFIDENCE), by_earthquake(report))
-        } else {
-            String::new()
-        };
+        // wider than the number of records suggests
+        let of = if report.band_of == BandOf::Earthquakes { " by earthquake" } else { "" };
+        let band = if is_banded { format!(" ({} band{of})", per_cent(CONFIDENCE)) } else { String::new() };
         writeln!(out, "Displacement, m{band}, at strength{capacity}")?;
     }
     let name = |row: &&[Displacement]| risk_name(row[0].poe, row[0].years);

@@ -122,12 +122,14 @@ impl<'a> DesignAnalysis<'a> {
         let restitution = restitution(structure, &source.study);
         let uncertain =
             if is_asked { Uncertain::from_structure(structure, restitution, records.count())? } else { None };
-        let mut frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
+        let frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
         let levels = frame_levels(place, target_per_year);
         let at = (place.measure.measure(), &levels[..]);
-        let without = |frame: &OwnFrame| frame.leaves_the_ground(&records.set, at).transpose();
-        let without_frame = frame.as_ref().and_then(without).transpose()?;
-        frame = frame.filter(|_| without_frame.is_none());
+        let without_frame = match &frame {
+            Some(frame) => frame.leaves_the_ground(&records.set, at)?,
+            None => None,
+        };
+        let frame = frame.filter(|_| without_frame.is_none());
         Ok(Self { systems: sweep.systems(), sweep, uncertain, frame, without_frame, records })
     }
 

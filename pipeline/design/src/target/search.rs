@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use uplift_job::text::rounded;
+
 use crate::error::DesignError;
 
 /// Rounds of halving, so that the widest interval ends at neighbouring numbers.
@@ -39,12 +41,7 @@ pub(super) fn digits(tolerance: f64) -> usize {
     (4..17_usize).find(|digits| tolerance >= 10.0_f64.powf(1.0 - *digits as f64)).unwrap_or(17)
 }
 
-/// `value` with so many significant `digits`.
-pub(super) fn rounded(value: f64, digits: usize) -> f64 {
-    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
-}
-
-/// The same, and not below `value`.
+/// `value` with so many significant `digits`, and not below it.
 pub(super) fn rounded_up(value: f64, digits: usize) -> f64 {
     let near = rounded(value, digits);
     let last_digit = 10.0_f64.powf(value.log10().floor() + 1.0 - digits as f64);

@@ -97,7 +97,7 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
         let lengths = band_lengths(bands.plain.lower_m.shape());
         INFERRED_BANDS.write(writer, &names(""), &lengths, &bands.inferred)?;
         let of = if plan.unit() == Unit::Event { BandOf::Earthquakes } else { quoted.of };
-        writer.attribute(&BANDS.group(&names("")), "band_of", of.word())?;
+        writer.attribute(&BANDS.group(&names("")), "band_of", <&str>::from(of))?;
         if let Some(repaired) = &bands.repaired {
             let names = names(REPAIRED_BANDS);
             add_spectra_bands(writer, &names, &repaired.bands, &stored.sites)?;
