@@ -1,4 +1,4 @@
-//! What every job of the pipeline is made with: who is reported of it, what it writes and locks, what room it has.
+//! What every job of the pipeline is made with: who hears of it, what it writes and locks, what room it has.
 //!
 //! | module | what is in it |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! What is reported of an uncertain structure.
+//! The report on an uncertain structure.
 
 use serde::Serialize;
 use uplift_fragility::quantile;

@@ -13,7 +13,7 @@ use uplift_labelled::hexadecimal;
 use crate::checkpoint::{Checkpoint, FinishedRows, RowFileHead, RowKey, RowKeys};
 use crate::error::EngineError;
 
-/// A plan, and what is reported of it.
+/// A plan with its remark.
 #[derive(Debug)]
 pub struct LabelledPlan<'a> {
     /// What is worked on: a measure, a record set, a model.

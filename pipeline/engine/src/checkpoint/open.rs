@@ -106,7 +106,7 @@ impl Checkpoint {
         complete(plan, cells, shard, &UntilFull { watch, file: self.file.as_ref() }, &append)
     }
 
-    /// The peaks of a plan that nothing is reported of.
+    /// The peaks of a plan without a remark.
     ///
     /// # Errors
     /// Rows that are missing or of another length.

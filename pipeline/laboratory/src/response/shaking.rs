@@ -132,7 +132,7 @@ impl Shaking {
         Ok((file.component(&self.record.display().to_string(), self.channel)?.accelerogram, format))
     }
 
-    /// What is reported of `motion`, the record read.
+    /// What is reported about `motion`, the record that was read.
     pub(super) fn told(&self, motion: &Accelerogram) -> ShakenBy {
         let scale = self.scale.abs();
         ShakenBy {

@@ -1,4 +1,4 @@
-//! What is reported of efficiency and sufficiency.
+//! The report on efficiency and sufficiency.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use uplift_uniform_risk::StoredStripes;
 use super::of_measure::{Covariate, MeasureEfficiency};
 use super::write::efficiency_path;
 
-/// What is reported of efficiency and sufficiency.
+/// The report on efficiency and sufficiency.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct EfficiencyReport {

@@ -16,7 +16,7 @@ use super::of_measure::{Covariate, MeasureEfficiency};
 use super::report::rank;
 use crate::error::QuestionsError;
 
-/// The groups that a new look replaces, with the axes of the measures that were reported of others' runs.
+/// The groups that a new look replaces, with the axes of the measures that were computed from the runs of others.
 fn replaced(earlier: &[StoredEfficiency]) -> Vec<String> {
     let told = earlier.iter().filter(|of| of.scaled_to != of.measure);
     let axes = told.map(|of| axis::path(&axis::common_level(of.measure)));

@@ -14,7 +14,7 @@ use super::report::InfluenceReport;
 use super::write::{influence_path, write_influence};
 use crate::error::QuestionsError;
 
-/// What is reported of the influence; the files hold all of it.
+/// The report on the influence; the files hold all of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InfluenceOptions {
     /// The probability of exceedance whose risk is taken apart, one of the result; the smallest where none is given.

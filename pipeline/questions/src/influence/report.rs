@@ -1,4 +1,4 @@
-//! What is reported of the influence of records and intensities.
+//! The report on the influence of records and intensities.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ use super::write::influence_path;
 /// Strengths at which the risk is taken apart.
 const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
 
-/// What is reported of the influence of records and intensities.
+/// The report on the influence of records and intensities.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct InfluenceReport {
     /// The most influential records of every measure, site and probability, in this order.

@@ -89,7 +89,7 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
     Ok(Plan { head, levels, consistency })
 }
 
-/// What the study and its records are reported of.
+/// The alarms of the study and its records.
 fn of_inputs(study: &UniformRiskStudy, set: &RecordSet) -> impl Iterator<Item = Alarm> {
     let of_records = if let Some(at_level) = &set.at_level {
         let first = study.measures.first();

@@ -89,7 +89,7 @@ impl Answer {
         add(writer, &self.question, &self.findings, &self.repairs, keep)
     }
 
-    /// What is reported of it beside the plain spectra.
+    /// What is reported beside the plain spectra.
     pub fn report(&self, plain_m: &[(IntensityMeasure, Array<3>)]) -> ConsistencyReport {
         ConsistencyReport::new(&self.question, &self.findings, plain_m, &self.repairs)
     }

@@ -1,4 +1,4 @@
-//! What is reported of consistency: rows, sentences and warnings.
+//! The report on consistency: rows, sentences and warnings.
 
 use std::path::PathBuf;
 
@@ -14,7 +14,7 @@ use super::{Finding, Question, Repairs};
 /// Displacements that agreement is looked at from, m: below it rocking has only just begun.
 const COMPARED_FROM_M: f64 = 0.01;
 
-/// What is reported of the consistency of a study or of its result.
+/// The report on the consistency of a study or of its result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ConsistencyReport {
     /// One row for each measure that records are scaled to, and site.

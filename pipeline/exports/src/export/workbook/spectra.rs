@@ -11,9 +11,9 @@ use crate::export::source::Row;
 const CENSORED: &str = "censored";
 /// Label of the first column.
 const STRENGTH: &str = "strength f_up/(m g), -";
-/// What is reported of each ordinate beside itself.
+/// What is exported with each ordinate.
 const TAILS: [&str; 3] = ["flag", "share from below, %", "share from above, %"];
-/// What is reported of a spread, as [`StoredSpread::limits_m`](uplift_result::StoredSpread::limits_m) has it.
+/// What is exported of a spread, as [`StoredSpread::limits_m`](uplift_result::StoredSpread::limits_m) has it.
 const SPREAD: [&str; 6] = ["mean", "5 %", "16 %", "50 %", "84 %", "95 %"];
 /// Widths of the column of strengths, in characters.
 const WIDTHS: [f64; 1] = [26.0];
