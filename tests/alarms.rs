@@ -78,14 +78,15 @@ fn every_face_says_the_same() {
     let again = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok().stdout;
     let shown = study.uplift(&["table", "r.h5"]).ok().stdout;
     // a summary has the worst, three at most and a line each, and says how to see the others
-    for (face, found) in [(again, &run), (shown, &table)] {
+    for (face, found, others) in [(again, &run, "uplift warnings r.h5"), (shown, &table, "--details")] {
         let found = found["alarms"].as_array().unwrap();
         let (_, lines) = face.split_once("\nWarnings\n").unwrap_or_else(|| panic!("{face}"));
         let shown: Vec<&str> = lines.lines().take(3).collect();
         for (alarm, line) in found.iter().zip(&shown) {
-            assert!(line.contains(text(alarm, "what")) && line.ends_with(text(alarm, "what_to_do")), "{line}\n{alarm}");
+            let remedy = text(alarm, "what_to_do").replace("RESULT", "r.h5");
+            assert!(line.contains(text(alarm, "what")) && line.ends_with(&remedy), "{line}\n{alarm}");
         }
-        let rest = format!("  {} more: --details", found.len() - 3);
+        let rest = format!("  {} more: {others}", found.len() - 3);
         assert_eq!(lines.lines().nth(3), Some(&*rest), "{face}");
     }
     let listed = study.uplift(&["warnings", "r.h5"]).ok().stdout;
@@ -94,14 +95,15 @@ fn every_face_says_the_same() {
     let page =
         std::fs::read_to_string(study.path().join("r.html")).unwrap().replace("&#x2f;", "/").replace("&#x27;", "'");
     assert!(page.contains(">Warnings<"), "{page:.300}");
-    for (face, mark) in [(listed, "\n          "), (page, ":</strong> ")] {
+    for (face, mark, result) in [(listed, "\n          ", "r.h5"), (page, ":</strong> ", "RESULT")] {
         for alarm in run["alarms"].as_array().unwrap() {
             let told = format!("{mark}{}", text(alarm, "what"));
             assert_eq!(face.matches(&told).count(), 1, "{told}\n{face:.2000}");
             let (before, _) = face.split_once(&told).unwrap();
             let line = before.lines().last().unwrap();
             assert!(line.contains(text(alarm, "subject")), "{line}\n{alarm}");
-            assert!(face.contains(text(alarm, "what_to_do")), "{alarm}\n{face:.2000}");
+            let remedy = text(alarm, "what_to_do").replace("RESULT", result);
+            assert!(face.contains(&remedy), "{alarm}\n{face:.2000}");
         }
     }
     // with the ordinates stands what they rest on
@@ -174,7 +176,7 @@ fn a_table_of_one_measure_says_what_concerns_it() {
         let alarms = table["alarms"].as_array().unwrap().iter();
         alarms.map(|alarm| format!("{} {}", text(alarm, "kind"), text(alarm, "subject"))).collect()
     };
-    let (plain, all, pgv) = (kinds(&[]), kinds(&["--im", "all"]), kinds(&["--im", "pgv"]));
+    let (plain, all, pgv) = (kinds(&[]), kinds(&["--measure", "all"]), kinds(&["--im", "pgv"]));
     // what is said of fits is said of those that are shown, and without a word those are by PGV
     let parted = |said: &[String]| -> (Vec<String>, Vec<String>) {
         said.iter().cloned().partition(|said| FIT.iter().any(|kind| said.starts_with(kind)))
@@ -187,7 +189,7 @@ fn a_table_of_one_measure_says_what_concerns_it() {
     for kind in ["measures-disagree", "synthetic-records"] {
         assert!(pgv.iter().any(|said| said.starts_with(kind)), "{kind}: {pgv:?}");
     }
-    assert!(!kinds(&["--im", "pga"]).iter().any(|said| said.contains(", PGV")));
+    assert!(!kinds(&["--measure", "pga"]).iter().any(|said| said.contains(", PGV")));
 }
 
 #[test]
@@ -297,7 +299,7 @@ fn curves_and_levels_in_other_units_are_named() {
     }
     // whichever spectra are asked for, and on the page by its word
     for measure in ["PGV", "PGA"] {
-        let said = study.uplift(&["table", "r.h5", "--im", measure]).ok().stdout;
+        let said = study.uplift(&["table", "r.h5", "--measure", measure]).ok().stdout;
         assert!(said.contains("  mistake? Here: its curve of PGA is "), "{measure}: {said}");
     }
     study.uplift(&["report", "r.h5", "-q"]).ok();

@@ -112,7 +112,7 @@ fn designs_tables_and_pages_take_it() {
     assert_eq!(design("asked.h5", &[]), design("r.h5", &["--poe", "0.02"]));
 
     let table = |result: &str, more: &[&str]| -> Value {
-        let asked = ["table", result, "--im", "all", "--json"];
+        let asked = ["table", result, "--measure", "all", "--json"];
         without_file(study.uplift(&[&asked[..], more].concat()))
     };
     assert_eq!(table("r.h5", &["--poe", ASKED]), table("asked.h5", &[]));

@@ -393,7 +393,7 @@ fn influence_is_that_of_a_set_without_the_record() {
     assert!(whole > 20);
     let text = study.uplift(&["influence", "all.h5"]).ok().stdout;
     assert!(
-        text.contains("Records with the largest influence")
+        text.starts_with("Change of the displacement without the record that matters most")
             && text.contains("SYN")
             && text.contains("all.influence.csv"),
         "{text}"
@@ -405,8 +405,8 @@ fn measures_are_compared() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let text = study.uplift(&["measures", "r.h5"]).ok().stdout;
-    assert!(text.starts_with("Most efficient for the displacement of a rocking structure: "), "{text}");
-    assert!(text.contains("\nMost efficient for the onset of rocking: ") && text.contains("\nSA(1.0) +"), "{text}");
+    assert!(text.starts_with("Best for the displacement: "), "{text}");
+    assert!(text.contains("\nBest for initiation: ") && text.contains("\nSA(1.0) +"), "{text}");
     assert!(!text.contains("Efficiency:"), "{text}");
     let details = study.uplift(&["measures", "r.h5", "--details"]).ok().stdout;
     for word in ["Efficiency: ", "Sufficiency: ", "SA(1.0) +", "magnitude\n", "ln_duration\n"] {
@@ -462,7 +462,7 @@ fn trends_of_table_4_1_appear_with_real_records() {
     println!("{text}");
     assert!(
         text.split_whitespace().collect::<Vec<_>>().join(" ").contains("| 3.9 63")
-            && text.contains("\nWidest band of all sites, ")
+            && text.contains("\nBand where it is widest in metres, ")
             && !text.contains("Rocking initiation"),
         "the reference stands beside ours"
     );

@@ -83,7 +83,7 @@ fn asked_in_every_run_and_repaired_beside_the_plain_spectra() {
     // asked again, the repair stays; asked for another risk, it is read off the same weights
     study.uplift(&["consistency", "r.h5", "-q"]).ok();
     let rows = |poes: &str| -> Vec<Value> {
-        let table = json(&study.uplift(&["table", "r.h5", "--im", "all", "--poe", poes, "--json"]).ok());
+        let table = json(&study.uplift(&["table", "r.h5", "--measure", "all", "--poe", poes, "--json"]).ok());
         let all = table["rows"].as_array().unwrap().iter();
         all.filter(|row| row["repaired"] == true && row["poe"] == 0.1).cloned().collect()
     };

@@ -109,7 +109,7 @@ fn figures_are_as_wide_as_a_journal_asks() {
 #[test]
 fn every_star_has_its_footnote() {
     let study = study();
-    let shown = study.uplift(&["table", "r.h5", "--im", "all"]).ok().stdout;
+    let shown = study.uplift(&["table", "r.h5", "--measure", "all"]).ok().stdout;
     let (table, notes) = shown.split_once("probabilities in").unwrap();
     assert_eq!(table.contains(" *\n") || table.contains(" *  "), table.ends_with("* c2 held at 0; "), "{shown}{notes}");
 }

@@ -317,7 +317,7 @@ fn a_case_known_by_hand() {
     let found = number(&report["overturning"]["per_year"]);
     assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
     assert_eq!(report["direction"]["wobbling_overturns"], 0);
-    assert!(report["alarms"].to_string().contains("of the risk is above the last level, 0.8 g"));
+    assert!(report["alarms"].to_string().contains("of the risk lies above the last level, 0.8 g"));
 }
 
 #[test]
@@ -344,7 +344,7 @@ fn wrong_arguments_are_refused_and_figures_are_drawn() {
     assert!(planar.stdout.contains("do not wobble") && !planar.stdout.contains("torsion"), "{}", planar.stdout);
     assert!(planar.stdout.contains("planar frame") && !planar.stdout.contains("wobbling frame"));
     assert!(std::fs::read_to_string(study.path().join("r.svg")).unwrap().contains("displacement of the deck, m"));
-    ask("frame.toml", &[]).fails(2, &["name one with --site Here: the result has Here, There"]);
+    ask("frame.toml", &[]).fails(2, &["choose one: --site Here; the result has Here, There"]);
     ask("frame.toml", &["--site", "Here", "-o", "manifest.csv"]).fails(2, &["manifest.csv"]);
     ask("frame.toml", &["--site", "Here", "--plot", "frame.toml"]).fails(2, &["frame.toml"]);
     study.write("mass.toml", "kind = \"point-mass\"\nmass_kg = 1\nwidth_m = 1\ncentre_height_m = 4\n");

@@ -56,7 +56,7 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
         alarm["what"]
             .as_str()
             .unwrap()
-            .contains("4 of 4 ordinates tried may be too small (up to 4.6 % of the risk is above the levels)"),
+            .contains("4 of 4 trial ordinates may be too small (up to 4.6 % of the risk lies above the levels)"),
         "{plan:#}"
     );
     let proposal = &check["proposal"];
@@ -70,7 +70,7 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
 
     let said = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
     let pasted = line.replace("pgv.levels", "Proposed: [pgv] levels");
-    let high = "There, PGV, 10 % (3 more): 4 of 4 ordinates tried too large: up to 96.2 % of the risk is below";
+    let high = "There, PGV, 10 % (3 more): 4 of 4 trial ordinates too large: up to 96.2 % of the risk lies below";
     for words in ["Levels    PGV, at the strengths tried (0.2", "up to 96.2 % of the risk lies below", high, &pasted] {
         assert!(said.contains(words), "{words}: {said}");
     }

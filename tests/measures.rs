@@ -59,8 +59,8 @@ fn a_study_of_spectral_acceleration_alone() {
     study.uplift(&["bootstrap", "r.h5", "-q", "--sizes", "4", "--replicates", "10"]).ok();
     let table = study.uplift(&["table", "r.h5"]).ok().stdout;
     assert!(table.contains("SA(0.5)"), "{table}");
-    study.uplift(&["table", "r.h5", "--im", "pgv"]).fails(4, &["use --im sa_0p5s"]);
-    study.uplift(&["table", "r.h5", "--im", "psa"]).fails(2, &["unknown intensity measure \"psa\""]);
+    study.uplift(&["table", "r.h5", "--measure", "pgv"]).fails(4, &["use --measure sa_0p5s"]);
+    study.uplift(&["table", "r.h5", "--measure", "psa"]).fails(2, &["unknown intensity measure \"psa\""]);
     let status = study.uplift(&["status", "r.h5"]).ok().stdout;
     assert!(status.contains("SA(0.5)  48 analyses"), "{status}");
     // what was computed is not computed again

@@ -53,7 +53,7 @@ fn table_of_a_result_alone_and_mistakes() {
     let text = study.uplift(&["table", "r.h5"]).ok().stdout;
     assert!(text.contains("Here") && text.contains("There") && text.contains("synthetic"), "{text}");
     let all: Value =
-        serde_json::from_str(&study.uplift(&["table", "r.h5", "--im", "all", "--json"]).ok().stdout).unwrap();
+        serde_json::from_str(&study.uplift(&["table", "r.h5", "--measure", "all", "--json"]).ok().stdout).unwrap();
     let rows = all["rows"].as_array().unwrap();
     assert_eq!(rows.len(), 12);
     assert!(rows.iter().all(|row| row["median_ratio"].is_null()));

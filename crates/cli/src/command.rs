@@ -241,4 +241,31 @@ mod tests {
             assert!((1..=60).contains(&about.len()), "{}: {about}", own.get_name());
         }
     }
+
+    /// Commands that do something, with the two words of those of two levels.
+    fn leaves(of: &clap::Command, path: &str, found: &mut Vec<(String, String)>) {
+        if of.has_subcommands() {
+            for own in of.get_subcommands() {
+                leaves(own, &format!("{path} {}", own.get_name()), found);
+            }
+        } else if !of.is_hide_set() {
+            found.push((path.to_owned(), of.get_after_help().map(ToString::to_string).unwrap_or_default()));
+        }
+    }
+
+    #[test]
+    fn every_help_ends_with_examples_that_the_program_takes() {
+        let mut found = Vec::new();
+        leaves(&Arguments::command(), "uplift", &mut found);
+        for (path, help) in found {
+            let joined = help.replace("\\\n", "");
+            let lines = joined.lines().map(|line| line.split(" > ").next().unwrap_or_default().trim());
+            let examples: Vec<&str> = lines.filter(|line| line.starts_with("uplift ")).collect();
+            assert!(examples.iter().any(|line| line.starts_with(&path)), "{path}: {help}");
+            for example in examples {
+                let typed = Arguments::command().try_get_matches_from(example.split_whitespace());
+                assert!(typed.is_ok(), "{example}: {}", typed.err().map(|error| error.to_string()).unwrap_or_default());
+            }
+        }
+    }
 }

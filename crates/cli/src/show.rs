@@ -93,3 +93,10 @@ const ROUNDING_DECIDES: &str = "*: rounding decides it: with scale factors some 
 pub(crate) fn shown_path(path: &Path) -> &Path {
     std::env::current_dir().ok().and_then(|folder| path.strip_prefix(folder).ok()).unwrap_or(path)
 }
+
+/// The same as a shell takes it.
+pub(crate) fn typed_path(path: &Path) -> String {
+    let shown = shown_path(path).display().to_string();
+    let is_plain = shown.chars().all(|own| own.is_alphanumeric() || "/._-+,@:\\".contains(own));
+    if is_plain { shown } else { format!("'{shown}'") }
+}

@@ -97,7 +97,7 @@ pub enum Unreadable {
     #[error("no current directory: {0}")]
     NoCurrentDirectory(std::io::Error),
     /// It is a folder, a pipe or the like.
-    #[error("it is not a file")]
+    #[error("it is not a file: give the name of a TOML file")]
     NotAFile,
     /// It is larger than what people write.
     #[error("it has more than {most_bytes} bytes; is it a study file?")]

@@ -134,7 +134,7 @@ pub fn few(records: usize, pairs: usize) -> Option<Alarm> {
                 "{are} ({FEW_RECORDS} advised)",
                 are = if pairs < records { format!("{pairs} pairs, {records} records") } else { records.to_string() }
             ),
-            "Extend records.manifest",
+            "",
         )
     })
 }

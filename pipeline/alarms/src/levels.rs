@@ -71,7 +71,7 @@ pub fn below_first_case(
         badness: most,
         subject: name.to_owned(),
         what: format!(
-            "{count} of {} {} too large: up to {} of the risk is below {first} {}",
+            "{count} of {} {} too large: up to {} of the risk lies below {first} {}",
             shares.len(),
             counted.ordinates(),
             share(most),
@@ -121,7 +121,7 @@ impl Counted {
     fn ordinates(self) -> &'static str {
         match self {
             Self::All => "ordinates",
-            Self::Tried => "ordinates tried",
+            Self::Tried => "trial ordinates",
         }
     }
 }
@@ -151,7 +151,7 @@ impl UpperEnd<'_> {
         let counted = match count {
             0 => "ordinates may be too small".to_owned(),
             _ => format!(
-                "{count} of {} {} may be too small (up to {} of the risk is above the levels)",
+                "{count} of {} {} may be too small (up to {} of the risk lies above the levels)",
                 shares.len(),
                 counted.ordinates(),
                 share(most)

@@ -84,7 +84,7 @@ fn outside_levels(own: &OwnRisk) -> Option<Case> {
         badness: share,
         subject: own.subject.clone(),
         what: format!(
-            "{} of the risk is {where_from} {}: the rate is {therefore}",
+            "{} of the risk lies {where_from} {}: the rate is {therefore}",
             share_in_words(share),
             own.measure.unit()
         ),

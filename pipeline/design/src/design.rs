@@ -34,7 +34,7 @@ use super::opening::{Place, job_name, records_and_pairs, restitution};
 use super::own_frame::{FrameReport, OwnFrame, STOPPED, of_frame};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
-use super::rules::{RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
+use super::rules::{MeasureVerdict, RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
 use super::spectrum::SpectrumDemand;
 use super::uncertain::UncertaintyReport;
 use super::weights::{RepairedWeights, SiteWeights};
@@ -121,6 +121,9 @@ pub struct DesignReport {
     pub uncertainty: Option<UncertaintyReport>,
     /// The rules; none where they do not apply, to positive post-uplift stiffness.
     pub rules: Vec<RuleOutcome>,
+    /// The rules by the spectra of the other measures of the result.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub by_other_measures: Vec<MeasureVerdict>,
     /// How the structure and the study differ, and what could not be done.
     pub notes: Vec<String>,
     /// What to know before using the numbers, the worst first.
@@ -142,6 +145,18 @@ impl DesignReport {
         let mut checks = self.rules.iter().filter_map(RuleOutcome::check).peekable();
         checks.peek()?;
         Some(checks.any(|check| check.satisfied != own.satisfied))
+    }
+
+    /// Where another measure has another verdict by a rule: `by PGA: NOT satisfied by equal energy (requires 0.62 m)`.
+    pub fn contradicted_by(&self) -> Vec<String> {
+        let verdict = |outcome: &RuleOutcome| Some((outcome.rule, outcome.check()?.satisfied));
+        let own: Vec<_> = self.rules.iter().filter_map(verdict).collect();
+        let differs = |outcome: &&RuleOutcome| verdict(outcome).is_some_and(|of| !own.contains(&of));
+        let told = self.by_other_measures.iter().filter_map(|of| {
+            let differing: Vec<String> = of.rules.iter().filter(differs).filter_map(RuleOutcome::in_words).collect();
+            (!differing.is_empty()).then(|| format!("by {}: {}", of.im, differing.join(", ")))
+        });
+        if own.is_empty() { Vec::new() } else { told.collect() }
     }
 
     /// By which spectrum, in words: `PGV`, or `PGV, repaired`.
@@ -219,16 +234,13 @@ pub fn design(
     };
     let rules = apply_rules(structure, safety_factor, demands)?;
     if spectrum.is_some() && !options.repaired {
-        let by_curve_m = demands_by_curve(structure, (&file, &source), (place, poe))?;
-        notes.extend(verdicts_by_curve(structure, safety_factor, &by_curve_m)?);
+        let spectra = file.branch_spectra(measure.measure(), place.name, poe)?;
+        let demands = spectra.iter().map(|(weight, u_m)| (*weight, spectrum_demand(structure, &source, u_m)));
+        notes.extend(verdicts_by_curve(structure, safety_factor, demands)?);
     }
-    let scope = Scope {
-        site: Some(site),
-        measure: Some(measure.measure()),
-        poe: Some(poe),
-        strengths: spectrum.map(|spectrum| spectrum.between_strengths).or(Some((f64::NAN, f64::NAN))),
-        repaired: options.repaired,
-    };
+    let by_other_measures =
+        verdicts_by_measure(structure, safety_factor, (&file, &source), (place, poe), options.repaired)?;
+    let scope = scope((place, poe), spectrum, options.repaired);
     let told = StructureReport::from_structure(structure, Some(restitution));
     let mut alarms = alarms_within(&file, &scope)?;
     alarms.extend(structure_alarms(structure));
@@ -262,6 +274,7 @@ pub fn design(
         without_frame,
         uncertainty,
         rules,
+        by_other_measures,
         notes,
         alarms: ranked(alarms),
     })
@@ -332,19 +345,36 @@ fn repaired_spectrum(
     Ok(own.and_then(|of| Some(of.u_m.as_ref()?.block([site, poe]).to_vec())))
 }
 
-/// The weights of the site's hazard curves, of 1, with the demand on the ZSBE system by the spectrum of each, m;
-/// infinite where that cannot be read.
-fn demands_by_curve(
+/// Which warnings concern a design: those of the spectrum that it is by, around its strength.
+fn scope((place, poe): (Place<'_>, usize), spectrum: Option<SpectrumDemand>, repaired: bool) -> Scope {
+    Scope {
+        site: Some(place.site),
+        measure: Some(place.measure.measure()),
+        poe: Some(poe),
+        strengths: spectrum.map(|spectrum| spectrum.between_strengths).or(Some((f64::NAN, f64::NAN))),
+        repaired,
+    }
+}
+
+/// The rules by the spectra of all measures but that of `place`; of those alone that can be read.
+fn verdicts_by_measure(
     structure: &Structure,
+    safety_factor: f64,
     (file, source): (&ResultFile, &StudyOfResult),
     (place, poe): (Place<'_>, usize),
-) -> Result<Vec<(f64, f64)>, DesignError> {
-    let of_curve = |(weight, u_m): (f64, Vec<f64>)| {
-        let demand = spectrum_demand(structure, source, &u_m);
-        (weight, demand.map_or(f64::INFINITY, |demand| demand.zero_stiffness_demand_m))
-    };
-    let spectra = file.branch_spectra(place.measure.measure(), place.name, poe)?;
-    Ok(spectra.into_iter().map(of_curve).collect())
+    repaired: bool,
+) -> Result<Vec<MeasureVerdict>, DesignError> {
+    let mut verdicts = Vec::new();
+    for other in source.measures.iter().filter(|other| other.measure() != place.measure.measure()) {
+        let repaired_m = if repaired { repaired_spectrum(file, other, [place.site, poe])? } else { None };
+        let u_m = if repaired { repaired_m } else { Some(source.spectrum(other, place.site, poe).to_vec()) };
+        let Some(demand) = u_m.and_then(|u_m| spectrum_demand(structure, source, &u_m)) else { continue };
+        let of_spectrum_m = Some(demand.zero_stiffness_demand_m);
+        let demands = RuleDemands { of_spectrum_m, exact_m: None, of_structure_m: None };
+        let rules = apply_rules(structure, safety_factor, demands)?;
+        verdicts.push(MeasureVerdict { im: other.measure().label(), rules });
+    }
+    Ok(verdicts)
 }
 
 /// Why there is no repaired spectrum of a site.

@@ -37,7 +37,7 @@ pub use overturning::{
 };
 pub use own_frame::{FrameCheck, FrameModel, FrameReport};
 pub use report::{ReportSource, StructureReport};
-pub use rules::{RuleCheck, RuleOutcome};
+pub use rules::{MeasureVerdict, RuleCheck, RuleOutcome, verdict_word};
 pub use spectrum::SpectrumDemand;
 pub use target::{
     Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrequency, TargetOptions,

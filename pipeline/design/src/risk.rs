@@ -26,7 +26,7 @@ pub(super) fn own_risk(
 ) -> OwnRisk {
     let levels = &measure.plan.levels;
     OwnRisk {
-        subject: format!("{event}, {site}, {}", measure.measure().label()),
+        subject: format!("{event} at {site} by {}", measure.measure().label()),
         risk,
         measure: measure.measure(),
         levels: (levels[0], levels[levels.len() - 1]),

@@ -6,6 +6,8 @@ use uplift_result::RULES;
 use uplift_structure::{Check, Demand, PostUpliftForce, Rule, StructureError, relative_error};
 use uplift_study::Structure;
 
+use super::spectrum::SpectrumDemand;
+
 /// A rule applied to the ordinate of a spectrum, and to the exact ZSBE demand.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct RuleOutcome {
@@ -48,10 +50,32 @@ pub struct RuleCheck {
 }
 
 impl RuleOutcome {
+    /// `NOT satisfied by equal energy (requires 0.62 m)`; none without a check.
+    pub fn in_words(&self) -> Option<String> {
+        let check = self.check()?;
+        let required_m = check.required_capacity_m;
+        let required = if required_m.is_finite() { format!("{required_m:.2} m") } else { "any capacity".to_owned() };
+        Some(format!("{} by {} (requires {required})", verdict_word(check.satisfied), self.rule.words()))
+    }
+
     /// The check that counts: from the spectrum, or where that cannot be read from the exact demand.
     pub fn check(&self) -> Option<&RuleCheck> {
         self.from_spectrum.as_ref().or(self.from_exact.as_ref())
     }
+}
+
+/// `satisfied` or `NOT satisfied`.
+pub fn verdict_word(satisfied: bool) -> &'static str {
+    if satisfied { "satisfied" } else { "NOT satisfied" }
+}
+
+/// What the rules say by the spectrum of another measure than the one that a design is by.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MeasureVerdict {
+    /// `PGV` or `PGA`.
+    pub im: &'static str,
+    /// Both rules, from its spectrum.
+    pub rules: Vec<RuleOutcome>,
 }
 
 /// Demands that the rules start from and are measured by, in the structure's displacement, m.
@@ -115,18 +139,18 @@ fn rule_check(structure: &Structure, check: &Check, of_structure_m: Option<f64>)
     }
 }
 
-/// Which verdicts hang on the hazard curve, of those that may hold: `by_curve_m` has the weight of each, of 1, with
-/// the demand on the ZSBE system by its spectrum; infinite where that cannot be read.
+/// Which verdicts hang on the hazard curve, of those that may hold: `by_curve` has the weight of each, of 1, with the
+/// demand by its spectrum; none where that cannot be read.
 pub(super) fn verdicts_by_curve(
     structure: &Structure,
     safety_factor: f64,
-    by_curve_m: &[(f64, f64)],
+    by_curve: impl Iterator<Item = (f64, Option<SpectrumDemand>)>,
 ) -> Result<Vec<String>, StructureError> {
     // of each rule the weight of the curves by which it is satisfied, and the margins
     let mut found: Vec<(Rule, f64, [f64; 2])> = Vec::new();
-    for &(weight, demand_m) in by_curve_m {
+    for (weight, demand) in by_curve {
         // where there is no demand to tell, nothing is enough
-        let of_spectrum_m = Some(demand_m).filter(|demand_m| demand_m.is_finite());
+        let of_spectrum_m = demand.map(|demand| demand.zero_stiffness_demand_m);
         let demands = RuleDemands { of_spectrum_m, exact_m: None, of_structure_m: None };
         for outcome in apply_rules(structure, safety_factor, demands)? {
             let (satisfied, margin_m) =

@@ -58,7 +58,16 @@ const REQUIRED: [&str; 3] = ["record_id", "file_h1", "file_h2"];
 /// # Errors
 /// Everything that is wrong with it, a line each.
 pub fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
-    let bytes = read_file(path, LARGEST_BYTES).map_err(|error| vec![format!("manifest {error}")])?;
+    let bytes = read_file(path, LARGEST_BYTES).map_err(|error| {
+        let name = path.display();
+        // a folder of records is what people have
+        let advice = format!("make one of its records: uplift records import {name} -o records.csv");
+        vec![if path.is_dir() {
+            format!("{name} is a folder, not a manifest: {advice}")
+        } else {
+            format!("manifest {error}")
+        }]
+    })?;
     read_bytes(&bytes, path, tag)
 }
 
@@ -130,7 +139,16 @@ pub fn read_bytes(bytes: &[u8], path: &Path, tag: Option<&str>) -> Result<Vec<Ro
 /// Everything that is wrong with it, a line each.
 pub fn rows_of(path: &Path, ids: &BTreeSet<&str>, folder: &Path) -> Result<Vec<Column>, Vec<String>> {
     let fail = |reason: String| vec![format!("manifest {} cannot be read: {reason}", path.display())];
-    let bytes = read_file(path, LARGEST_BYTES).map_err(|error| vec![format!("manifest {error}")])?;
+    let bytes = read_file(path, LARGEST_BYTES).map_err(|error| {
+        let name = path.display();
+        // a folder of records is what people have
+        let advice = format!("make one of its records: uplift records import {name} -o records.csv");
+        vec![if path.is_dir() {
+            format!("{name} is a folder, not a manifest: {advice}")
+        } else {
+            format!("manifest {error}")
+        }]
+    })?;
     let table = parse(&bytes).map_err(fail)?;
     let origin = path.parent().unwrap_or(Path::new(""));
     let text = |column: &Column, row: usize| -> String {

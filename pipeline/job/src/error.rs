@@ -19,7 +19,7 @@ pub enum JobError {
     /// What a job is asked for does not fit together.
     Usage(String),
     /// A choice among what a result has, that it does not have or that was not made.
-    #[error("{}: the result has {}", choice(option, wanted.as_deref(), known), known.join(", "))]
+    #[error("{}; the result has {}", choice(option, wanted.as_deref(), known), known.join(", "))]
     Choice {
         /// What is chosen, as the command line calls it: `--site`.
         option: &'static str,
@@ -91,7 +91,7 @@ macro_rules! through_job_error {
 /// An option, with the value given to it.
 fn choice(option: &str, wanted: Option<&str>, known: &[String]) -> String {
     let example = || known.first().map_or_else(String::new, |first| format!(" {first}"));
-    wanted.map_or_else(|| format!("name one with {option}{}", example()), |wanted| format!("{option} {wanted}"))
+    wanted.map_or_else(|| format!("choose one: {option}{}", example()), |wanted| format!("{option} {wanted}"))
 }
 
 /// Several mistakes as one message; `place` says where they are.

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use uplift_atomic_file::{final_place, is_still_at};
 
 use crate::error::JobError;
+use crate::outputs::provide_folder;
 
 /// Held as long as something is being written to a result. The operating system lets go of it when the program ends,
 /// however it ends.
@@ -18,12 +19,13 @@ pub struct ResultLock {
 }
 
 impl ResultLock {
-    /// Takes the lock of the result at `result`, a hidden file beside it.
+    /// Takes the lock of the result at `result`, a hidden file beside it; its folder is made.
     ///
     /// # Errors
     /// Where another run has it, and where the folder cannot be written.
     pub fn acquire(result: &Path) -> Result<Self, JobError> {
         let path = lock_path(result);
+        provide_folder(path.parent().unwrap_or(Path::new("")))?;
         let fail = |error: std::io::Error| JobError::input(format!("{}: {error}", path.display()));
         let mut tries = 0;
         loop {

@@ -193,15 +193,17 @@ pub fn check(outputs: &[Output], inputs: &[impl AsRef<Path>], force: bool) -> Re
     if !refused.is_empty() {
         return Err(JobError::Usage(refused.join("\n")));
     }
-    outputs.iter().try_for_each(|output| check_place_of(&output.path))
+    for output in outputs {
+        AtomicFile::reserve(&place_to_try(&output.path))?;
+    }
+    Ok(())
 }
 
-/// Whether a file can be written at `path`, or above it where its folder is still to be made.
-fn check_place_of(path: &Path) -> Result<(), JobError> {
+/// Where to try whether a file can be written at `path`: there, or above it where its folder is still to be made.
+pub fn place_to_try(path: &Path) -> PathBuf {
     let above = |folder: &&Path| folder.as_os_str().is_empty() || folder.exists();
     let folder = path.ancestors().skip(1).find(above).unwrap_or(Path::new(""));
-    AtomicFile::reserve(&folder.join(path.file_name().unwrap_or_default()))?;
-    Ok(())
+    folder.join(path.file_name().unwrap_or_default())
 }
 
 /// What to say of a name that does not tell what is written.

@@ -86,9 +86,9 @@ pub fn short(value: f64) -> String {
     }
 }
 
-/// A frequency a year, or a bound of it, with the two digits that a record set can tell: `7.4e-5`.
+/// A frequency a year, or a bound of it, with the two digits that a record set can tell: `7.4e-5`; `0` for none.
 pub fn rate(per_year: f64) -> String {
-    format!("{per_year:.1e}")
+    if per_year == 0.0 { "0".to_owned() } else { format!("{per_year:.1e}") }
 }
 
 /// A size in bytes, in kB, MB or GB.

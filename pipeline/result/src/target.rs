@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use uplift_atomic_file::open_file;
 use uplift_job::JobError;
-use uplift_job::outputs::{beside, is_same_file, wrong_ending};
+use uplift_job::outputs::{beside, is_same_file, place_to_try, wrong_ending};
 use uplift_job::study_run::RunOptions;
 use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
 use uplift_study::AnyStudy;
@@ -104,7 +104,7 @@ fn is_of_file(text: &impl Fn(&str) -> String, study: &AnyStudy, file: &Path) -> 
 /// Refuses what lies at `path` and is no result; one that cannot be opened is a result that was damaged, which gives
 /// way.
 fn check_replaceable(path: &Path, force: bool) -> Result<(), ResultError> {
-    drop(LabelledWriter::create(path)?);
+    drop(LabelledWriter::create(&place_to_try(path))?);
     let refused = |what: &str| {
         JobError::input(format!(
             "{}: exists and {what}, so it is not overwritten: give another name (-o), or --force",

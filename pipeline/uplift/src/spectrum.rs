@@ -29,10 +29,35 @@ pub struct SpectrumReport {
 pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumReport, UpliftError> {
     let file = at(ResultFile::open(path)?, &asked.risk)?;
     let found = displacements(&file, asked)?;
+    let axes = file.axes()?;
     let site = match &asked.sites[..] {
-        [only] => Some(site_index(&file.axes()?.sites, only)?),
+        [only] => Some(site_index(&axes.sites, only)?),
         _ => None,
     };
-    let alarms = alarms_of(&file, &Scope { site, measure: Some(found.measure), ..Scope::default() })?;
+    let strengths = between(&axes.strengths, &asked.strengths);
+    let alarms = alarms_of(&file, &Scope { site, measure: Some(found.measure), strengths, ..Scope::default() })?;
     Ok(SpectrumReport { found, alarms })
+}
+
+/// The `known` strengths, in rising order, between which the `asked` ones are read; none where none are asked for.
+fn between(known: &[f64], asked: &[f64]) -> Option<(f64, f64)> {
+    let least = asked.iter().copied().min_by(f64::total_cmp)?;
+    let most = asked.iter().copied().max_by(f64::total_cmp)?;
+    let below = known.iter().rev().find(|strength| **strength <= least);
+    let above = known.iter().find(|strength| **strength >= most);
+    Some((*below.unwrap_or(&least), *above.unwrap_or(&most)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::between;
+
+    #[test]
+    fn strengths_are_read_between_their_neighbours() {
+        let known = [0.0, 0.1, 0.2, 0.4];
+        assert_eq!(between(&known, &[]), None);
+        assert_eq!(between(&known, &[0.13]), Some((0.1, 0.2)));
+        assert_eq!(between(&known, &[0.3, 0.1]), Some((0.1, 0.4)));
+        assert_eq!(between(&known, &[0.5]), Some((0.4, 0.5)));
+    }
 }

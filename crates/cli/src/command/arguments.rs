@@ -23,6 +23,9 @@ use uplift_frame::Model;
 
 use crate::error::CommandError;
 
+/// Heading of the options that few need.
+pub(crate) const RARE: &str = "Rarely needed";
+
 /// Endings of the files that the program writes.
 const FILES: [&str; 6] = ["h5", "svg", "png", "csv", "html", "json"];
 
@@ -43,14 +46,20 @@ pub(crate) fn model(word: &str) -> Result<Model, String> {
     }
 }
 
-/// Reads `0.2` or `2e-4`; of a decimal comma it is said what to write.
+/// Reads `0.2` or `2e-4`; of a decimal comma it is said what to write, of a list that one number is wanted.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     let text = text.trim();
     text.parse::<f64>().map_err(|_| {
         let pointed = text.replace(',', ".");
-        match pointed.parse::<f64>() {
-            Ok(_) => format!("{text} has a decimal comma, and the decimal mark is a point: write {pointed}"),
-            Err(_) => "write a number, 0.2 or 2e-4, without a unit".to_owned(),
+        let is_number = |part: &str| part.trim().parse::<f64>().is_ok();
+        match text.split_once(',') {
+            Some((whole, decimals)) if is_number(&pointed) && whole.len() + decimals.len() < 5 => {
+                format!("the decimal mark is a point: write {pointed}")
+            }
+            Some(_) if text.split(',').all(is_number) => {
+                "give one number, and repeat the command for the others".to_owned()
+            }
+            _ => "write a number, 0.2 or 2e-4, without a unit".to_owned(),
         }
     })
 }
@@ -62,7 +71,7 @@ pub(crate) struct Numbers(pub(crate) Vec<f64>);
 /// Reads `0.1,0.2`; `0,13` is a number with a decimal comma.
 pub(crate) fn numbers(text: &str) -> Result<Numbers, String> {
     if let Some(decimals) = text.strip_prefix("0,").filter(|rest| rest.bytes().all(|byte| byte.is_ascii_digit())) {
-        return Err(format!("the decimal mark is a point: write 0.{decimals}, or 0.0,{decimals} for two numbers"));
+        return Err(format!("the decimal mark is a point: write 0.{decimals}"));
     }
     text.split(',').map(number).collect::<Result<_, _>>().map(Numbers)
 }
@@ -88,7 +97,10 @@ mod tests {
     fn a_decimal_comma_is_named() {
         assert_eq!(number(" 2e-4"), Ok(2e-4));
         assert!(number("0,2").is_err_and(|error| error.ends_with("write 0.2")));
-        for text in ["1,234,567", "0.2 m", "x", ""] {
+        for text in ["475,2475", "1,234,567"] {
+            assert!(number(text).is_err_and(|error| error.starts_with("give one number")), "{text}");
+        }
+        for text in ["0.2 m", "x", ""] {
             assert!(number(text).is_err_and(|error| error.starts_with("write a number")), "{text}");
         }
         assert!(numbers("0,13").is_err_and(|error| error.contains("write 0.13")));

@@ -96,6 +96,9 @@ impl TableArguments {
 }
 
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  uplift hazard import hazard_curve-mean-PGV_1.csv -o hazard/athens --near 23.73,37.98"
+)]
 struct ImportArguments {
     /// Exports (OpenQuake CSV or NRML, USGS JSON): one a measure or realization
     #[arg(required = true, value_name = "EXPORT")]
@@ -133,6 +136,7 @@ fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), Comman
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift hazard show hazard/athens/pgv.csv")]
 struct ShowArguments {
     /// Curve with two columns, or an export of OpenQuake or the USGS; .gz too
     file: PathBuf,
@@ -147,6 +151,7 @@ fn show(arguments: &ShowArguments, terminal: &Terminal) -> Result<(), CommandErr
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift hazard plot hazard/*/pgv.csv -o curves.svg")]
 struct PlotArguments {
     /// Curves with two columns, or exports of OpenQuake or the USGS
     #[arg(required = true)]

@@ -43,6 +43,7 @@ impl ProtocolShape {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift protocol --sets 12 -o protocol.csv --plot protocol.svg")]
 pub(super) struct ProtocolArguments {
     #[command(flatten)]
     shape: ProtocolShape,

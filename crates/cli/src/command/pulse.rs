@@ -19,6 +19,7 @@ use crate::terminal::Terminal;
 const MOST_LINES: usize = 7;
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift pulse --slenderness 0.2 -o results/pulses")]
 pub(super) struct PulseArguments {
     /// Folder for figures and tables
     #[arg(short, long, value_name = "FOLDER", default_value = "results/pulses")]

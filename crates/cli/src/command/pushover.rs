@@ -16,7 +16,7 @@ use crate::show::{print_json, print_pushover};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-#[command(after_help = "Structures to start from: configs/structures/column-j.toml, shake-table.toml. \
+#[command(after_help = "Example:\n  uplift pushover configs/structures/column-j.toml --plot pushover.svg\n\n\
                   Method and a worked design: docs/restrained-columns.md")]
 pub(super) struct PushoverArguments {
     /// Structure file

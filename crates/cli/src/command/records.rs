@@ -39,12 +39,16 @@ enum RecordsCommand {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift records list records/mine.csv --magnitude 6:7.5")]
 struct ListArguments {
     #[command(flatten)]
     set: SetArguments,
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    uplift records show records/mine.csv RSN953\n  \
+    uplift records show downloads/RSN953_NORTHR_MUL009.AT2")]
 struct ShowArguments {
     /// Manifest or record file
     #[arg(value_name = "SET|FILE")]
@@ -56,6 +60,7 @@ struct ShowArguments {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift records select records/mine.csv --pga-g 0.14: -o records/strong.csv")]
 struct SelectArguments {
     #[command(flatten)]
     set: SetArguments,
@@ -212,6 +217,7 @@ impl SetArguments {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift records import downloads/ -o records/mine.csv")]
 struct ImportArguments {
     /// Folder with record files, or the zip archive of PEER
     #[arg(value_name = "FOLDER|ZIP")]
@@ -250,6 +256,9 @@ fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), Comman
 }
 
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  uplift records at-level level-*.txt --manifest mine.csv --measure sa_1s -o levels.csv"
+)]
 struct AtLevelArguments {
     /// Selections, one file a level
     #[arg(

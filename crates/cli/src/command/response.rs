@@ -18,6 +18,10 @@ use crate::show::{print_block_response, print_frame_response, print_json, print_
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    uplift response motion.at2 --strength 0.1 --plot history.svg\n  \
+    uplift response motion.at2 --block --width-m 0.6 --height-m 3\n  \
+    uplift response --structure configs/structures/footbridge.toml --h1 x.at2 --h2 y.at2")]
 pub(super) struct ResponseArguments {
     /// Record file
     #[arg(required_unless_present = "structure", conflicts_with = "structure")]

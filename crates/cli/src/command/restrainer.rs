@@ -38,6 +38,7 @@ pub(super) fn restrainer(arguments: &RestrainerArguments, terminal: &Terminal) -
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift restrainer curve configs/structures/column-dr.toml --plot curve.svg")]
 struct CurveArguments {
     /// File with the table [restrainer]
     restrainer: PathBuf,

@@ -9,6 +9,9 @@ use crate::error::CommandError;
 use crate::terminal::output;
 
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    uplift schema > study.schema.json\n  \
+    uplift schema structure > structure.schema.json")]
 pub(crate) struct SchemaArguments {
     /// Kind of file
     #[arg(value_enum, default_value = "study")]

@@ -15,7 +15,8 @@ use crate::show::{print_json, print_validation};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-#[command(after_help = "A value may be inf or overturned for a collapse, >0.35 for a peak above a limit; a blank is \
+#[command(after_help = "Example:\n  uplift validate measured.csv computed.csv --by group --plot peaks.svg\n\n\
+                  A value may be inf or overturned for a collapse, >0.35 for a peak above a limit; a blank is \
                   ignored.\nMeaning of the tests: docs/validation.md")]
 pub(super) struct ValidateArguments {
     /// Measured peaks: CSV with a header, or a shake table's result

@@ -1,38 +1,61 @@
 //! What to know before numbers are used, the same wherever they are shown.
 
 use std::io::Write;
+use std::path::Path;
 
 use uplift::alarms::{Alarm, Severity, synthetic_records};
 
-use super::print_more;
+use super::{print_more, typed_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
 /// Warnings shown at most, without `--details`.
 const SHOWN: usize = 3;
 
-/// The worst warnings, a line each; all of them in detail. Nothing on a quiet terminal.
-pub(super) fn print_warnings(out: &mut impl Write, alarms: &[Alarm], terminal: &Terminal) -> Result<(), CommandError> {
+/// The worst warnings, a line each, of an answer from `result`; all of them in detail. Nothing on a quiet terminal.
+pub(super) fn print_warnings(
+    out: &mut impl Write,
+    alarms: &[Alarm],
+    result: Option<&Path>,
+    terminal: &Terminal,
+) -> Result<(), CommandError> {
     if terminal.is_quiet() {
         return Ok(());
     }
-    let lines: Vec<_> = alarms.iter().map(warning).collect();
+    let lines: Vec<_> = alarms.iter().map(|alarm| warning(alarm, result)).collect();
     print_lines(out, &lines, terminal.shows_details()).map(drop)
+}
+
+/// The same of a `result` itself, of which another command shows the others.
+pub(super) fn print_result_warnings(
+    out: &mut impl Write,
+    alarms: &[Alarm],
+    result: &Path,
+    terminal: &Terminal,
+) -> Result<(), CommandError> {
+    let shown = if terminal.shows_details() { alarms.len() } else { alarms.len().min(SHOWN) };
+    print_warnings(out, &alarms[..shown], Some(result), terminal)?;
+    match alarms.len() - shown {
+        0 => Ok(()),
+        _ if terminal.is_quiet() => Ok(()),
+        more => Ok(writeln!(out, "  {more} more: uplift warnings {}", typed_path(result))?),
+    }
 }
 
 /// That the records are synthetic, of answers that have no other warning of a result.
 pub(super) fn print_synthetic(out: &mut impl Write, synthetic: bool, terminal: &Terminal) -> Result<(), CommandError> {
     let alarms: Vec<Alarm> = synthetic.then(synthetic_records).into_iter().collect();
-    print_warnings(out, &alarms, terminal)
+    print_warnings(out, &alarms, None, terminal)
 }
 
-/// The same, and that there is more to see, said once.
+/// As [`print_warnings`], and that there is more to see, said once.
 pub(super) fn print_warnings_and_more(
     out: &mut impl Write,
     alarms: &[Alarm],
+    result: &Path,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
-    print_warnings(out, alarms, terminal)?;
+    print_warnings(out, alarms, Some(result), terminal)?;
     if alarms.len() > SHOWN { Ok(()) } else { print_more(out, terminal) }
 }
 
@@ -56,7 +79,7 @@ pub(super) fn print_shown(out: &mut impl Write, lines: &[String], more: usize) -
 }
 
 /// Every warning with all that it is about.
-pub(crate) fn print_all_warnings(alarms: &[Alarm]) -> Result<(), CommandError> {
+pub(crate) fn print_all_warnings(alarms: &[Alarm], result: &Path) -> Result<(), CommandError> {
     let out = &mut output();
     if alarms.is_empty() {
         writeln!(out, "No warnings.")?;
@@ -66,7 +89,7 @@ pub(crate) fn print_all_warnings(alarms: &[Alarm]) -> Result<(), CommandError> {
         let end = if alarm.what.ends_with(['.', '?', '!']) { "" } else { "." };
         writeln!(out, "          {}{end}", alarm.what)?;
         if !alarm.what_to_do.is_empty() {
-            writeln!(out, "          {}", sentence(&alarm.what_to_do))?;
+            writeln!(out, "          {}", sentence(&alarm.what_to_do).replace("RESULT", &typed_path(result)))?;
         }
         if !alarm.also.is_empty() {
             writeln!(out, "          Also: {}", alarm.also.join("; "))?;
@@ -75,10 +98,11 @@ pub(crate) fn print_all_warnings(alarms: &[Alarm]) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// What is wrong, by how much, and what to type.
-pub(super) fn warning(alarm: &Alarm) -> String {
+/// What is wrong, by how much, and what to type: with the name of the `result`, where it is known.
+pub(super) fn warning(alarm: &Alarm, result: Option<&Path>) -> String {
     let mark = if alarm.severity == Severity::Mistake { "mistake? " } else { "" };
     let remedy = if alarm.what_to_do.is_empty() { String::new() } else { format!(" {}", sentence(&alarm.what_to_do)) };
+    let remedy = result.map_or_else(|| remedy.clone(), |result| remedy.replace("RESULT", &typed_path(result)));
     let end = if alarm.what.ends_with(['.', '?', '!']) { "" } else { "." };
     format!("{mark}{alarm}{end}{remedy}")
 }

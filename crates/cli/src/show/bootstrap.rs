@@ -63,8 +63,7 @@ fn print_figures(
     let reference = Some(&report.reference).filter(|rows| compared && !rows.is_empty());
     writeln!(
         out,
-        "\nHow sure the spectra of {} are: error of the median e and width r of the {} interval, per \
-         cent{}",
+        "\nAccuracy of the spectra, {}: error of the median e and width r of the {} interval, per cent{}",
         risk_in_words(report.poes[poe], report.years),
         per_cent(report.confidence),
         if reference.is_some() { "; right of the bars the reference" } else { "" }
@@ -174,7 +173,7 @@ fn print_inferred(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
 /// How wide the band is for each number of records, over all sites.
 fn print_sizes(out: &mut impl Write, report: &BootstrapReport, shown: &DisplacementReport) -> Result<(), CommandError> {
     let [first, ..] = &shown.displacements[..] else { return Ok(()) };
-    writeln!(out, "\nWidest band of all sites, relative to the displacement, by number of records")?;
+    writeln!(out, "\nBand where it is widest in metres, outermost of all sites, relative to the displacement")?;
     for &size in &report.sizes {
         writeln!(out, "  {}", known_from(report, (first.im, first.poe), size))?;
     }

@@ -5,7 +5,7 @@ use std::io::Write;
 use uplift::alarms::Severity;
 use uplift::structure::{
     Bands, DemandBands, DemandRounding, DesignReport, EventRisk, ExactDemand, FrameReport, RuleCheck, RuleOutcome,
-    StructureReport,
+    StructureReport, verdict_word,
 };
 use uplift::text::{self, Table, cell_with_band, metres_with_band, risk_in_words, short};
 use uplift_spectra::Noisy;
@@ -39,7 +39,7 @@ pub(crate) fn print_design(report: &DesignReport, terminal: &Terminal) -> Result
     if terminal.shows_details() {
         print_details(out, report)?;
     }
-    print_warnings_and_more(out, &report.alarms, terminal)
+    print_warnings_and_more(out, &report.alarms, &report.source.result, terminal)
 }
 
 /// What an engineer asks first.
@@ -74,6 +74,9 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
             writeln!(out, "Verdict   {name}: {} by frame and proxy; {how_far}", verdict_word(check.satisfied))?;
         }
         _ => writeln!(out, "Verdict   {name}: no capacity, the force does not fall; {how_far}")?,
+    }
+    for verdict in report.contradicted_by() {
+        writeln!(out, "          proxy {verdict}")?;
     }
     if let Some(capacity_m) = report.structure.capacity_m {
         let factor = report.required_safety_factor;
@@ -135,10 +138,6 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
     Ok(())
 }
 
-fn verdict_word(satisfied: bool) -> &'static str {
-    if satisfied { "satisfied" } else { "NOT satisfied" }
-}
-
 /// A capacity that is required, m.
 fn required(capacity_m: f64) -> String {
     if capacity_m.is_finite() { format!("{capacity_m:.2}") } else { "infinite".to_owned() }
@@ -147,21 +146,20 @@ fn required(capacity_m: f64) -> String {
 /// The verdict of the rules, with the demand on the structure's oscillator and its risks.
 fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
     let StructureReport { name, capacity_m, .. } = &report.structure;
-    let checks: Vec<_> = report.rules.iter().filter_map(|rule| Some((rule.rule, rule.check()?))).collect();
-    let verdict = |(rule, check): &(Rule, &RuleCheck)| {
-        format!("{} by {} (requires {:.2} m)", verdict_word(check.satisfied), rule.words(), check.required_capacity_m)
-    };
+    let verdicts: Vec<String> = report.rules.iter().filter_map(RuleOutcome::in_words).collect();
     let has =
         capacity_m.map_or_else(|| "no capacity: the force does not fall".to_owned(), |m| format!("capacity {m:.2} m"));
     // of a frame that can wobble it is the proxy that is judged
     let whose = if report.wobbles { ", by its proxy alone" } else { "" };
-    let verdicts: Vec<String> = checks.iter().map(verdict).collect();
     writeln!(
         out,
         "Verdict   {name}{whose}, {has}: {}",
         if verdicts.is_empty() { "no rule applies".to_owned() } else { verdicts.join(", ") }
     )?;
-    if !checks.is_empty() {
+    for verdict in report.contradicted_by() {
+        writeln!(out, "          {verdict}")?;
+    }
+    if !verdicts.is_empty() {
         writeln!(out, "          with a safety factor of {} (Eq. 3.15)", report.required_safety_factor)?;
     }
     if let Some(exact) = &report.exact {
@@ -317,7 +315,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
             if infinite { "infinite".to_owned() } else { format!("{:.4}", check.capacity_m) },
             if infinite { "-".to_owned() } else { format!("{:+.4}", check.margin_m) },
             if infinite { "-".to_owned() } else { format!("{:.2}", check.safety_factor) },
-            if check.satisfied { "satisfied" } else { "NOT satisfied" }.to_owned(),
+            verdict_word(check.satisfied).to_owned(),
         ]);
     }
     if rows.is_empty() {

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::efficiency::{EfficiencyReport, EfficiencyRow, Trend};
-use uplift::text::{Table, nearest};
+use uplift::text::{Table, nearest, rounded};
 
 use super::alarms::print_synthetic;
 use super::{print_more, shown_path};
@@ -110,8 +110,8 @@ impl Shown<'_> {
 
     fn print_reading(&self, out: &mut impl Write) -> Result<(), CommandError> {
         for (what, of) in [
-            ("the displacement of a rocking structure", (|row| row.dispersion_level) as fn(&EfficiencyRow) -> f64),
-            ("the onset of rocking", |row| row.dispersion_initiation),
+            ("the displacement", (|row| row.dispersion_level) as fn(&EfficiencyRow) -> f64),
+            ("initiation", |row| row.dispersion_initiation),
         ] {
             writeln!(out, "{}", self.most_efficient(what, of))?;
         }
@@ -137,8 +137,8 @@ impl Shown<'_> {
             .right("scatter, initiation", |rows| mean(rows, |row| row.dispersion_initiation))
             .right("trend with", |rows| insufficient(rows));
         writeln!(out, "\n{table}")?;
-        if self.rows().any(EfficiencyRow::is_told) {
-            writeln!(out, "+ from runs scaled to another measure")?;
+        if let Some(told) = self.rows().find(|row| row.is_told()) {
+            writeln!(out, "+ in runs of records scaled to {}", told.scaled_to)?;
         }
         if self.report.records < 30 {
             writeln!(out, "With {} records only strong trends are found.", self.report.records)?;
@@ -153,19 +153,22 @@ impl Shown<'_> {
             let least = known.min_by(|a, b| of(&a[index]).total_cmp(&of(&b[index])))?;
             Some(least[index].im)
         };
-        let winners: Vec<&str> = self.strengths.iter().filter_map(best).collect();
-        let mut names = winners.clone();
-        names.dedup();
-        match names[..] {
-            [] => format!("Most efficient for {what}: these stripes do not show it"),
-            [one] => format!("Most efficient for {what}: {one}"),
-            _ => {
-                let at = winners.iter().zip(self.strengths.iter().filter(|index| best(index).is_some()));
-                let told: Vec<String> =
-                    at.map(|(name, &index)| format!("{name} at {:.3}", self.report.strengths[index])).collect();
-                format!("Most efficient for {what}: {}", told.join(", "))
-            }
-        }
+        let winners: Vec<(&str, f64)> =
+            self.strengths.iter().filter_map(|index| Some((best(index)?, self.report.strengths[*index]))).collect();
+        let wins = |name: &str| winners.iter().filter(|(of, _)| *of == name).count();
+        // of as many wins the first
+        let Some(&(first, _)) = winners.iter().rev().max_by_key(|(name, _)| wins(name)) else {
+            return format!("Best for {what}: these stripes do not show it");
+        };
+        let others: Vec<String> = winners
+            .chunk_by(|a, b| a.0 == b.0)
+            .filter(|of| of[0].0 != first)
+            .map(|of| {
+                let strengths: Vec<String> = of.iter().map(|(_, strength)| rounded(*strength, 3).to_string()).collect();
+                format!("; {} at strength {}", of[0].0, strengths.join(", "))
+            })
+            .collect();
+        format!("Best for {what}: {first}{}", others.concat())
     }
 }
 

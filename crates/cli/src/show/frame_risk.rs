@@ -31,7 +31,7 @@ pub(crate) fn print_frame_risk(report: &FrameRiskReport, terminal: &Terminal) ->
     if terminal.shows_details() {
         print_details(out, report)?;
     }
-    print_warnings_and_more(out, &report.alarms, terminal)
+    print_warnings_and_more(out, &report.alarms, &report.source.result, terminal)
 }
 
 /// The demand on the frame with its band, what its proxies say, and how often it overturns.

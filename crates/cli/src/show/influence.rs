@@ -3,21 +3,22 @@
 use std::io::Write;
 
 use uplift::influence::{InfluenceReport, IntensityShares};
-use uplift::text::{Table, metres, risk_in_words, spectrum_words};
+use uplift::text::{Table, risk_in_words, spectrum_words, two_digits};
 
 use super::alarms::print_synthetic;
-use super::shown_path;
+use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
-/// The report for people; a quiet terminal gets the tables alone.
+/// The worst record and the intensities of each site by the first measure; in detail all of them. A quiet terminal gets
+/// the tables alone.
 pub(crate) fn print_influence(report: &InfluenceReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
-    let name = risk_in_words(report.poe, report.years);
-    print_records(out, report, &name)?;
-    print_intensities(out, report, &name)?;
+    print_records(out, report, terminal)?;
+    print_intensities(out, report, terminal)?;
     print_synthetic(out, report.synthetic, terminal)?;
     if !terminal.is_quiet() {
+        print_more(out, terminal)?;
         writeln!(out, "\nResult   /influence and /disaggregation in {}", shown_path(&report.result).display())?;
         writeln!(out, "Table    {}", shown_path(&report.table).display())?;
     }
@@ -33,14 +34,33 @@ fn shown_site<'a>(above: &mut Option<(Spectrum<'a>, &'a str)>, of: Spectrum<'a>,
     if same { String::new() } else { site.to_owned() }
 }
 
-fn print_records(out: &mut impl Write, report: &InfluenceReport, name: &str) -> Result<(), CommandError> {
+/// Of rows that follow each other by measure and site, one a site by the first measure, `pick`ed of so many; all of
+/// them in detail.
+fn shown<'a, R>(
+    rows: Vec<&'a R>,
+    spectrum: fn(&R) -> Spectrum<'_>,
+    site: fn(&R) -> &str,
+    (pick, terminal): (fn(usize) -> usize, &Terminal),
+) -> Vec<&'a R> {
+    if terminal.shows_details() {
+        return rows;
+    }
+    let of_site = |a: &&R, b: &&R| spectrum(a) == spectrum(b) && site(a) == site(b);
+    let of_sites = rows.chunk_by(of_site).map(|of_site| of_site[pick(of_site.len())]);
+    of_sites.filter(|row| spectrum(row) == spectrum(rows[0])).collect()
+}
+
+fn print_records(out: &mut impl Write, report: &InfluenceReport, terminal: &Terminal) -> Result<(), CommandError> {
+    let of_poe = report.records.iter().filter(|row| row.poe.to_bits() == report.poe.to_bits());
+    // the one of the largest influence is the first
+    let rows = shown(of_poe.collect(), |row| (row.im, row.repaired), |row| &row.site, (|_| 0, terminal));
     writeln!(
         out,
-        "\nRecords with the largest influence, {name}: change of the displacement without the record, per cent"
+        "Change of the displacement without the record that matters most, per cent, {}",
+        risk_in_words(report.poe, report.years)
     )?;
     let mut above = None;
-    let of_poe = report.records.iter().filter(|row| row.poe.to_bits() == report.poe.to_bits());
-    let table = Table::of(of_poe)
+    let table = Table::of(rows)
         .left("site", |row| shown_site(&mut above, (row.im, row.repaired), &row.site))
         .right("im", |row| spectrum_words(row.im, row.repaired))
         .right("record", |row| &row.record)
@@ -55,26 +75,31 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, name: &str) -> 
     Ok(())
 }
 
-fn print_intensities(out: &mut impl Write, report: &InfluenceReport, name: &str) -> Result<(), CommandError> {
+fn print_intensities(out: &mut impl Write, report: &InfluenceReport, terminal: &Terminal) -> Result<(), CommandError> {
+    // of the strengths that were looked at the middle one
+    let rows = shown(
+        report.intensities.iter().collect(),
+        |row| (row.im, row.repaired),
+        |row| &row.site,
+        (|strengths| strengths / 2, terminal),
+    );
     writeln!(
         out,
-        "\nIntensities behind the risk, {name}: levels below which 5, 50 and 95 % of it lie, \
-         and shares outside the levels"
+        "\nIntensities below which 5, 50 and 95 % of the risk lie, and the share outside the analysed levels"
     )?;
-    let level = |level: f64| if level.is_nan() { "-".to_owned() } else { format!("{level:.3}") };
     // a level outside the stripes is known to be no more than that
-    let outside = |row: &IntensityShares, share: f64, value: f64| match level(value) {
+    let outside = |row: &IntensityShares, share: f64, value: f64| match two_digits(value) {
         text if row.share_above_stripes > 1.0 - share => format!("> {text}"),
         text if row.share_below_stripes > share => format!("< {text}"),
         text => text,
     };
     let percent = |share: f64| if share.is_nan() { "-".to_owned() } else { format!("{:.1} %", 100.0 * share) };
     let mut above = None;
-    let table = Table::of(&report.intensities)
+    let table = Table::of(rows)
         .left("site", |row| shown_site(&mut above, (row.im, row.repaired), &row.site))
         .right("im", |row| format!("{}, {}", spectrum_words(row.im, row.repaired), row.unit))
         .right("strength", |row| format!("{:.3}", row.strength))
-        .right("u, m", |row| metres(row.u_m))
+        .right("u, m", |row| two_digits(row.u_m))
         .right("5 %", |row| outside(row, 0.05, row.level_05))
         .right("50 %", |row| outside(row, 0.5, row.level_50))
         .right("95 %", |row| outside(row, 0.95, row.level_95))

@@ -20,7 +20,7 @@ pub(crate) fn print_overturning(report: &OverturningReport, terminal: &Terminal)
     if terminal.shows_details() {
         print_details(out, report)?;
     }
-    print_warnings_and_more(out, &report.alarms, terminal)
+    print_warnings_and_more(out, &report.alarms, &report.source.result, terminal)
 }
 
 /// The rate of every site by measure and model, with its band.

@@ -12,7 +12,7 @@ use uplift::uniform_risk::{
     displacements,
 };
 
-use super::alarms::print_warnings;
+use super::alarms::print_result_warnings;
 use super::spectrum::print_displacements;
 use super::{displacement, shake_table, shown_path};
 use crate::error::CommandError;
@@ -92,7 +92,7 @@ fn print_spread(
 /// What every run ends with: warnings, files, and what to look at next.
 fn print_end(out: &mut impl Write, head: &RunHead, terminal: &Terminal) -> Result<(), CommandError> {
     let Some((result, tables)) = head.files.split_first() else { return Ok(()) };
-    print_warnings(out, &head.alarms, terminal)?;
+    print_result_warnings(out, &head.alarms, result, terminal)?;
     let result = shown_path(result).display();
     let done_already = if head.done_already { " (done already; recompute: --again)" } else { "" };
     writeln!(out, "\nResult   {result}{done_already}")?;

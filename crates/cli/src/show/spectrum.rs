@@ -1,6 +1,7 @@
 //! Displacements of uniform risk with their confidence bands.
 
 use std::io::Write;
+use std::path::Path;
 
 use uplift::spectrum::SpectrumReport;
 use uplift::text::{
@@ -8,12 +9,12 @@ use uplift::text::{
 };
 use uplift::uniform_risk::{BandOf, CONFIDENCE, Displacement, DisplacementReport};
 
-use super::alarms::print_warnings;
+use super::alarms::print_result_warnings;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
 /// Displacements that were asked for: a line each for one strength, else a table.
-pub(crate) fn print_spectrum(report: &SpectrumReport, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn print_spectrum(report: &SpectrumReport, result: &Path, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
     match &report.found.displacements[..] {
         [first, rest @ ..] if rest.iter().all(|own| own.strength == first.strength) => {
@@ -21,7 +22,7 @@ pub(crate) fn print_spectrum(report: &SpectrumReport, terminal: &Terminal) -> Re
         }
         _ => print_displacements(out, &report.found, terminal)?,
     }
-    if terminal.is_quiet() { Ok(()) } else { print_warnings(out, &report.alarms, terminal) }
+    print_result_warnings(out, &report.alarms, result, terminal)
 }
 
 /// The number first, then what it is of.

@@ -1,7 +1,7 @@
 //! The numbers of a design sheet: in sentences, as facts of the structure, in tables.
 
 use serde::Serialize;
-use uplift::structure::{DesignReport, EventRisk, ExactDemand, RuleCheck, RuleOutcome, StructureReport};
+use uplift::structure::{DesignReport, EventRisk, ExactDemand, RuleCheck, RuleOutcome, StructureReport, verdict_word};
 use uplift::study::Structure;
 use uplift::text::{Table, per_cent, risk_in_words, share, two_digits};
 use uplift_spectra::Noisy;
@@ -48,7 +48,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         let safety = report.required_safety_factor;
         if check.required_capacity_m.is_finite() && check.capacity_m.is_finite() {
             let required = two_digits(check.required_capacity_m);
-            let verdict = if check.satisfied { "satisfied" } else { "NOT satisfied" };
+            let verdict = verdict_word(check.satisfied);
             let margin =
                 format!("{}{} m", if check.margin_m < 0.0 { "−" } else { "+" }, two_digits(check.margin_m.abs()));
             say(
@@ -63,6 +63,10 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
             say(format!("By {} it overturns.", rule.words()), Some("no"));
         }
     }
+    for verdict in report.contradicted_by() {
+        let class = verdict.contains("NOT").then_some("no");
+        say(format!("But {verdict}."), class);
+    }
     if let Some(frame) = &report.frame {
         let own = frame.wobbling();
         let demand =
@@ -72,7 +76,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         let verdict = own.check.map_or_else(String::new, |check| {
             let required = if_finite(check.required_capacity_m, "any capacity", |m| format!("{} m", two_digits(m)));
             let differ = if report.verdicts_differ() == Some(true) { "; the verdicts differ" } else { "" };
-            let verdict = if check.satisfied { "satisfied" } else { "NOT satisfied" };
+            let verdict = verdict_word(check.satisfied);
             format!("; it requires {required}: {verdict}{differ}")
         });
         let class = own.check.map(|check| if check.satisfied { "yes" } else { "no" });

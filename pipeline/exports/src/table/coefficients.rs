@@ -117,7 +117,8 @@ pub(super) fn read(
         .collect();
     if rows.is_empty() {
         let keys: Vec<&str> = known.iter().map(|measure| measure.key()).collect();
-        let found = if keys.is_empty() { "it has none".to_owned() } else { format!("use --im {}", keys.join(" or ")) };
+        let found =
+            if keys.is_empty() { "it has none".to_owned() } else { format!("use --measure {}", keys.join(" or ")) };
         return Err(JobError::input(format!(
             "{}: has no spectra by {}: {found}",
             options.result.display(),

@@ -6,6 +6,7 @@ use clap::Args;
 use uplift::result::Finding;
 use uplift::structure::keep;
 
+use super::RARE;
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 
@@ -13,7 +14,7 @@ use crate::terminal::Terminal;
 #[derive(Debug, Args)]
 pub(crate) struct KeepArgument {
     /// Do not keep the answer in the result
-    #[arg(long)]
+    #[arg(long, help_heading = RARE)]
     no_keep: bool,
 }
 

@@ -7,6 +7,7 @@ use clap::Args;
 use uplift_ida::Shard;
 use uplift_study::Structure;
 
+use super::RARE;
 use super::keep::KeepArgument;
 use super::study::shard;
 use crate::error::CommandError;
@@ -19,13 +20,13 @@ pub(crate) struct StructureArguments {
     #[arg(long, value_name = "RESULT")]
     pub(crate) urs: PathBuf,
     /// Manifest of the records, if it was moved
-    #[arg(long, value_name = "CSV")]
+    #[arg(long, help_heading = RARE, value_name = "CSV")]
     pub(crate) manifest: Option<PathBuf>,
     /// Compute only shard I of N of the structure's analyses
-    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with_all = ["shards", "json"])]
+    #[arg(long, help_heading = RARE, value_name = "I/N", value_parser = shard, conflicts_with_all = ["shards", "json"])]
     pub(crate) shard: Option<Shard>,
     /// All shards of these analyses, from --shard
-    #[arg(long, value_name = "FILE", num_args = 1..)]
+    #[arg(long, help_heading = RARE, value_name = "FILE", num_args = 1..)]
     pub(crate) shards: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) keeping: KeepArgument,

@@ -18,6 +18,7 @@ use crate::terminal::{Terminal, output};
 /// They scatter less than real records and have no long-period pulses: what that does to a uniform risk spectrum is in
 /// docs/synthetic-motions.md.
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift records synthesize -o records/synthetic --count 40 --magnitude 6.5:7")]
 pub(super) struct SynthesizeArguments {
     /// Folder for the records and their manifest.csv; made if it is not there
     #[arg(short, long, value_name = "FOLDER")]

@@ -20,7 +20,9 @@ use crate::terminal::Terminal;
 #[derive(Debug, Args)]
 #[command(
     group = ArgGroup::new("target").required(true).multiple(false),
-    after_help = "The tendon, its prestress and its path come from [restrainer] in the structure file; before a stack \
+    after_help = "Example:\n  uplift restrainer design configs/structures/column-j.toml \\\n    \
+                  --catalogue configs/structures/disc-springs.csv --capacity-m 0.5\n\n\
+                  The tendon, its prestress and its path come from [restrainer] in the structure file; before a stack \
                   is chosen its kind is \"tendon\". A worked design: docs/restrained-columns.md"
 )]
 pub(super) struct DesignArguments {

@@ -8,7 +8,7 @@ use uplift::spectrum::spectrum;
 use uplift::uniform_risk::DisplacementOptions;
 use uplift_bootstrap::{Interval, Unit};
 
-use crate::command::arguments::ResultArguments;
+use crate::command::arguments::{RARE, ResultArguments};
 use crate::error::CommandError;
 use crate::show::{print_bootstrap, print_json};
 use crate::terminal::Terminal;
@@ -26,22 +26,22 @@ pub(crate) struct BootstrapArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     replicates: Option<u64>,
     /// Random seed [default: the study's]
-    #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
+    #[arg(long, help_heading = RARE, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     seed: Option<u64>,
     /// Method of the limits: percentile or bca
-    #[arg(long, value_parser = ["percentile", "bca"])]
+    #[arg(long, help_heading = RARE, value_parser = ["percentile", "bca"])]
     interval: Option<String>,
     /// Unit of a resample: record, pair or event (earthquake)
-    #[arg(long, value_parser = ["record", "pair", "event"], conflicts_with = "plan")]
+    #[arg(long, help_heading = RARE, value_parser = ["record", "pair", "event"], conflicts_with = "plan")]
     unit: Option<String>,
     /// Add simultaneous bands, which hold for whole spectra
     #[arg(long)]
     simultaneous: bool,
     /// Draw the same resamples as another result
-    #[arg(long, value_name = "RESULT.h5", conflicts_with_all = ["sizes", "replicates", "seed"])]
+    #[arg(long, help_heading = RARE, value_name = "RESULT.h5", conflicts_with_all = ["sizes", "replicates", "seed"])]
     plan: Option<PathBuf>,
     /// Table to compare with
-    #[arg(long, value_name = "FILE.csv")]
+    #[arg(long, help_heading = RARE, value_name = "FILE.csv")]
     reference: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]

@@ -12,6 +12,9 @@ use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "a switch for each format")]
+#[command(after_help = "Examples:\n  \
+    uplift export results/study.h5 --csv --mat\n  \
+    uplift export results/study.h5 --xlsx -o spectra.xlsx --return-period 475,2475")]
 pub(crate) struct ExportArguments {
     /// Result file
     result: PathBuf,

@@ -63,6 +63,6 @@ pub(crate) fn spectrum(arguments: &SpectrumArguments, terminal: &Terminal) -> Re
     match (arguments.json, arguments.csv) {
         (true, _) => print_json(&report),
         (_, true) => print_spectrum_csv(&report.found),
-        _ => print_spectrum(&report, terminal),
+        _ => print_spectrum(&report, &found.path, terminal),
     }
 }

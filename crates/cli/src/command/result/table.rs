@@ -13,7 +13,7 @@ use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  uplift table results/study.h5\n  \
-                  uplift table results/study.h5 --im pga --return-period 475")]
+                  uplift table results/study.h5 --measure pga --return-period 475")]
 pub(crate) struct TableArguments {
     /// Result file, or a structure file with columns
     result: PathBuf,
@@ -21,8 +21,8 @@ pub(crate) struct TableArguments {
     #[arg(long, value_name = "FILE.csv")]
     reference: Option<PathBuf>,
     /// Intensity measure [default: pgv]
-    #[arg(long, value_name = "pgv|pga|sa_1s|...|all", value_parser = which_measure)]
-    im: Option<TableMeasure>,
+    #[arg(long, alias = "im", value_name = "pgv|pga|sa_1s|...|all", value_parser = which_measure)]
+    measure: Option<TableMeasure>,
     #[command(flatten)]
     risk: RiskArguments,
     /// Print JSON
@@ -42,9 +42,9 @@ pub(crate) fn table(arguments: &TableArguments, terminal: &Terminal) -> Result<(
     let options = TableOptions {
         result: arguments.result.clone(),
         reference: arguments.reference.clone(),
-        measure: arguments.im.unwrap_or_default(),
+        measure: arguments.measure.unwrap_or_default(),
         risk: arguments.risk.asked(),
     };
     let report = table_of(&options, terminal)?;
-    if arguments.json { print_json(&report) } else { print_table(&report, terminal) }
+    if arguments.json { print_json(&report) } else { print_table(&report, &arguments.result, terminal) }
 }

@@ -24,5 +24,5 @@ pub(crate) struct WarningsArguments {
 
 pub(crate) fn warnings(arguments: &WarningsArguments) -> Result<(), CommandError> {
     let alarms = alarms(&at(ResultFile::open(&arguments.result)?, &arguments.risk.asked())?)?;
-    if arguments.json { print_json(&alarms) } else { print_all_warnings(&alarms) }
+    if arguments.json { print_json(&alarms) } else { print_all_warnings(&alarms, &arguments.result) }
 }

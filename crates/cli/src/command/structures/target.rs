@@ -9,7 +9,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_structure::Quantity;
 use uplift_study::Structure;
 
-use crate::command::arguments::{ForceArgument, KeepArgument, number, number_or_per_cent};
+use crate::command::arguments::{ForceArgument, KeepArgument, RARE, number, number_or_per_cent};
 use crate::error::CommandError;
 use crate::show::{print_json, print_target};
 use crate::terminal::Terminal;
@@ -27,7 +27,7 @@ pub(crate) struct TargetArguments {
     #[arg(long, value_name = "RESULT")]
     urs: PathBuf,
     /// Manifest of the records, if it was moved
-    #[arg(long, value_name = "CSV")]
+    #[arg(long, help_heading = RARE, value_name = "CSV")]
     manifest: Option<PathBuf>,
     /// Site [default: the only one]
     #[arg(long)]
@@ -59,19 +59,20 @@ pub(crate) struct TargetArguments {
     #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number, requires = "poe")]
     years: Option<f64>,
     /// Smallest value to try, SI units [default: a quarter of the structure's]
-    #[arg(long, value_name = "VALUE", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, help_heading = RARE, value_name = "VALUE", allow_negative_numbers = true, value_parser = number)]
     from: Option<f64>,
     /// Largest value to try [default: four times the structure's]
-    #[arg(long, value_name = "VALUE", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, help_heading = RARE, value_name = "VALUE", allow_negative_numbers = true, value_parser = number)]
     to: Option<f64>,
     /// Relative tolerance of the value
     #[arg(
-        long, value_name = "SHARE", allow_negative_numbers = true, value_parser = number, default_value_t = 0.005
+        long, help_heading = RARE, value_name = "SHARE", allow_negative_numbers = true, value_parser = number,
+        default_value_t = 0.005
     )]
     tolerance: f64,
     /// Return periods, years, at whose levels the fragility is reported
     #[arg(
-        long,
+        long, help_heading = RARE,
         value_name = "YEARS[,…]",
         value_delimiter = ',',
         allow_negative_numbers = true,
@@ -80,11 +81,11 @@ pub(crate) struct TargetArguments {
     )]
     at: Vec<f64>,
     /// Dispersion of a generic lognormal fragility to compare with
-    #[arg(long, value_name = "BETA", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, help_heading = RARE, value_name = "BETA", allow_negative_numbers = true, value_parser = number)]
     generic_dispersion: Option<f64>,
     /// Probability of that fragility at the design level
     #[arg(
-        long,
+        long, help_heading = RARE,
         value_name = "P",
         allow_negative_numbers = true,
         value_parser = number_or_per_cent,
