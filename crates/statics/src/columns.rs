@@ -98,6 +98,14 @@ impl RestrainedColumns {
         Ok(Self { path, restrained: self.columns, restrainer: Some(restrainer), ..self })
     }
 
+    /// The same loads and restrainers with columns of another geometry.
+    ///
+    /// # Errors
+    /// The path must go with the column: [`TendonPath::checked`].
+    pub fn with_geometry(self, geometry: Geometry) -> Result<Self, StaticsError> {
+        Ok(Self { path: self.path.checked(&geometry)?, geometry, ..self })
+    }
+
     /// The same with another law of the restrainers, on the same path.
     pub(crate) fn with_law(self, restrainer: Restrainer) -> Self {
         Self { restrainer: Some(restrainer), ..self }

@@ -72,6 +72,25 @@ impl Quantity {
         })
     }
 
+    /// The structure of `description` with this quantity at `value`, in its unit; none of strength and capacity, which
+    /// change its oscillator alone.
+    ///
+    /// # Errors
+    /// What the value makes impossible; a quantity that its kind does not have.
+    pub fn described(
+        self,
+        description: &StructureDescription,
+        value: f64,
+    ) -> Result<Option<StructureDescription>, Vec<StructureError>> {
+        let one = |error: StructureError| vec![error];
+        Ok(match self {
+            Self::Strength | Self::Capacity => None,
+            Self::Size => Some(sized(description, value).map_err(one)?),
+            Self::Width => Some(widened(description, value).map_err(one)?),
+            Self::TendonStiffness => Some(tendons(description, value)?),
+        })
+    }
+
     /// The equivalent oscillator of the structure of `description` with this quantity at `value`, in its unit.
     ///
     /// # Errors
@@ -96,9 +115,9 @@ impl Quantity {
         match self {
             Self::Strength => held(None, Some(positive("strength", value, "").map_err(one)?)),
             Self::Capacity => held(Some(positive("capacity", value, "m").map_err(one)?), None),
-            Self::Size => sized(description, value).map_err(one)?.resolve(),
-            Self::Width => widened(description, value).map_err(one)?.resolve(),
-            Self::TendonStiffness => tendons(description, value)?.resolve(),
+            Self::Size | Self::Width | Self::TendonStiffness => {
+                self.described(description, value)?.unwrap_or(*description).resolve()
+            }
         }
     }
 }

@@ -31,6 +31,7 @@ pub use restrainer::RestrainerFile;
 
 mod restrainer;
 mod rocking;
+mod varied;
 
 /// The keys of a structure file, section by section.
 pub(crate) const KEYS: [SectionKeys; 6] = [
@@ -246,6 +247,15 @@ impl Structure {
 enum Mistake {
     Structure(StructureError),
     Restrainer(StaticsError),
+}
+
+impl std::fmt::Display for Mistake {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Structure(mistake) => mistake.fmt(f),
+            Self::Restrainer(mistake) => mistake.fmt(f),
+        }
+    }
 }
 
 impl Mistake {

@@ -70,6 +70,11 @@ impl Bands {
         by_earthquake.unwrap_or(self.by_record)
     }
 
+    /// The band that takes account of most: with the hazard curves where there are several, else the quoted one.
+    pub fn fullest(&self) -> [f64; 2] {
+        self.with_hazard.unwrap_or_else(|| self.quoted())
+    }
+
     /// What each is of, in words.
     pub(super) fn words(&self) -> [&'static str; 3] {
         let with_hazard = if self.by_earthquake.is_some() { "earthquakes and hazard" } else { "records and hazard" };

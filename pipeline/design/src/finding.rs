@@ -277,6 +277,12 @@ impl TargetReport {
             Some(bound) => rows.push(there.within([f64::NAN, bound], "at most")),
             None => rows.extend(of_bands(&there, |band| band.per_year)),
         }
+        if let Some(frame) = &self.frame {
+            rows.push(of_quantity(format!("safe {quantity}, wobbling frame"), frame.safe_value));
+            let what = |model: &str| format!("{} at {quantity} {}, {model}", self.event, frame.value);
+            let at = [self.site.as_str(), self.im];
+            rows.extend(frame.models.iter().flat_map(|own| rate(&what(own.model), &own.risk, own.bands, at)));
+        }
         let by_structure = self.uncertainty.as_ref().and_then(|of| of.by_structure);
         rows.extend(by_structure.map(|[lower, _, upper]| least.within([lower, upper], "structure")));
         rows.push(row("strength of the spectrum at the value found".to_owned(), self.found.spectral_strength, "1"));

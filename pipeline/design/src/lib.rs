@@ -40,8 +40,8 @@ pub use report::{ReportSource, StructureReport};
 pub use rules::{MeasureVerdict, RuleCheck, RuleOutcome, verdict_word};
 pub use spectrum::SpectrumDemand;
 pub use target::{
-    Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrequency, TargetOptions,
-    TargetReport, TargetUncertainty, TriedValue, target,
+    Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrame, TargetFrameModel,
+    TargetFrequency, TargetOptions, TargetReport, TargetUncertainty, TriedFrame, TriedValue, target,
 };
 pub use uncertain::{
     AleatoryResult, EpistemicResult, QuantityReport, Spread, UncertainFinding, UncertainResult, UncertaintyReport,

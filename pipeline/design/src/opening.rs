@@ -122,15 +122,6 @@ pub(super) fn records_and_pairs(
     }
 }
 
-/// The records of the result, without which `subject` cannot be computed.
-pub(super) fn required_records(
-    source: &StudyOfResult,
-    manifest: Option<&Path>,
-    subject: &str,
-) -> Result<ShakenRecords, DesignError> {
-    required(records(source, manifest)?, subject)
-}
-
 /// What was read of the records, without which `subject` cannot be computed.
 pub(super) fn required<T>(found: Result<T, String>, subject: &str) -> Result<T, DesignError> {
     Ok(found.map_err(|reason| {

@@ -375,7 +375,7 @@ impl<'a> OverturningAnalysis<'a> {
         let mut of_measures = Vec::new();
         for ((&measure, places), hazard) in self.measures.iter().zip(places).zip(hazards) {
             let (Some(wobbling), Some(planar)) = (analysed.next(), analysed.next()) else { break };
-            let peaks = frame.peaks([&wobbling, &planar]);
+            let peaks = frame.peaks(&wobbling, Some(&planar));
             of_measures.push(asked.collapses((measure, places), hazard, &peaks)?);
         }
         Ok(of_measures)

@@ -250,6 +250,11 @@ impl OwnFrame {
         })
     }
 
+    /// The frame of another structure, to be shaken by the same pairs.
+    pub(super) fn with_structure(self, structure: &Structure) -> Result<Self, DesignError> {
+        Self::from_structure(structure, self.pairs)
+    }
+
     /// Why it cannot be shaken by a measure at `levels`: its records, scaled, let it leave the ground.
     pub(super) fn leaves_the_ground(
         &self,
@@ -303,29 +308,29 @@ impl OwnFrame {
         Ok([of(wobbling, "pairs", &self.pairs.keys), of(planar, "records", &records.motions)])
     }
 
-    /// What the stripes of [`plans`](Self::plans) came to: of both models the peaks, m, `[record, level]`.
-    pub(super) fn peaks(&self, [wobbling, planar]: [&Analysed; 2]) -> FramePeaks {
-        let records = planar.peaks.axes().motions;
+    /// What the stripes of [`plans`](Self::plans) came to, of the wobbling model alone where the planar one was not
+    /// shaken: the peaks, m, `[record, level]`.
+    pub(super) fn peaks(&self, wobbling: &Analysed, planar: Option<&Analysed>) -> FramePeaks {
+        let records = wobbling.peaks.axes().motions * self.pairs.per_pair;
         let of = |peaks: &Peaks, motion_of: &dyn Fn(usize) -> usize| -> Vec<f64> {
             (0..records).flat_map(|record| peaks.row_m(motion_of(record), 0).iter().copied()).collect()
         };
-        let models = [
-            (&self.wobbling[0], of(&wobbling.peaks, &|record| record / self.pairs.per_pair)),
-            (&self.planar[0], of(&planar.peaks, &|record| record)),
-        ];
+        let in_space = (&self.wobbling[0], of(&wobbling.peaks, &|record| record / self.pairs.per_pair));
+        let in_plane = planar.map(|planar| (&self.planar[0], of(&planar.peaks, &|record| record)));
+        let models = std::iter::once(in_space).chain(in_plane);
         FramePeaks {
-            analyses: wobbling.analyses + planar.analyses,
-            models: models.map(|(system, peaks_m)| (system.kind(), system.restitution(), peaks_m)),
+            analyses: wobbling.analyses + planar.map_or(0, |planar| planar.analyses),
+            models: models.map(|(system, peaks_m)| (system.kind(), system.restitution(), peaks_m)).collect(),
         }
     }
 }
 
-/// Peaks of both models of a frame.
+/// Peaks of the models of a frame, the wobbling one first.
 #[derive(Debug)]
 pub(super) struct FramePeaks {
     analyses: u64,
     /// Each with its restitution, m, `[record, level]`.
-    models: [(&'static str, f64, Vec<f64>); 2],
+    models: Vec<(&'static str, f64, Vec<f64>)>,
 }
 
 impl FramePeaks {

@@ -1,4 +1,5 @@
-//! The least strength, size, width, capacity or tendon stiffness with which a structure meets a target risk.
+//! The least strength, size, width, capacity or tendon stiffness with which a structure meets a target risk; a frame
+//! that can wobble is then shaken itself, at the value that its oscillator needs.
 //!
 //! The risk of each value that is tried is that of the structure's own oscillator under the records and the hazard of a
 //! result, from exact stripes. Counts of records step, and a chaotic system may step back: the best estimate is the
@@ -7,6 +8,7 @@
 
 mod band;
 mod candidate;
+mod frame;
 mod request;
 mod search;
 mod table;
@@ -19,23 +21,25 @@ use serde::Serialize;
 use uplift_hazard::HazardCurve;
 use uplift_risk::risk_targeted_level;
 use uplift_spectra::Noisy;
-use uplift_structure::EquivalentSystem;
+use uplift_structure::{EquivalentSystem, Quantity};
 use uplift_study::Structure;
 
 pub use band::{TargetBand, TargetUncertainty};
+pub use frame::{TargetFrame, TargetFrameModel, TriedFrame};
 pub use request::{TargetEvent, TargetFrequency, TargetOptions};
 pub use search::Crossing;
 
 use super::certainty::Scatter;
 use super::hazard::Hazard;
 use super::opening::{Place, check_tables, study_with_common_records};
-use super::own_frame::OwnFrame;
+use super::own_frame::{OwnFrame, STOPPED, of_frame};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::uncertain::Spread;
 use crate::error::DesignError;
 use band::Frequencies;
 use candidate::Attempt;
+use frame::{FrameTarget, NO_COLUMNS};
 use search::{crossings, digits, extend, lattice, least, narrow, rounded_up, spread};
 use trial::Trials;
 use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
@@ -82,8 +86,14 @@ pub struct TargetReport {
     pub own_value: Option<f64>,
     /// What must not happen more often: `overturning`, or which displacement is exceeded.
     pub event: String,
-    /// Whether it is a frame that can wobble: all numbers are those of its proxy, the oscillator.
+    /// Whether it is a frame that can wobble, and all numbers are those of its proxy, the oscillator.
     pub by_proxy: bool,
+    /// What the frame itself says; none of a structure that cannot wobble, and by its proxy.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame: Option<TargetFrame>,
+    /// Why a frame that can wobble is left out where it is not by its proxy that it is wanted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub without_frame: Option<String>,
     /// How often it may happen, 1/yr.
     pub target_per_year: f64,
     /// Years that probabilities refer to.
@@ -241,7 +251,10 @@ pub fn target(
     let (range, own_value) = range(structure, options)?;
     let hazard = Hazard::from_file(&file, (place.name, site), (measure, &source.study))?;
     let scatter = Scatter::from_file(&file)?;
-    let mut trials = Trials::from_structure(structure, &source, (place, &hazard, &scatter), (options, years), events)?;
+    let wobbles = OwnFrame::is_described(structure);
+    let mut without_frame = (wobbles && !options.proxy).then(|| why_left_out(structure, options.quantity)).flatten();
+    let asked = (options, years, wobbles && !options.proxy && without_frame.is_none());
+    let mut trials = Trials::from_structure(structure, &source, (place, &hazard, &scatter), asked, events)?;
     trials.refuse_untellable(place.name, target_per_year)?;
 
     let meets = |attempt: &Attempt| attempt.meets(target_per_year);
@@ -272,15 +285,35 @@ pub fn target(
             rate(noise.highest)
         ));
     }
-    notes.extend(assumptions(structure, &file, trials.restitution()));
+    // where the safe value itself misses the target
+    let safe_value = safe_value.max(value);
+    let frame = match trials.take_components() {
+        None => None,
+        Some(pairs) => {
+            let (hazard, scatter) = (&hazard, &scatter);
+            let of_frame = FrameTarget { structure, options, place, hazard, scatter, target_per_year, years };
+            let at = if safe_value.is_finite() { safe_value } else { value };
+            match of_frame.judge(&mut trials, pairs, [at, range[1]])? {
+                Ok(frame) => Some(frame),
+                Err(reason) => {
+                    without_frame = Some(reason);
+                    None
+                }
+            }
+        }
+    };
+    notes.extend(frame.as_ref().map(|_| of_frame(structure)));
+    let by_proxy = wobbles && frame.is_none();
+    notes.extend(assumptions(structure, &file, (trials.restitution(), by_proxy)));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
     let counts = (trials.record_count(), trials.pairs().len());
     let event = options.event.words();
     alarms.extend(own_risk_alarms(&[own_risk((&event, found.risk), (place.name, measure), counts)]));
+    alarms.extend(own_risk_alarms(
+        &frame.iter().flat_map(|of| of.own_risks(&event, place, &scatter)).collect::<Vec<_>>(),
+    ));
     let bands = frequencies.bands(value, target_per_year);
-    // where the safe value itself misses the target
-    let safe_value = safe_value.max(value);
     let safe = tried.iter().find(|(tried, _)| tried.total_cmp(&safe_value).is_eq());
     let mut report = TargetReport {
         uncertainty: trials.around().map(|around| TargetUncertainty::from_tried(around, &tried, target_per_year)),
@@ -292,7 +325,9 @@ pub fn target(
         quantity_unit: options.quantity.unit(),
         own_value,
         event,
-        by_proxy: OwnFrame::is_described(structure),
+        by_proxy,
+        frame,
+        without_frame,
         target_per_year,
         years,
         safe_value,
@@ -323,6 +358,16 @@ pub fn target(
     }
     trials.finish();
     Ok(report)
+}
+
+/// Why a frame that can wobble is left out of a search.
+fn why_left_out(structure: &Structure, quantity: Quantity) -> Option<String> {
+    let has_columns = !matches!(quantity, Quantity::Strength | Quantity::Capacity);
+    match (OwnFrame::can_be_shaken(structure), has_columns) {
+        (true, true) => None,
+        (true, false) => Some(NO_COLUMNS.to_owned()),
+        (false, _) => Some(STOPPED.to_owned()),
+    }
 }
 
 /// What a search has tried.

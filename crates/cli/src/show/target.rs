@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use uplift::structure::{TargetBand, TargetReport};
-use uplift::text::{Table, per_cent, short, thousands};
+use uplift::structure::{TargetBand, TargetFrame, TargetReport};
+use uplift::text::{self, Table, per_cent, short, thousands};
 
 use super::alarms::print_warnings;
 use super::structure::{lines, rate, risk_cells};
@@ -33,20 +33,81 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         let upper = if report.safe_value.is_finite() { report.safe_value.to_string() } else { "beyond".to_owned() };
         format!(" ({} to {upper}, 90 % by {})", short(band.value[0]), band.of)
     });
-    let whose = if report.by_proxy { ", by its proxy alone" } else { "" };
-    writeln!(out, "Safe {quantity} {safe}; best estimate {}{band}{whose}", unit(value.to_string()))?;
+    let best = format!("best estimate {}{band}", unit(value.to_string()));
+    match &report.frame {
+        Some(frame) if frame.wobbling().is_safe => {
+            writeln!(out, "Safe {quantity} {safe} by wobbling frame and proxy; {best} of the proxy")?;
+        }
+        Some(frame) => {
+            let needs = if frame.safe_value.is_finite() {
+                format!("needs {}", limit(frame.safe_value, report))
+            } else {
+                format!("misses the target up to {}", unit(frame.missed_at.unwrap_or(frame.value).to_string()))
+            };
+            writeln!(
+                out,
+                "Safe {quantity}: the wobbling frame {needs}, its proxy {safe}; at {} {}",
+                unit(frame.value.to_string()),
+                how_often(frame, *target_per_year)
+            )?;
+        }
+        None => {
+            let whose = if report.by_proxy { ", by its proxy alone" } else { "" };
+            writeln!(out, "Safe {quantity} {safe}; {best}{whose}")?;
+        }
+    }
     let years = 1.0 / target_per_year;
     writeln!(out, "Target    {event} at most {} per year (once in {years:.0} years)", rate(*target_per_year))?;
     let [per_year, ..] = risk_cells(&report.risk);
     let at_safe =
         report.safe_risk.map_or_else(String::new, |risk| format!(", {} at the safe value", risk_cells(&risk)[0]));
     writeln!(out, "Risk      {per_year} per year at the best estimate{at_safe}")?;
+    if let Some(frame) = &report.frame {
+        print_frame(out, report, frame)?;
+    }
+    if let Some(reason) = &report.without_frame {
+        writeln!(out, "Frame     left out: {reason}")?;
+    }
     if report.least_met < report.missed_at {
         let [met, missed] = [report.least_met, report.missed_at].map(|value| unit(value.to_string()));
         writeln!(out, "Noise     {met} meets the target too, but {missed} misses it")?;
     }
     let own = report.own_value.map_or_else(String::new, |own| format!("; the structure has {}", unit(short(own))));
     writeln!(out, "At        {site} by {im}; {}{own}", report.source.record_set)?;
+    Ok(())
+}
+
+/// How the wobbling frame misses a target at the value of its proxy, in words.
+fn how_often(frame: &TargetFrame, target_per_year: f64) -> String {
+    let own = frame.wobbling();
+    if own.is_met {
+        "the frame's rate meets the target, its upper limit does not".to_owned()
+    } else {
+        format!("the frame's rate is {:.2} times the target", own.risk.per_year / target_per_year)
+    }
+}
+
+/// The rates of the frame at the value of its proxy, with a verdict by each model.
+fn print_frame(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame) -> Result<(), CommandError> {
+    let value = format!("{} {}", frame.value, report.quantity_unit);
+    let table = Table::of(&frame.models)
+        .left("model", |own| own.model)
+        .right(format!("per year at {}", value.trim_end()), |own| {
+            let band = own.bands.map_or_else(String::new, |bands| {
+                let [lower, upper] = bands.fullest().map(text::rate);
+                format!(" ({lower}–{upper})")
+            });
+            risk_cells(&own.risk)[0].clone() + &band
+        })
+        .right("travel at the target rate, m", |own| {
+            if own.demand_m.is_finite() { format!("{:.2}", own.demand_m) } else { "overturns".to_owned() }
+        })
+        .left("verdict", |own| match (own.is_met, own.is_safe) {
+            (_, true) => "safe",
+            (true, false) => "met, not safe",
+            (false, false) => "MISSED",
+        });
+    writeln!(out, "{table}")?;
     Ok(())
 }
 
@@ -101,6 +162,14 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
             uncertain.seed
         )?;
         print_quantities(out, &uncertain.quantities)?;
+    }
+    if let Some(frame) = report.frame.as_ref().filter(|frame| frame.tried.len() > 1) {
+        let table = Table::of(&frame.tried)
+            .right(report.quantity, |tried| tried.value)
+            .right("per year", |tried| rate(tried.per_year))
+            .right("upper limit", |tried| rate(tried.upper_per_year))
+            .left("", |tried| if tried.is_safe { "safe" } else { "not safe" });
+        writeln!(out, "\nThe wobbling frame at other values\n{table}")?;
     }
     print_crossings(out, report)?;
     print_beside(out, report)

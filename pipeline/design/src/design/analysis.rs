@@ -89,7 +89,7 @@ impl OwnAnalysis {
                     capacity_m: capacity_m(&structure.system),
                     safety_factor: options.safety_factor,
                 };
-                Some(question.answer(&frame.peaks([&wobbling, &planar]))?)
+                Some(question.answer(&frame.peaks(&wobbling, Some(&planar)))?)
             }
             _ => None,
         };

@@ -99,6 +99,8 @@ pub struct TargetOptions {
     pub return_periods: Vec<f64>,
     /// Dispersion β of a generic lognormal fragility, and its probability at the level to design for; none for none.
     pub generic: Option<(f64, f64)>,
+    /// Leave the frame itself out: the verdict is that of its proxy.
+    pub proxy: bool,
     /// CSV file of all values tried.
     pub table: Option<PathBuf>,
     /// Whether existing files are overwritten.
@@ -120,6 +122,7 @@ impl TargetOptions {
             tolerance: 0.005,
             return_periods: vec![475.0, 2475.0],
             generic: None,
+            proxy: false,
             table: None,
             force: false,
         }

@@ -11,6 +11,7 @@ use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::text::{rate, records_in_words, thousands};
 use uplift_risk::StripeWeights;
+use uplift_structure::Quantity;
 use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_levels};
 
@@ -19,7 +20,8 @@ use super::{LevelShare, TargetEvent, TargetOptions};
 use crate::certainty::Scatter;
 use crate::error::DesignError;
 use crate::hazard::Hazard;
-use crate::opening::{Place, ShakenRecords, job_name, required_records, restitution};
+use crate::opening::{Place, ShakenRecords, job_name, records_and_pairs, required, restitution};
+use crate::own_frame::{FramePeaks, OwnFrame, Pairs};
 use crate::risk::{HAPPENS, OVERTURNING_M, bounded, happenings, risk_of_exceeding};
 use crate::uncertain::{Around, Spread};
 use crate::weights::SiteWeights;
@@ -37,6 +39,8 @@ pub(super) struct Trials<'a> {
     options: &'a TargetOptions,
     years: f64,
     records: ShakenRecords,
+    /// The pairs that they are of, until a frame is shaken by them; none without a frame.
+    components: Option<Pairs>,
     restitution: f64,
     /// The structures that it may be; none where all of it is known.
     around: Option<Around<'a>>,
@@ -47,15 +51,17 @@ pub(super) struct Trials<'a> {
 }
 
 impl<'a> Trials<'a> {
-    /// Of `structure`, by the stripes of the measure of `place` with its hazard, under records that scatter so.
+    /// Of `structure`, by the stripes of the measure of `place` with its hazard, under records that scatter so, with
+    /// their pairs where a frame is to be shaken.
     pub(super) fn from_structure(
         structure: &'a Structure,
         source: &'a StudyOfResult,
         (place, hazard, scatter): (Place<'a>, &'a Hazard<'a>, &'a Scatter),
-        (options, years): (&'a TargetOptions, f64),
+        (options, years, with_pairs): (&'a TargetOptions, f64, bool),
         events: &'a dyn Events,
     ) -> Result<Self, DesignError> {
-        let records = required_records(source, options.manifest.as_deref(), "a target")?;
+        let found = records_and_pairs(source, options.manifest.as_deref(), with_pairs)?;
+        let (records, components) = required(found, "a target")?;
         let mut study = source.study.clone();
         // what is lost when a record ends has overturned, whoever looks
         study.oscillator.free_vibration |= options.event == TargetEvent::Overturning;
@@ -71,6 +77,7 @@ impl<'a> Trials<'a> {
             options,
             years,
             records,
+            components,
             restitution,
             study,
             events,
@@ -78,6 +85,33 @@ impl<'a> Trials<'a> {
             checkpoint: None,
             analyses: 0,
         })
+    }
+
+    /// The pairs of the records, once.
+    pub(super) fn take_components(&mut self) -> Option<Pairs> {
+        self.components.take()
+    }
+
+    /// Why `frame` cannot be shaken at `levels`.
+    pub(super) fn leaves_the_ground(&self, frame: &OwnFrame, levels: &[f64]) -> Result<Option<String>, DesignError> {
+        frame.leaves_the_ground(&self.records.set, (self.measure.measure(), levels))
+    }
+
+    /// The peaks of `frame` at `levels`, of its planar model too where it is asked for.
+    pub(super) fn shake(
+        &mut self,
+        frame: &OwnFrame,
+        levels: &[f64],
+        with_planar: bool,
+    ) -> Result<FramePeaks, DesignError> {
+        // one job has the file at a time, and this one goes on with it
+        drop(self.checkpoint.take());
+        let mut plans: Vec<_> = frame.plans(&self.records, (self.measure.measure(), levels))?.into();
+        plans.truncate(1 + usize::from(with_planar));
+        let job = ResultJob { result: self.result, name: &self.name };
+        let (analysed, checkpoint) = job.results(Work::new(&self.name, plans), &[], self.events)?;
+        self.checkpoint = Some(checkpoint);
+        Ok(frame.peaks(analysed.first().ok_or(JobError::Interrupted)?, analysed.get(1)))
     }
 
     /// Coefficient of restitution of the oscillators.
@@ -149,10 +183,7 @@ impl<'a> Trials<'a> {
     /// A value that no such structure has.
     fn candidate(&self, value: f64) -> Result<Candidate, DesignError> {
         let quantity = self.options.quantity;
-        let refused = |mistake: String| {
-            let key = quantity.key();
-            JobError::Usage(format!("--vary {key}, {value} {}: {mistake}: give --from and --to", quantity.unit()))
-        };
+        let refused = |mistake: String| refused(quantity, value, &mistake);
         let system = quantity
             .varied(&self.structure.description, value)
             .map_err(|mistakes| refused(mistakes.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")))?;
@@ -336,6 +367,11 @@ impl<'a> Trials<'a> {
     fn is_of_each_record(&self) -> bool {
         self.around.as_ref().is_some_and(Around::is_of_each_record)
     }
+}
+
+/// Why a structure has no such value.
+pub(super) fn refused(quantity: Quantity, value: f64, mistake: &str) -> JobError {
+    JobError::Usage(format!("--vary {}, {value} {}: {mistake}: give --from and --to", quantity.key(), quantity.unit()))
 }
 
 /// The mean of numbers that are not alike; that of those that are, to the bit.

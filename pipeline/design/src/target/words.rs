@@ -10,7 +10,6 @@ use uplift_uniform_risk::EventRisk;
 use super::TargetOptions;
 use super::candidate::Attempt;
 use super::search::{Crossing, crossings};
-use crate::own_frame::OwnFrame;
 
 /// A refusal with the numbers that are probably mistaken: the reason for it, most likely.
 pub(super) fn with_mistakes(reason: String, alarms: &[Alarm]) -> String {
@@ -114,7 +113,11 @@ impl Words<'_> {
 }
 
 /// What is taken for granted of the structure and of the records.
-pub(super) fn assumptions(structure: &Structure, file: &ResultFile, restitution: f64) -> Vec<String> {
+pub(super) fn assumptions(
+    structure: &Structure,
+    file: &ResultFile,
+    (restitution, by_proxy): (f64, bool),
+) -> Vec<String> {
     let mut notes = Vec::new();
     let is_drawn =
         structure.uncertainty.as_ref().is_some_and(|of| of.quantities.contains(&UncertainQuantity::Restitution));
@@ -132,12 +135,8 @@ pub(super) fn assumptions(structure: &Structure, file: &ResultFile, restitution:
                 .to_owned(),
         );
     }
-    if OwnFrame::is_described(structure) {
-        notes.push(
-            "the value is that of the proxy, the equivalent oscillator: uplift design has the wobbling frame of that \
-             value"
-                .to_owned(),
-        );
+    if by_proxy {
+        notes.push("the value is that of the proxy, the equivalent oscillator, not of the wobbling frame".to_owned());
     }
     if file.has_repair() {
         notes.push(

@@ -93,6 +93,9 @@ pub(crate) struct TargetArguments {
         requires = "generic_dispersion"
     )]
     generic_probability: f64,
+    /// Judge the proxy alone, without the wobbling frame
+    #[arg(long)]
+    proxy: bool,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -131,6 +134,7 @@ impl TargetArguments {
             tolerance: self.tolerance,
             return_periods: self.at.clone(),
             generic: self.generic_dispersion.map(|dispersion| (dispersion, self.generic_probability)),
+            proxy: self.proxy,
             table: self.output.clone(),
             force: self.overwriting.force,
             ..TargetOptions::new(quantity, event, frequency)
