@@ -223,6 +223,32 @@ fn the_quoted_band_is_by_earthquake_where_records_of_one_are_alike() {
     assert!(said.contains("(90 % band by earthquake)"), "{said}");
     let warned = study.uplift(&["warnings", "r.h5"]).ok().stdout;
     assert!(warned.contains("Few earthquakes\n          4; below 5 no confidence band holds."), "{warned}");
+    // before anything is computed too, and of a sweep where it is so
+    let manifest = ["--set", "records.manifest=set/manifest.csv"];
+    let checked = study
+        .uplift(&[&["check", "study.toml", "--details", "--set", "records.first=12"], &manifest[..]].concat())
+        .ok()
+        .stdout;
+    assert!(checked.contains("Few earthquakes: 4; below 5 no confidence band holds"), "{checked}");
+    let sweep = |first: &str| {
+        let over = format!("records.first={first}");
+        study.uplift(&[&["sweep", "study.toml", "-o", first, "--over", &over], &manifest[..]].concat()).ok().stdout
+    };
+    let [both, all] = ["4,12", "12"].map(sweep);
+    assert!(both.contains("(90 % band, by earthquake: first-12)"), "{both}");
+    assert!(all.contains("(90 % band by earthquake)"), "{all}");
+    // the safe value of a structure is by the same
+    study.write("block.toml", "kind = \"block\"\nwidth_m = 0.4\nheight_m = 2\nmass_kg = 1000\n");
+    let ask = ["--vary", "width", "--site", "Here", "--exceed", "0.1", "--per-year", "2e-3", "--json", "-q"];
+    let [shared, alone] = ["r.h5", "s.h5"].map(|result| -> Value {
+        let found = study.uplift(&[&["target", "block.toml", "--urs", result], &ask[..]].concat()).ok();
+        serde_json::from_str(&found.stdout).unwrap()
+    });
+    let of = |found: &Value| -> Vec<Value> {
+        found["bands"].as_array().unwrap().iter().map(|band| band["of"].clone()).collect()
+    };
+    assert_eq!((of(&shared), of(&alone)), (vec!["records".into(), "earthquakes".into()], vec!["records".into()]));
+    assert_eq!(shared["bands"][1]["value"], alone["bands"][0]["value"]);
     // as it comes to drawing them
     study.uplift(&["bootstrap", "r.h5", "-q", "--replicates", "50", "--sizes", "12", "--unit", "event"]).ok();
     let by_event = array(&study.path().join("r.h5"), "/bootstrap/pgv/truth_upper_m");

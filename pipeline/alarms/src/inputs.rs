@@ -29,8 +29,7 @@ pub(super) fn result_alarms(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError
         if sets.is_empty() {
             alarms.extend(few(records, pairs.len()));
         }
-        let shared = question.filter(Question::shares_earthquakes);
-        alarms.extend(shared.and_then(|own| few_earthquakes(uplift_bootstrap::units(&own.event_of()).len())));
+        alarms.extend(question.as_ref().and_then(few_earthquakes));
     }
     let noticed = head.warnings.iter().filter(|line| !line.is_empty());
     alarms.extend(noticed.map(|line| Alarm::new(Severity::Note, "inputs", "inputs", line.clone(), "")));
@@ -142,8 +141,15 @@ pub fn few(records: usize, pairs: usize) -> Option<Alarm> {
 /// Fewer earthquakes than this have no band that holds (`make coverage`; docs/confidence-bands.md).
 const FEW_EARTHQUAKES: usize = 5;
 
-/// Where the records share so few `earthquakes` that no confidence band holds as often as it says.
-fn few_earthquakes(earthquakes: usize) -> Option<Alarm> {
+/// Where the records share so few earthquakes that no confidence band holds as often as it says.
+///
+/// - `question`: knows the earthquakes of the records.
+pub fn few_earthquakes(question: &Question) -> Option<Alarm> {
+    let shared = question.shares_earthquakes().then(|| uplift_bootstrap::units(&question.event_of()).len());
+    shared.and_then(too_few)
+}
+
+fn too_few(earthquakes: usize) -> Option<Alarm> {
     (earthquakes < FEW_EARTHQUAKES).then(|| {
         Alarm::new(
             Severity::Caution,
@@ -162,8 +168,8 @@ mod tests {
 
     #[test]
     fn five_earthquakes_are_no_longer_few() {
-        assert_eq!(few_earthquakes(5), None);
-        assert_eq!(few_earthquakes(4).unwrap().to_string(), "Few earthquakes: 4; below 5 no confidence band holds");
+        assert_eq!(too_few(5), None);
+        assert_eq!(too_few(4).unwrap().to_string(), "Few earthquakes: 4; below 5 no confidence band holds");
     }
 
     #[test]

@@ -42,7 +42,7 @@ pub use error::AlarmsError;
 pub use evidence::{Evidence, Scope, spectrum_name};
 pub use fit::{FitReach, reach_of_fit};
 pub use hazard::{CurvesAtSite, hazard_alarms};
-pub use inputs::{far_factors_alarm, few, study_alarms, synthetic_records};
+pub use inputs::{far_factors_alarm, few, few_earthquakes, study_alarms, synthetic_records};
 pub use levels::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, Counted, UpperEnd, below_first_case};
 pub use measures::COMPARED_FROM_M;
 pub use numbers::number_alarms;

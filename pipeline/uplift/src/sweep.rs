@@ -7,7 +7,7 @@
 mod table;
 mod variants;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -23,7 +23,7 @@ use uplift_labelled::hexadecimal;
 use uplift_result::{ResultFile, flag_word};
 use uplift_studies::uniform_risk::Inputs;
 use uplift_study::{AnyStudy, Study, StudyError, UniformRiskStudy};
-use uplift_uniform_risk::{Displacement, DisplacementOptions, displacements};
+use uplift_uniform_risk::{BandOf, Displacement, DisplacementOptions, DisplacementReport, displacements};
 
 use crate::error::UpliftError;
 use crate::result_of::result_of;
@@ -86,6 +86,8 @@ pub struct VariantReport {
     pub spectra: Vec<VariantSpectrum>,
     /// Displacements with their confidence bands, of its smallest probability by each measure.
     pub displacements: Vec<Displacement>,
+    /// What the bands by each measure take for independent, with the measure: `records` or `earthquakes`.
+    pub band_of: BTreeMap<&'static str, BandOf>,
     /// The same of its repaired spectra; empty without a repair.
     #[serde(skip)]
     pub repaired: Vec<Displacement>,
@@ -321,10 +323,12 @@ impl VariantReport {
             let measures = file.measures().into_iter().filter(|&measure| !repaired || is_there(measure));
             let of = |measure| {
                 let asked = DisplacementOptions { measure: Some(measure), repaired, ..DisplacementOptions::default() };
-                Ok(displacements(&file, &asked)?.displacements)
+                Ok(displacements(&file, &asked)?)
             };
-            measures.map(of).collect::<Result<Vec<_>, UpliftError>>().map(|found| found.concat())
+            measures.map(of).collect::<Result<Vec<_>, UpliftError>>()
         };
+        let all = |found: &[DisplacementReport]| found.iter().flat_map(|of| of.displacements.clone()).collect();
+        let (plain, repaired) = (with_bands(false)?, with_bands(true)?);
         let mut alarms = alarms(&file)?;
         alarms.retain(|alarm| alarm.severity != Severity::Note);
         Ok(Self {
@@ -334,8 +338,9 @@ impl VariantReport {
             synthetic: file.is_synthetic()?,
             years: axes.years,
             spectra: spectra.rows().map(row).collect(),
-            displacements: with_bands(false)?,
-            repaired: with_bands(true)?,
+            displacements: all(&plain),
+            band_of: plain.iter().map(|of| (of.measure.label(), of.band_of)).collect(),
+            repaired: all(&repaired),
             strengths: axes.strengths,
             result,
         })

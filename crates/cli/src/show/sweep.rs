@@ -6,7 +6,7 @@ use std::io::Write;
 use uplift::alarms::Severity;
 use uplift::sweep::{SweepReport, VariantReport};
 use uplift::text::{Table, cell_with_band, per_cent, risk_in_words, rounded};
-use uplift::uniform_risk::{CONFIDENCE, Displacement};
+use uplift::uniform_risk::{BandOf, CONFIDENCE, Displacement};
 
 use super::alarms::{print_lines, warning};
 use super::{print_more, shown_path};
@@ -78,7 +78,15 @@ fn print_displacements(
     let risks: BTreeSet<String> = report.variants.iter().map(risk).collect();
     let risk_of_all = if risks.len() == 1 { format!(", {}", risk(first)) } else { String::new() };
     let is_banded = report.variants.iter().flat_map(|variant| weights.of(variant)).any(|own| own.band_m.is_some());
-    let band = if is_banded { format!(" ({} band)", per_cent(CONFIDENCE)) } else { String::new() };
+    // wider than the number of records suggests; of some variants where these have other records
+    let wider = |variant: &&VariantReport| variant.band_of.get(im) == Some(&BandOf::Earthquakes);
+    let by_earthquake: Vec<&str> = report.variants.iter().filter(wider).map(|variant| variant.name.as_str()).collect();
+    let whose = match by_earthquake.len() {
+        0 => String::new(),
+        all if all == report.variants.len() => " by earthquake".to_owned(),
+        _ => format!(", by earthquake: {}", by_earthquake.join(", ")),
+    };
+    let band = if is_banded { format!(" ({} band{whose})", per_cent(CONFIDENCE)) } else { String::new() };
     writeln!(out, "\n{kind} by {im}{risk_of_all}")?;
     writeln!(out, "Displacement, m{band}, at strength")?;
 

@@ -1,7 +1,8 @@
 //! How sure a found value is: where the band of the frequency, by all records like those at hand, meets the target.
 
 use serde::Serialize;
-use uplift_bootstrap::{crossing, falling, inferred_mean, inferred_mean_over_alternatives};
+use uplift_bootstrap::{crossing, falling, inferred_mean, inferred_mean_over_alternatives, is_too_narrow};
+use uplift_fragility::quantile;
 
 use super::candidate::{Attempt, StructureRisk};
 use crate::certainty::{CONFIDENCE, Scatter};
@@ -16,6 +17,7 @@ use crate::uncertain::{Around, QuantityReport, Spread};
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TargetBand {
     /// What it takes account of: `records`, `earthquakes`, `records and hazard`, `structure, records and hazard`, ….
+    /// The quoted one is the last of its list.
     pub of: String,
     /// Lower and upper limit of the value, in its unit; the smallest value searched where it may lie below, infinite
     /// where it may lie beyond the largest.
@@ -29,7 +31,9 @@ pub(super) struct Frequencies {
     values: Vec<f64>,
     /// By the mean hazard curve, 1/yr, `[value]`.
     means: Vec<f64>,
-    /// What each band takes account of, and the limits, 1/yr, `[value]`; the fullest last. None of a single record.
+    /// What each band takes account of, and the limits, 1/yr, `[value]`; the one to quote last: by earthquake where by
+    /// record it is more than a quarter narrower, and with hazard and structures where these are several. None of a
+    /// single record.
     bands: Vec<(String, Vec<[f64; 2]>)>,
 }
 
@@ -52,16 +56,24 @@ impl Frequencies {
                 .map(|of| Ok(inferred_mean(of, units, CONFIDENCE)?))
                 .collect::<Result<Vec<_>, DesignError>>()
         };
-        let mut bands = vec![("records".to_owned(), by_units(&scatter.pairs)?)];
-        let mut records = "records";
-        if let Some(earthquakes) = scatter.earthquakes.as_ref().filter(|earthquakes| earthquakes.len() > 1) {
-            records = "earthquakes";
-            bands.push((records.to_owned(), by_units(earthquakes)?));
+        let by_record = by_units(&scatter.pairs)?;
+        let earthquakes = scatter.earthquakes.as_ref().filter(|earthquakes| earthquakes.len() > 1);
+        let by_earthquake = earthquakes.map(|earthquakes| by_units(earthquakes)).transpose()?;
+        let is_wider = by_earthquake.as_ref().is_some_and(|wider| is_too_narrow(middle(&by_record), middle(wider)));
+        let (records, units) = match earthquakes {
+            Some(earthquakes) if is_wider => ("earthquakes", earthquakes),
+            _ => ("records", &scatter.pairs),
+        };
+        let mut bands = vec![("records".to_owned(), by_record)];
+        bands.extend(by_earthquake.map(|wider| ("earthquakes".to_owned(), wider)));
+        // the one to quote comes last
+        if !is_wider {
+            bands.rotate_left(1);
         }
         let mut over = |of: String, alternatives: Vec<(f64, Vec<Vec<f64>>)>| -> Result<(), DesignError> {
             let at = |place: usize| {
                 let there: Vec<_> = alternatives.iter().map(|(weight, of)| (*weight, of[place].clone())).collect();
-                Ok(inferred_mean_over_alternatives(&there, scatter.coarsest(), CONFIDENCE)?)
+                Ok(inferred_mean_over_alternatives(&there, units, CONFIDENCE)?)
             };
             bands.push((of, (0..values.len()).map(at).collect::<Result<_, DesignError>>()?));
             Ok(())
@@ -107,6 +119,13 @@ impl Frequencies {
         };
         self.bands.iter().map(band).collect()
     }
+}
+
+/// The middle one of the widths of bands; 0 where no run shows it.
+fn middle(limits: &[[f64; 2]]) -> f64 {
+    let mut widths: Vec<f64> = limits.iter().map(|[lower, upper]| upper - lower).filter(|width| *width > 0.0).collect();
+    widths.sort_by(f64::total_cmp);
+    if widths.is_empty() { 0.0 } else { quantile(&widths, 0.5) }
 }
 
 impl StructureRisk {

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use serde::Serialize;
 use uplift_alarms::{
-    BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, CurvesAtSite, far_factors_alarm, few, hazard_alarms, ranked, study_alarms,
+    BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, CurvesAtSite, far_factors_alarm, few, few_earthquakes, hazard_alarms, ranked,
+    study_alarms,
 };
 use uplift_engine::analysis::seconds;
 use uplift_inputs::{
@@ -69,7 +70,8 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
     let ends = [(BEYOND_LAST_LEVEL, of_ends.upper), (BELOW_FIRST_LEVEL, of_ends.lower)];
     let of_ends = ends.into_iter().filter_map(|(kind, cases)| Alarm::from_cases(kind, cases));
     let is_repaired = study.consistency.repair == Repair::Weights;
-    let consistency = Answer::from_plan(study, &records, (&hazard, &other_hazard), is_repaired)?.report(&[]);
+    let answer = Answer::from_plan(study, &records, (&hazard, &other_hazard), is_repaired)?;
+    let (of_earthquakes, consistency) = (few_earthquakes(answer.question()), answer.report(&[]));
     let of_curves = of_curves(study, (&hazard, &other_hazard), &consistency);
     let head = PlanHead {
         study: study_file.to_owned(),
@@ -82,7 +84,7 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
         disk_bytes: needs.disk_bytes,
         room: needs.room(&study.output.file),
         output: study.output.file.clone(),
-        alarms: ranked(of_inputs(study, &records).chain(of_curves).chain(of_ends).collect()),
+        alarms: ranked(of_inputs(study, &records).chain(of_earthquakes).chain(of_curves).chain(of_ends).collect()),
         notes,
         would_replace: false,
     };
