@@ -268,6 +268,7 @@ fn numbers_of_a_structure_are_banded_over_the_curves_of_the_hazard() {
     assert!(told.contains("with the site's weighted hazard curves"), "{told}");
     let table = std::fs::read_to_string(study.path().join("o.risk.csv")).unwrap();
     assert!(table.contains("maf_records_upper_per_year,maf_hazard_lower_per_year"), "{table}");
+    assert!(table.contains("maf_lognormal_records_upper_per_year,maf_lognormal_hazard_lower_per_year"), "{table}");
     let told = study
         .uplift(&[&["target", "frame.toml", "--urs", "r.h5", "-q", "--details"], &TARGET[1..]].concat())
         .ok()

@@ -207,6 +207,16 @@ fn tables_and_figures_hold_what_is_printed() {
     assert_eq!((risk[1][0].as_str(), risk[2][2].as_str()), ("There", "block"));
     let per_year = model(&found, "PGA", "block")["sites"][0]["per_year"].as_f64().unwrap();
     assert!((risk[2][3].parse::<f64>().unwrap() / per_year - 1.0).abs() < 1e-12);
+    // the rate of the lognormal fragility lies in its band, which the table has too
+    let fitted = &model(&found, "PGA", "block")["sites"][0];
+    let column = |name: &str| risk[2][risk[0].iter().position(|of| of == name).unwrap()].parse::<f64>().unwrap();
+    for (end, name) in ["lower", "upper"].into_iter().enumerate() {
+        let limit = fitted["lognormal_bands"]["by_record"][end].as_f64().unwrap();
+        let written = column(&format!("maf_lognormal_records_{name}_per_year"));
+        assert!((written - limit).abs() <= 1e-12 * limit, "{fitted}");
+        let beyond = limit - fitted["lognormal_per_year"].as_f64().unwrap();
+        assert!(if end == 0 { beyond < 0.0 } else { beyond > 0.0 }, "{fitted}");
+    }
     let svg = read("b.svg");
     assert!(!svg.contains("Overturning of block") && svg.contains("synthetic records") && !svg.contains("NaN"));
     let on = |threads: &str| {

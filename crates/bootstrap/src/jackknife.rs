@@ -36,6 +36,18 @@ pub fn without_each(
     Ok(ordinates_m)
 }
 
+/// What each record has in a number that is nearly a mean over the records, `[record]`: `all + (n − 1)(m − x)`, where
+/// `x` is the number without the record and `m` the mean of these. Tukey's pseudo-values, moved so that their mean is
+/// the number.
+///
+/// # Source
+/// J. W. Tukey, Ann. Math. Stat. 29 (1958), 614.
+pub fn contributions(all: f64, without_each: &[f64]) -> Vec<f64> {
+    let records = without_each.len() as f64;
+    let mean = without_each.iter().sum::<f64>() / records;
+    without_each.iter().map(|without| all + (records - 1.0) * (mean - without)).collect()
+}
+
 /// Acceleration of BCa for samples of `size` records (Efron and Tibshirani, Eq. 14.15, from the jackknife).
 ///
 /// - `without_each_m`: the ordinate without each record, m.

@@ -46,7 +46,7 @@ pub use error::BootstrapError;
 pub use falling::{crossing, falling};
 pub use inferred::{InferredLimits, inferred_limits, inferred_mean, inferred_rate, repaired_limits, repaired_rate};
 pub use interval::{Band, Interval};
-pub use jackknife::{acceleration, leave_one_out, without_each};
+pub use jackknife::{acceleration, contributions, leave_one_out, without_each};
 pub use over_curves::{inferred_limits_over_curves, inferred_mean_over_alternatives, inferred_rate_over_curves};
 pub use plan::ResamplingPlan;
 pub use replicates::Replicates;

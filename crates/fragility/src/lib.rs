@@ -36,7 +36,7 @@ mod stripes;
 pub use dispersion::{Dispersion, mean_residuals, standard_deviation, uplift_levels};
 pub use empirical::{EmpiricalFragility, check_threshold, exceedance_counts, exceedance_probabilities};
 pub use error::FragilityError;
-pub use lognormal::{LognormalFit, LognormalFragility, StripeCount, fit_lognormal, stripe_counts};
+pub use lognormal::{LognormalFit, LognormalFragility, StripeCount, fit_lognormal, fits_without_each, stripe_counts};
 pub use normal::{ln_normal_cdf, normal_cdf, normal_quantile};
 pub use quantile::{quantile, weighted_quantile};
 pub use stripes::Stripes;

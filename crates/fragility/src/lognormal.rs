@@ -125,6 +125,27 @@ pub fn fit_lognormal(counts: &[StripeCount]) -> Result<LognormalFit, FragilityEr
     Err(FragilityError::NoConvergence { iterations: MAX_ITERATIONS })
 }
 
+/// The fits of `stripes` without each of their records in turn, `[record]`.
+///
+/// # Errors
+/// A threshold that is negative or not finite; as [`fit_lognormal`] for any of them.
+pub fn fits_without_each(stripes: &Stripes, threshold_m: f64) -> Result<Vec<LognormalFit>, FragilityError> {
+    let counts = stripe_counts(stripes, threshold_m)?;
+    let without = |record: usize| {
+        let of_level = |(level, (count, edp_m)): (usize, (&StripeCount, &f64))| {
+            let belongs = stripes.belongs(record, level);
+            StripeCount {
+                exceedances: count.exceedances - u32::from(belongs && *edp_m > threshold_m),
+                trials: count.trials - u32::from(belongs),
+                ..*count
+            }
+        };
+        let left: Vec<StripeCount> = counts.iter().zip(stripes.record(record)).enumerate().map(of_level).collect();
+        fit_lognormal(&left)
+    };
+    (0..stripes.record_count()).map(without).collect()
+}
+
 /// Refuses counts that are wrong, and counts whose likelihood has no maximum.
 fn check_counts(counts: &[StripeCount]) -> Result<(), FragilityError> {
     check_levels(&counts.iter().map(|count| count.level).collect::<Vec<_>>())?;
@@ -252,6 +273,20 @@ mod tests {
         let fit = fit_lognormal(&counts(&[2.0, 8.0], &[25, 75], 100)).unwrap().fragility;
         assert!((fit.median() - 4.0).abs() < 1e-12, "{fit:?}");
         assert!((fit.dispersion() - 2.0_f64.ln() / 0.674_489_750_196_082).abs() < 1e-12, "{fit:?}");
+    }
+
+    #[test]
+    fn without_a_record_the_fit_is_that_of_the_others() {
+        let inf = f64::INFINITY;
+        let demands = [0.1, inf, inf, 0.1, 0.2, inf, 0.1, 0.1, 0.2, inf, 0.1, inf];
+        let fits = fits_without_each(&Stripes::new(&[1.0, 2.0, 4.0], &demands).unwrap(), 1e9).unwrap();
+        assert_eq!(fits.len(), 4);
+        for (record, fit) in fits.iter().enumerate() {
+            let others = demands.chunks(3).enumerate().filter(|(other, _)| *other != record);
+            let others: Vec<f64> = others.flat_map(|(_, of)| of.to_vec()).collect();
+            let stripes = Stripes::new(&[1.0, 2.0, 4.0], &others).unwrap();
+            assert_eq!(*fit, fit_lognormal(&stripe_counts(&stripes, 1e9).unwrap()).unwrap());
+        }
     }
 
     #[test]

@@ -212,8 +212,8 @@ fn overturning_risks(found: &CollapseReport) -> Vec<FindingRow> {
         let (what, at) = (format!("overturning, {}", found.model), [of.site.as_str(), found.im]);
         rows.extend(rate(&what, &of.risk, of.bands, at));
         rows.extend(of.repaired.iter().flat_map(|risk| rate(&format!("{what}, repaired"), risk, None, at)));
-        let fitted = of.lognormal_per_year;
-        rows.extend(fitted.map(|rate| FindingRow::new(format!("{what}, lognormal"), rate, "1/yr").at(at[0], at[1])));
+        let row = |rate| FindingRow::new(format!("{what}, lognormal"), rate, "1/yr").at(at[0], at[1]);
+        rows.extend(of.lognormal_per_year.iter().flat_map(|rate| banded(&row(*rate), of.lognormal_bands)));
     }
     rows
 }
@@ -328,8 +328,8 @@ impl FrameRiskReport {
         let found = &self.overturning;
         rows.extend(rate("overturning", &found.risk, None, at));
         rows.extend(found.repaired.iter().flat_map(|risk| rate("overturning, repaired", risk, None, at)));
-        let fitted = found.lognormal_per_year;
-        rows.extend(fitted.map(|rate| FindingRow::new("overturning, lognormal", rate, "1/yr").at(at[0], at[1])));
+        let row = |rate| FindingRow::new("overturning, lognormal", rate, "1/yr").at(at[0], at[1]);
+        rows.extend(found.lognormal_per_year.iter().flat_map(|rate| banded(&row(*rate), found.lognormal_bands)));
         question.answered(rows, self)
     }
 }

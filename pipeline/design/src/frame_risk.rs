@@ -24,9 +24,11 @@ use uplift_study::Structure;
 pub use demand::{Banded, ModelDemand, RiskPoint};
 pub use edps::{DirectionEffect, EventReport, StateAtDemand};
 
-use super::certainty::Scatter;
+use super::certainty::{Bands, Scatter};
 use super::collapse::{Collapse, collapse};
 use super::design::{DesignOptions, design};
+use super::hazard::Hazard;
+use super::lognormal::lognormal_bands;
 use super::opening::{Place, check_tables, choose_measure, job_name, study_with_common_records};
 use super::own_frame::loss;
 use super::report::{ReportSource, StructureReport};
@@ -135,6 +137,8 @@ pub struct FrameOverturning {
     pub beta: Option<f64>,
     /// Frequency with that fragility in place of the counts, 1/yr.
     pub lognormal_per_year: Option<f64>,
+    /// Its confidence band by the records; none without a fit, where that hangs on one record, and of a single one.
+    pub lognormal_bands: Option<Bands>,
     /// The fit itself.
     #[serde(skip)]
     pub fit: Option<LognormalFit>,
@@ -202,6 +206,8 @@ pub fn frame_risk(
         // the weights of a repair are of records
         overturning.repaired = collapse(levels, (own_m, &pairs), &[(weights, repaired)], years, true)?.repaired;
     }
+    let hazard = Hazard::from_file(&file, (place.name, site), (measure, &source.study))?;
+    let mut of_fit = lognormal_bands((levels, own_m), &[hazard], scatter)?;
     let scope = Scope { measure: Some(measure.measure()), ..Scope::default() };
     let mut alarms = alarms_of_inputs(&file, &scope)?;
     alarms.extend(structure_alarms(structure));
@@ -229,7 +235,7 @@ pub fn frame_risk(
         direction: demands.wobbling_m.is_some().then(|| DirectionEffect::from_peaks(&demands.directions_m)),
         notes: notes(&analysis, (structure, &demands), &source, &overturning),
         demands: rows,
-        overturning: FrameOverturning::from_collapse(&overturning),
+        overturning: FrameOverturning::from_collapse(&overturning, of_fit.pop().flatten()),
         alarms: ranked(alarms),
         files: Vec::new(),
         source: ReportSource::read(&file, &source)?,
@@ -377,7 +383,7 @@ fn notes(
 }
 
 impl FrameOverturning {
-    fn from_collapse(found: &Collapse) -> Self {
+    fn from_collapse(found: &Collapse, lognormal_bands: Option<Bands>) -> Self {
         let fit = found.fit.as_ref().ok();
         Self {
             levels: found.counts.iter().map(|count| count.level).collect(),
@@ -387,6 +393,7 @@ impl FrameOverturning {
             theta: fit.map(|fit| fit.fragility.median()),
             beta: fit.map(|fit| fit.fragility.dispersion()),
             lognormal_per_year: found.fitted.as_ref().map(|fitted| fitted[0].per_year),
+            lognormal_bands,
             fit: fit.copied(),
         }
     }

@@ -9,6 +9,7 @@ mod error;
 mod finding;
 mod frame_risk;
 mod hazard;
+mod lognormal;
 mod models;
 mod opening;
 mod overturning;

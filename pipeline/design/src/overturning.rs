@@ -23,6 +23,7 @@ use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, StudyOfResult, pl
 use super::certainty::{Bands, Scatter, rate_bands};
 use super::collapse::{Collapse, collapse};
 use super::hazard::Hazard;
+use super::lognormal::lognormal_bands;
 use super::models::models;
 use super::opening::{
     ShakenRecords, check_tables, choose_measure, job_name, records_and_pairs, required, site_index,
@@ -156,6 +157,8 @@ pub struct SiteRisk {
     pub repaired_bands: Option<Bands>,
     /// Frequency with the lognormal fragility in place of the counts, 1/yr; none without a fit.
     pub lognormal_per_year: Option<f64>,
+    /// Its confidence band by the records; none without a fit, where that hangs on one record, and of a single one.
+    pub lognormal_bands: Option<Bands>,
     /// The frequency from the counts with its range over scale factors up to 4e-15 smaller and larger, 1/yr.
     pub per_year_rounding: Noisy,
     /// That with the lognormal fragility; NaN where one of them has no fit.
@@ -231,7 +234,8 @@ pub fn overturning(
                 Ok::<_, DesignError>(repaired.map(of).transpose()?.flatten())
             };
             let repaired_bands = hazard.iter().zip(&weights).map(of_repaired).collect::<Result<_, _>>()?;
-            Ok::<_, DesignError>(Collapses { own: at_nudge(0)?, rounded, bands, repaired_bands })
+            let lognormal_bands = lognormal_bands((levels, &peaks_m_at(0)), &hazard, &scatter)?;
+            Ok::<_, DesignError>(Collapses { own: at_nudge(0)?, rounded, bands, repaired_bands, lognormal_bands })
         });
         found.push((measure, of_models.collect::<Result<_, _>>()?));
         hazards.push(hazard);
@@ -492,6 +496,8 @@ struct Collapses {
     bands: Vec<Option<Bands>>,
     /// The same of those with repaired weights.
     repaired_bands: Vec<Option<Bands>>,
+    /// The same of those by the lognormal fragility.
+    lognormal_bands: Vec<Option<Bands>>,
 }
 
 /// Overturning of a frame by each of its models.
@@ -549,7 +555,8 @@ impl FrameSites<'_> {
                 runs.as_ref().map_or(Ok(None), |runs| of(hazard, Some(runs)))
             };
             let repaired_bands = hazard.iter().zip(&repaired).map(of_repaired).collect::<Result<_, _>>()?;
-            Ok((model, Collapses { own, rounded: Vec::new(), bands, repaired_bands }))
+            let lognormal_bands = lognormal_bands((&levels, peaks_m), &hazard, self.scatter)?;
+            Ok((model, Collapses { own, rounded: Vec::new(), bands, repaired_bands, lognormal_bands }))
         };
         peaks.each().map(of_model).collect()
     }
@@ -615,7 +622,7 @@ impl ModelReport {
 
 impl CollapseReport {
     fn from_collapse(
-        Collapses { own, rounded, bands, repaired_bands }: &Collapses,
+        Collapses { own, rounded, bands, repaired_bands, lognormal_bands }: &Collapses,
         measure: IntensityMeasure,
         model: &'static str,
         records: u32,
@@ -633,6 +640,7 @@ impl CollapseReport {
             repaired: own.repaired[index],
             repaired_bands: repaired_bands[index],
             lognormal_per_year: own.fitted.as_ref().map(|fitted| fitted[index].per_year),
+            lognormal_bands: lognormal_bands[index],
             per_year_rounding: around(&|found| found.risks[index].per_year),
             lognormal_per_year_rounding: own
                 .fitted

@@ -81,9 +81,13 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
         columns = columns.with("maf_consistent_per_year", |(site, ..)| site.repaired.map(|risk| risk.per_year));
     }
     let mut columns = columns.build();
-    for (place, whose) in Bands::WHOSE.into_iter().enumerate() {
-        let limits = rows.iter().map(|(site, ..)| site.bands?.each()[place]).collect::<Vec<_>>();
-        add_limits(&mut columns, &format!("maf_{whose}"), &limits);
+    let kinds: [(&str, fn(&SiteRisk) -> Option<Bands>); 2] =
+        [("maf", |site| site.bands), ("maf_lognormal", |site| site.lognormal_bands)];
+    for (name, bands) in kinds {
+        for (place, whose) in Bands::WHOSE.into_iter().enumerate() {
+            let limits = rows.iter().map(|(site, ..)| bands(site)?.each()[place]).collect::<Vec<_>>();
+            add_limits(&mut columns, &format!("{name}_{whose}"), &limits);
+        }
     }
     if let Some(uncertainty) = &report.uncertainty {
         let found: Vec<_> = rows.iter().map(|(_, row, place)| found_of(uncertainty, (*place, row))).collect();

@@ -7,7 +7,7 @@ use uplift::text::{self, Table, metres_with_band, risk_in_words, short};
 
 use super::alarms::print_warnings_and_more;
 use super::shown_path;
-use super::structure::{lines, risk_cells};
+use super::structure::{limit, lines, risk_cells};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -147,9 +147,13 @@ fn print_events(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     if let (Some(theta), Some(beta), Some(per_year)) = (found.theta, found.beta, found.lognormal_per_year) {
         writeln!(
             out,
-            "Collapse fragility: lognormal, median {theta:.4} {}, dispersion {beta:.4}; with it {} per year",
+            "Collapse fragility: lognormal, median {theta:.4} {}, dispersion {beta:.4}; with it {} per year{}",
             report.unit,
-            text::rate(per_year)
+            text::rate(per_year),
+            found.lognormal_bands.map_or_else(String::new, |bands| {
+                let [lower, upper] = bands.quoted().map(limit);
+                format!(" ({lower} to {upper})")
+            })
         )?;
     }
     Ok(())

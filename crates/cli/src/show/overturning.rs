@@ -190,7 +190,11 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
             }
             row.extend([
                 of_site.bands.map_or_else(|| "-".to_owned(), |bands| limits(bands.quoted())),
-                or_dash(of_site.lognormal_per_year_rounding, rate),
+                or_dash(of_site.lognormal_per_year_rounding, rate)
+                    + &of_site.lognormal_bands.map_or_else(String::new, |bands| {
+                        let [lower, upper] = bands.quoted().map(limit);
+                        format!(" ({lower}–{upper})")
+                    }),
                 percent(of_site.risk.lower_tail_share),
                 percent(of_site.risk.upper_tail_share),
             ]);

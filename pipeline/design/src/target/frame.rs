@@ -211,8 +211,8 @@ impl FrameTarget<'_> {
         Ok((report, models))
     }
 
-    /// The next value to try; none where the first is safe, where the last that is not lies near enough to the next, and
-    /// where the largest is not.
+    /// The next value to try; none where the first is safe, where the last that is not lies near enough to the next,
+    /// and where the largest is not.
     fn next(&self, tried: &[(f64, TargetFrameModel)], most: f64) -> Option<f64> {
         let rates: Vec<(f64, f64)> = tried.iter().map(|(value, of)| (*value, of.upper_per_year())).collect();
         let next = next_value(&rates, self.target_per_year, self.options.tolerance.max(NEAR))?.min(most);

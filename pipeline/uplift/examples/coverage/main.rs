@@ -2,10 +2,12 @@
 //!
 //! Real records (both components of each, `UPLIFT_RECORDS` or `../shared/records`) and synthetic ones of other seeds
 //! stand for the world. Sets of 20, 40 and 105 are drawn from them with replacement, and each makes its bands as if it
-//! were all there is: of six sites, three probabilities, six strengths, by PGV and PGA; and of the width by which a
-//! frame meets four targets. docs/confidence-bands.md has the table.
+//! were all there is: of six sites, three probabilities, six strengths, by PGV and PGA; of the width by which a frame
+//! meets four targets; and of the rate at which it overturns by a lognormal fragility. docs/confidence-bands.md has the
+//! table.
 #![allow(clippy::print_stdout, unreachable_pub)]
 
+mod lognormal;
 mod sets;
 mod tally;
 mod values;
@@ -33,6 +35,7 @@ fn main() -> Result<(), Failed> {
         println!("{} real records", real.stored.records.len());
         print(&real, &real.records(&SIZES, sets)?, "records");
         print(&real, &real.values(&SIZES, sets)?, "records");
+        print(&real, &real.lognormal(&SIZES, sets)?, "records");
         print(&real, &real.earthquakes(&EARTHQUAKES, sets)?, "earthquakes");
     } else {
         println!("skipped: no real records (set UPLIFT_RECORDS to a folder with a manifest.csv)");
@@ -41,6 +44,7 @@ fn main() -> Result<(), Failed> {
     println!("\n{} synthetic records", synthetic.stored.records.len());
     print(&synthetic, &synthetic.records(&SIZES, sets)?, "records");
     print(&synthetic, &synthetic.values(&SIZES, sets)?, "records");
+    print(&synthetic, &synthetic.lognormal(&SIZES, sets)?, "records");
     Ok(())
 }
 
