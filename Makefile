@@ -131,11 +131,12 @@ bench: python
 	.venv/bin/python crates/frame/benches/dop853.py
 	cargo bench --locked -p uplift-consistency --bench repair
 
-# How often bands hold what they are bands of, some minutes; SETS=1000 for figures to print (docs/confidence-bands.md).
+# How often bands hold what they are bands of, some minutes; SETS=1000 for figures to print (docs/confidence-bands.md);
+# PARTS="values earthquakes" for some of the parts, of records, values, lognormal, earthquakes.
 SETS ?= 200
 
 coverage:
-	cargo run --release --locked --package uplift --example coverage $(SETS)
+	cargo run --release --locked --package uplift --example coverage $(SETS) $(PARTS)
 
 # Every reader of files from outside against what libFuzzer makes of the samples, TIME seconds each (docs/testing.md);
 # one of them by its crate and name: `make fuzz FUZZ=motion/at2 TIME=600`.

@@ -81,14 +81,14 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
         columns = columns.with("maf_consistent_per_year", |(site, ..)| site.repaired.map(|risk| risk.per_year));
     }
     let mut columns = columns.build();
-    let kinds: [(&str, fn(&SiteRisk) -> Option<Bands>); 2] =
-        [("maf", |site| site.bands), ("maf_lognormal", |site| site.lognormal_bands)];
-    for (name, bands) in kinds {
+    let mut add = |name: &str, bands: &dyn Fn(&SiteRisk) -> Option<Bands>| {
         for (place, whose) in Bands::WHOSE.into_iter().enumerate() {
             let limits = rows.iter().map(|(site, ..)| bands(site)?.each()[place]).collect::<Vec<_>>();
             add_limits(&mut columns, &format!("{name}_{whose}"), &limits);
         }
-    }
+    };
+    add("maf", &|site| site.bands);
+    add("maf_lognormal", &|site| site.lognormal_bands);
     if let Some(uncertainty) = &report.uncertainty {
         let found: Vec<_> = rows.iter().map(|(_, row, place)| found_of(uncertainty, (*place, row))).collect();
         columns.extend(uncertain::columns(uncertainty, &found));

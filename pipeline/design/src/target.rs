@@ -46,7 +46,6 @@ use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
-use uplift_job::text::rate;
 use uplift_result::ResultFile;
 use uplift_uniform_risk::EventRisk;
 use words::{Words, assumptions, with_mistakes};
@@ -210,10 +209,15 @@ pub struct TriedValue {
 }
 
 impl TriedValue {
-    fn from_attempt(value: f64, attempt: &Attempt, target_per_year: f64) -> Self {
+    fn from_attempt((value, attempt): &(f64, Attempt), target_per_year: f64) -> Self {
         let branches = || Spread::from_values(attempt.structures.iter().map(|of| of.risk.per_year).collect());
         let structure_percentiles_per_year = (attempt.structures.len() > 1).then(|| branches().percentiles);
-        Self { value, risk: attempt.risk, structure_percentiles_per_year, is_met: attempt.meets(target_per_year) }
+        Self {
+            value: *value,
+            risk: attempt.risk,
+            structure_percentiles_per_year,
+            is_met: attempt.meets(target_per_year),
+        }
     }
 }
 
@@ -252,7 +256,7 @@ pub fn target(
     let hazard = Hazard::from_file(&file, (place.name, site), (measure, &source.study))?;
     let scatter = Scatter::from_file(&file)?;
     let wobbles = OwnFrame::is_described(structure);
-    let mut without_frame = (wobbles && !options.proxy).then(|| why_left_out(structure, options.quantity)).flatten();
+    let without_frame = why_left_out(structure, options);
     let asked = (options, years, wobbles && !options.proxy && without_frame.is_none());
     let mut trials = Trials::from_structure(structure, &source, (place, &hazard, &scatter), asked, events)?;
     trials.refuse_untellable(place.name, target_per_year)?;
@@ -262,10 +266,7 @@ pub fn target(
     let Searched { tried, frequencies, safe_value } =
         searched((&mut trials, of_records), range, options.tolerance, target_per_year)?;
     let words = Words { options, target_per_year };
-    let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
-    let mut alarms = alarms_of_inputs(&file, &scope)?;
-    alarms.extend(structure_alarms(structure));
-    alarms.extend(options.doubtful());
+    let mut alarms = alarms_before(&file, place, (structure, options))?;
     let at = match words.first_of_met(&tried) {
         Ok(at) => at,
         Err(reason) => {
@@ -276,32 +277,12 @@ pub fn target(
     };
     let (value, found) = (tried[at].0, &tried[at].1);
     let crossings = crossings(&tried, meets);
-    let mut notes = words.notes(&crossings, &tried);
     let noise = noise_about(&tried, at);
-    if noise.highest > target_per_year {
-        notes.push(format!(
-            "values within 1 % of it have {} to {} per year: choose the value with a margin",
-            rate(noise.lowest),
-            rate(noise.highest)
-        ));
-    }
+    let mut notes = words.notes(&crossings, &tried, &noise);
     // where the safe value itself misses the target
     let safe_value = safe_value.max(value);
-    let frame = match trials.take_components() {
-        None => None,
-        Some(pairs) => {
-            let (hazard, scatter) = (&hazard, &scatter);
-            let of_frame = FrameTarget { structure, options, place, hazard, scatter, target_per_year, years };
-            let at = if safe_value.is_finite() { safe_value } else { value };
-            match of_frame.judge(&mut trials, pairs, [at, range[1]])? {
-                Ok(frame) => Some(frame),
-                Err(reason) => {
-                    without_frame = Some(reason);
-                    None
-                }
-            }
-        }
-    };
+    let judged = FrameTarget { structure, options, place, of_records, target_per_year, years };
+    let (frame, falls) = judged.judge(&mut trials, [safe_value, value, range[1]])?;
     notes.extend(frame.as_ref().map(|_| of_frame(structure)));
     let by_proxy = wobbles && frame.is_none();
     notes.extend(assumptions(structure, &file, (trials.restitution(), by_proxy)));
@@ -309,10 +290,9 @@ pub fn target(
     let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
     let counts = (trials.record_count(), trials.pairs().len());
     let event = options.event.words();
-    alarms.extend(own_risk_alarms(&[own_risk((&event, found.risk), (place.name, measure), counts)]));
-    alarms.extend(own_risk_alarms(
-        &frame.iter().flat_map(|of| of.own_risks(&event, place, &scatter)).collect::<Vec<_>>(),
-    ));
+    let mut risks = vec![own_risk((&event, found.risk), (place.name, measure), counts)];
+    risks.extend(frame.iter().flat_map(|of| of.own_risks(&event, place, counts)));
+    alarms.extend(own_risk_alarms(&risks));
     let bands = frequencies.bands(value, target_per_year);
     let safe = tried.iter().find(|(tried, _)| tried.total_cmp(&safe_value).is_eq());
     let mut report = TargetReport {
@@ -327,7 +307,7 @@ pub fn target(
         event,
         by_proxy,
         frame,
-        without_frame,
+        without_frame: without_frame.or(falls),
         target_per_year,
         years,
         safe_value,
@@ -342,10 +322,7 @@ pub fn target(
         crossings,
         at_return_periods,
         generic: generic.flatten(),
-        tried: tried
-            .iter()
-            .map(|(value, attempt)| TriedValue::from_attempt(*value, attempt, target_per_year))
-            .collect(),
+        tried: tried.iter().map(|tried| TriedValue::from_attempt(tried, target_per_year)).collect(),
         analyses: trials.analyses(),
         notes,
         alarms: ranked(alarms),
@@ -360,13 +337,27 @@ pub fn target(
     Ok(report)
 }
 
-/// Why a frame that can wobble is left out of a search.
-fn why_left_out(structure: &Structure, quantity: Quantity) -> Option<String> {
-    let has_columns = !matches!(quantity, Quantity::Strength | Quantity::Capacity);
+/// What is to be raised of curves, records, structure and request.
+fn alarms_before(
+    file: &ResultFile,
+    place: Place<'_>,
+    (structure, options): (&Structure, &TargetOptions),
+) -> Result<Vec<Alarm>, DesignError> {
+    let scope = Scope { site: Some(place.site), measure: Some(place.measure.measure()), ..Scope::default() };
+    let mut alarms = alarms_of_inputs(file, &scope)?;
+    alarms.extend(structure_alarms(structure));
+    alarms.extend(options.doubtful());
+    Ok(alarms)
+}
+
+/// Why a frame that can wobble is left out where it is not by its proxy that it is wanted.
+fn why_left_out(structure: &Structure, options: &TargetOptions) -> Option<String> {
+    let is_asked = OwnFrame::is_described(structure) && !options.proxy;
+    let has_columns = !matches!(options.quantity, Quantity::Strength | Quantity::Capacity);
     match (OwnFrame::can_be_shaken(structure), has_columns) {
-        (true, true) => None,
-        (true, false) => Some(NO_COLUMNS.to_owned()),
-        (false, _) => Some(STOPPED.to_owned()),
+        (true, false) if is_asked => Some(NO_COLUMNS.to_owned()),
+        (false, _) if is_asked => Some(STOPPED.to_owned()),
+        _ => None,
     }
 }
 

@@ -12,7 +12,7 @@ use crate::certainty::{Bands, Scatter};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::Place;
-use crate::own_frame::{FrameModel, FrameQuestion, FrameReport, OwnFrame, Pairs, levels_for};
+use crate::own_frame::{FrameModel, FrameQuestion, FrameReport, OwnFrame, levels_for};
 use crate::report::capacity_m;
 use crate::risk::own_risk;
 use crate::weights::SiteWeights;
@@ -84,8 +84,7 @@ impl TargetFrame {
     }
 
     /// Risks of it that may come from outside the levels.
-    pub(super) fn own_risks(&self, event: &str, place: Place<'_>, scatter: &Scatter) -> Vec<OwnRisk> {
-        let counts = (scatter.pairs.iter().map(Vec::len).sum(), scatter.pairs.len());
+    pub(super) fn own_risks(&self, event: &str, place: Place<'_>, counts: (usize, usize)) -> Vec<OwnRisk> {
         let of = |own: &TargetFrameModel| {
             own_risk((&format!("{event} of the {}", own.model), own.risk), (place.name, place.measure), counts)
         };
@@ -125,26 +124,28 @@ pub(super) struct FrameTarget<'a> {
     pub(super) structure: &'a Structure,
     pub(super) options: &'a TargetOptions,
     pub(super) place: Place<'a>,
-    pub(super) hazard: &'a Hazard<'a>,
-    pub(super) scatter: &'a Scatter,
+    /// The hazard of the place, and how records scatter.
+    pub(super) of_records: (&'a Hazard<'a>, &'a Scatter),
     pub(super) target_per_year: f64,
     pub(super) years: f64,
 }
 
 impl FrameTarget<'_> {
-    /// The frame at `value`, and the value that it needs up to `most`; or why it is left out.
+    /// The frame at the `safe` value of its proxy, or at the `best` estimate where that is infinite, and the value that
+    /// it needs up to `most`; none where it is not asked for, and with the reason where it leaves the ground.
     pub(super) fn judge(
         &self,
         trials: &mut Trials<'_>,
-        pairs: Pairs,
-        [value, most]: [f64; 2],
-    ) -> Result<Result<TargetFrame, String>, DesignError> {
+        [safe, best, most]: [f64; 3],
+    ) -> Result<(Option<TargetFrame>, Option<String>), DesignError> {
+        let Some(pairs) = trials.take_components() else { return Ok((None, None)) };
+        let value = if safe.is_finite() { safe } else { best };
         let places = levels_for(self.place.measure, self.place.site, self.target_per_year);
         let levels: Vec<f64> = places.iter().map(|&place| self.place.measure.plan.levels[place]).collect();
-        let Some(first) = self.structure_at(value)? else { return Ok(Err(NO_COLUMNS.to_owned())) };
+        let Some(first) = self.structure_at(value)? else { return Ok((None, Some(NO_COLUMNS.to_owned()))) };
         let mut frame = OwnFrame::from_structure(&first, pairs)?;
         if let Some(reason) = trials.leaves_the_ground(&frame, &levels)? {
-            return Ok(Err(reason));
+            return Ok((None, Some(reason)));
         }
         let (mut report, models) = self.shaken(trials, (&frame, &first), (&places, &levels), true)?;
         let mut tried = vec![(value, models[0].clone())];
@@ -164,7 +165,7 @@ impl FrameTarget<'_> {
             upper_per_year: model.upper_per_year(),
             is_safe: model.is_safe,
         };
-        Ok(Ok(TargetFrame {
+        let found = TargetFrame {
             value,
             levels,
             analyses: report.analyses,
@@ -172,7 +173,8 @@ impl FrameTarget<'_> {
             safe_value: at.map_or(f64::INFINITY, |at| tried[at].0),
             missed_at: at.unwrap_or(tried.len()).checked_sub(1).map(|at| tried[at].0),
             tried: tried.iter().map(of_tried).collect(),
-        }))
+        };
+        Ok((Some(found), None))
     }
 
     fn structure_at(&self, value: f64) -> Result<Option<Structure>, DesignError> {
@@ -194,12 +196,13 @@ impl FrameTarget<'_> {
             TargetEvent::BeyondCapacity => capacity_m(&structure.system),
             TargetEvent::Beyond(displacement_m) => Some(displacement_m),
         };
+        let (hazard, scatter) = self.of_records;
         let question = FrameQuestion {
             places,
             place: self.place,
-            weights: &SiteWeights::Alike(self.hazard.mean),
-            hazard: self.hazard,
-            scatter: self.scatter,
+            weights: &SiteWeights::Alike(hazard.mean),
+            hazard,
+            scatter,
             target_per_year: self.target_per_year,
             years: self.years,
             capacity_m: threshold_m,

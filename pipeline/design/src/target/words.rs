@@ -3,6 +3,7 @@
 use uplift_job::alarm::{Alarm, Severity};
 use uplift_job::text::rate;
 use uplift_result::ResultFile;
+use uplift_spectra::Noisy;
 use uplift_structure::UncertainQuantity;
 use uplift_study::Structure;
 use uplift_uniform_risk::EventRisk;
@@ -74,18 +75,27 @@ impl Words<'_> {
         }
     }
 
-    pub(super) fn notes(&self, found: &[Crossing], tried: &[(f64, Attempt)]) -> Vec<String> {
+    /// What is to be said of these crossings, and of the frequencies about the value.
+    pub(super) fn notes(&self, found: &[Crossing], tried: &[(f64, Attempt)], noise: &Noisy) -> Vec<String> {
+        let margin = (noise.highest > self.target_per_year).then(|| {
+            let [lowest, highest] = [noise.lowest, noise.highest].map(rate);
+            format!("values within 1 % of it have {lowest} to {highest} per year: choose the value with a margin")
+        });
+        self.of_crossings(found, tried).into_iter().chain(margin).collect()
+    }
+
+    fn of_crossings(&self, found: &[Crossing], tried: &[(f64, Attempt)]) -> Option<String> {
         if found.len() < 2 {
-            return Vec::new();
+            return None;
         }
         let least = tried.iter().find(|(_, attempt)| attempt.meets(self.target_per_year));
         let least = least.map_or_else(String::new, |(value, _)| format!(" from {} on", self.value(*value)));
-        vec![format!(
+        Some(format!(
             "the annual rate crosses the target {} times: the target is met in places{least}, and at every value \
              tried above the reported one ({})",
             found.len(),
             self.crossings(found)
-        )]
+        ))
     }
 
     fn value(&self, value: f64) -> String {

@@ -4,7 +4,7 @@
 //! stand for the world. Sets of 20, 40 and 105 are drawn from them with replacement, and each makes its bands as if it
 //! were all there is: of six sites, three probabilities, six strengths, by PGV and PGA; of the width by which a frame
 //! meets four targets; and of the rate at which it overturns by a lognormal fragility. docs/confidence-bands.md has the
-//! table.
+//! table. Arguments are the number of sets, and which of these parts: records, values, lognormal, earthquakes.
 #![allow(clippy::print_stdout, unreachable_pub)]
 
 mod lognormal;
@@ -26,25 +26,39 @@ const SIZES: [u32; 3] = [20, 40, 105];
 const EARTHQUAKES: [u32; 6] = [3, 5, 10, 15, 27, 54];
 
 fn main() -> Result<(), Failed> {
-    let sets = std::env::args().nth(1).map_or(Ok(SETS), |given| given.parse())?;
+    let mut given = std::env::args().skip(1);
+    let sets = given.next().map_or(Ok(SETS), |given| given.parse())?;
+    let parts: Vec<String> = given.collect();
     let folder = std::env::var_os("UPLIFT_RECORDS").map_or_else(|| PathBuf::from("../shared/records"), PathBuf::from);
     let manifest = folder.join("manifest.csv");
     if manifest.is_file() {
         let manifest = manifest.canonicalize()?;
         let real = population(&[format!("records.manifest={}", manifest.display()), "records.component=both".into()])?;
         println!("{} real records", real.stored.records.len());
-        print(&real, &real.records(&SIZES, sets)?, "records");
-        print(&real, &real.values(&SIZES, sets)?, "records");
-        print(&real, &real.lognormal(&SIZES, sets)?, "records");
-        print(&real, &real.earthquakes(&EARTHQUAKES, sets)?, "earthquakes");
+        measure(&real, &parts, sets)?;
     } else {
         println!("skipped: no real records (set UPLIFT_RECORDS to a folder with a manifest.csv)");
     }
     let synthetic = population(&["records.synthetic.pairs=400".into(), "records.synthetic.seed=7".into()])?;
     println!("\n{} synthetic records", synthetic.stored.records.len());
-    print(&synthetic, &synthetic.records(&SIZES, sets)?, "records");
-    print(&synthetic, &synthetic.values(&SIZES, sets)?, "records");
-    print(&synthetic, &synthetic.lognormal(&SIZES, sets)?, "records");
+    measure(&synthetic, &parts, sets)
+}
+
+/// Prints the `parts` asked for, all where none are; synthetic records are of no earthquake.
+fn measure(population: &Population, parts: &[String], sets: usize) -> Result<(), Failed> {
+    let is_asked = |part: &str| parts.is_empty() || parts.iter().any(|own| own == part);
+    if is_asked("records") {
+        print(population, &population.records(&SIZES, sets)?, "records");
+    }
+    if is_asked("values") {
+        print(population, &population.values(&SIZES, sets)?, "records");
+    }
+    if is_asked("lognormal") {
+        print(population, &population.lognormal(&SIZES, sets)?, "records");
+    }
+    if is_asked("earthquakes") && population.shares_earthquakes() {
+        print(population, &population.earthquakes(&EARTHQUAKES, sets)?, "earthquakes");
+    }
     Ok(())
 }
 

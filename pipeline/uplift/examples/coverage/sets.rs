@@ -42,6 +42,11 @@ impl Population {
         Ok(Self { stored: StoredStripes::read(&file)?, question: Question::from_result(&file)?, file })
     }
 
+    /// Whether its records share earthquakes.
+    pub fn shares_earthquakes(&self) -> bool {
+        self.question.shares_earthquakes()
+    }
+
     /// Positions of the probabilities up to 10 %.
     pub fn rare(&self) -> Vec<usize> {
         (0..self.stored.poes.len()).filter(|&poe| self.stored.poes[poe] < 0.2).collect()
