@@ -113,6 +113,23 @@ pub enum FragilityError {
     /// The best fit does not rise with intensity.
     #[error("lognormal fit: exceedance does not become likelier with intensity: a lognormal fragility does not apply")]
     NotRising,
+    /// A threshold that demands which count as zero reach.
+    #[error(
+        "zero-inflated fit: threshold {threshold_m} m: it must exceed the displacement at uplift, {uplift_m} m, up to \
+         which demands count as zero"
+    )]
+    NotBeyondUplift {
+        /// The threshold, m.
+        threshold_m: f64,
+        /// Displacement at uplift, m.
+        uplift_m: f64,
+    },
+    /// Nothing scatters.
+    #[error("spread of a lognormal fit: {units} independent records: at least two are needed")]
+    TooFewUnits {
+        /// Number of units given.
+        units: usize,
+    },
     /// The iteration came to no end.
     #[error("lognormal fit: no convergence after {iterations} iterations: use the empirical fragility")]
     NoConvergence {

@@ -9,7 +9,9 @@
 //! How much the demands scatter at a level, and whether that depends on what the records are, shows how good the
 //! intensity measure is: [`Dispersion`], [`uplift_levels`], [`mean_residuals`].
 //!
-//! Beside it, never instead of it, [`fit_lognormal`] gives the maximum-likelihood lognormal fragility.
+//! Beside it, never instead of it, [`fit_lognormal`] gives the maximum-likelihood lognormal fragility, and
+//! [`fit_zero_inflated`] one for demands of which many are zero; [`Goodness`] has their agreement with the counts,
+//! [`lognormal_spread`] the uncertainty of the parameters.
 //!
 //! ```
 //! use uplift_fragility::{Stripes, exceedance_probabilities};
@@ -28,15 +30,21 @@
 mod dispersion;
 mod empirical;
 mod error;
+mod goodness;
 mod lognormal;
 mod normal;
 mod quantile;
+mod spread;
 mod stripes;
+mod zero_inflated;
 
 pub use dispersion::{Dispersion, mean_residuals, standard_deviation, uplift_levels};
 pub use empirical::{EmpiricalFragility, check_threshold, exceedance_counts, exceedance_probabilities};
 pub use error::FragilityError;
+pub use goodness::Goodness;
 pub use lognormal::{LognormalFit, LognormalFragility, StripeCount, fit_lognormal, fits_without_each, stripe_counts};
 pub use normal::{ln_normal_cdf, normal_cdf, normal_quantile};
 pub use quantile::{quantile, weighted_quantile};
+pub use spread::{FitSpread, lognormal_spread};
 pub use stripes::Stripes;
+pub use zero_inflated::{ZeroInflatedFragility, fit_zero_inflated};
