@@ -25,6 +25,7 @@ mod exports;
 mod figures;
 mod findings;
 mod first_hour;
+mod fragility;
 mod frame_response;
 mod frame_risk;
 mod hazard;

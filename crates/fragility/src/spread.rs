@@ -66,8 +66,8 @@ mod tests {
 
     #[test]
     fn it_is_that_of_a_mean_where_capacities_are_known_closely() {
-        // capacities at the quantiles of a lognormal of median 1 and dispersion 0.5, levels so close that each is known:
-        // the fit tends to the sample's mean, whose standard error is 0.5/√n
+        // capacities at the quantiles of a lognormal of median 1 and dispersion 0.5, levels so close that each is
+        // known: the fit tends to the sample's mean, whose standard error is 0.5/√n
         let n = 200;
         let capacities: Vec<f64> =
             (0..n).map(|i| (0.5 * crate::normal_quantile((f64::from(i) + 0.5) / f64::from(n))).exp()).collect();

@@ -9,6 +9,7 @@ mod error;
 mod finding;
 mod frame_risk;
 mod hazard;
+mod limits;
 mod lognormal;
 mod models;
 mod opening;
@@ -33,6 +34,7 @@ pub use frame_risk::{
     Banded, DirectionEffect, EventReport, FrameOverturning, FrameRiskOptions, FrameRiskReport, ModelDemand, RiskPoint,
     StateAtDemand, frame_risk, frame_risk_shard,
 };
+pub use limits::{LimitOptions, LimitState, LimitStripes, independent_records, limit_stripes};
 pub use overturning::{
     CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning, overturning_shard,
 };

@@ -201,7 +201,7 @@ pub fn overturning(
     }
     let name = job_name("overturning", structure);
     let job = ResultJob { result, name: &name };
-    let (analysed, checkpoint) = job.results(analysis.work(&name)?, &options.shards, events)?;
+    let (analysed, checkpoint) = job.results(analysis.work(&name, &factors())?, &options.shards, events)?;
     let OverturningAnalysis { study, records, measures, models, uncertain, .. } = &analysis;
     let repaired = RepairedWeights::from_file(&file)?;
     let scatter = Scatter::from_file(&file)?;
@@ -214,13 +214,7 @@ pub fn overturning(
             sites.iter().map(|&site| (&measure.weights[site], repaired.at(measure, site))).collect();
         let of_models = models.iter().zip(analysed.by_ref()).map(|((model, _), analysed)| {
             let levels = &measure.plan.levels;
-            let peaks_m_at = |nudge: usize| -> Vec<f64> {
-                let first = nudge * levels.len();
-                let of_level = |scale| analysed.peaks.over_motions_m(0, scale);
-                let peaks_m: Vec<Vec<f64>> = (first..first + levels.len()).map(of_level).collect();
-                let records = 0..analysed.peaks.axes().motions;
-                records.flat_map(|record| peaks_m.iter().map(move |of_level| of_level[record])).collect()
-            };
+            let peaks_m_at = |nudge: usize| peaks_m(&analysed, levels.len(), nudge);
             let at_nudge = |nudge: usize| {
                 let runs = (&peaks_m_at(nudge)[..], &scatter.pairs[..]);
                 collapse(levels, runs, &weights, study.risk.years, model.can_overturn())
@@ -293,7 +287,7 @@ pub fn overturning_shard(
     let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
     let analysis = OverturningAnalysis::from_structure(structure, &source, options, &mut Vec::new())?;
     let name = job_name("overturning", structure);
-    Ok(ResultJob { result, name: &name }.shard(analysis.work(&name)?, shard, events)?)
+    Ok(ResultJob { result, name: &name }.shard(analysis.work(&name, &factors())?, shard, events)?)
 }
 
 /// Place of the equivalent oscillator among the models.
@@ -307,14 +301,21 @@ fn measures(source: &StudyOfResult, wanted: Option<IntensityMeasure>) -> Result<
     }
 }
 
+/// Peaks of the only system of an analysis, m, `[record, level]`, where the scale factors of all levels have factors on
+/// them, of which this is the one at `factor`.
+pub(super) fn peaks_m(analysed: &Analysed, levels: usize, factor: usize) -> Vec<f64> {
+    let records = 0..analysed.peaks.axes().motions;
+    records.flat_map(|record| &analysed.peaks.row_m(record, 0)[factor * levels..][..levels]).copied().collect()
+}
+
 /// The models of a structure, and the records that shake them.
-struct OverturningAnalysis<'a> {
+pub(super) struct OverturningAnalysis<'a> {
     /// The study of the result, with what happens after the end of a record.
     study: UniformRiskStudy,
     records: ShakenRecords,
-    measures: Vec<&'a SpectraOfResult>,
+    pub(super) measures: Vec<&'a SpectraOfResult>,
     /// Each with the origin of its restitution.
-    models: Vec<(System, &'static str)>,
+    pub(super) models: Vec<(System, &'static str)>,
     /// The frame itself, with the positions of its levels, `[measure]`; none of a structure that cannot wobble.
     frame: Option<(OwnFrame, Vec<Vec<usize>>)>,
     /// Why one that can wobble is left out.
@@ -325,7 +326,7 @@ struct OverturningAnalysis<'a> {
 
 impl<'a> OverturningAnalysis<'a> {
     /// Of `structure` under the records of a result; `notes` gets what is left out of its models.
-    fn from_structure(
+    pub(super) fn from_structure(
         structure: &'a Structure,
         source: &'a StudyOfResult,
         options: &OverturningOptions,
@@ -362,8 +363,13 @@ impl<'a> OverturningAnalysis<'a> {
         Ok(Self { study, records, measures, models, frame, without_frame, uncertain })
     }
 
+    /// The same of the structure as it is described alone, without those that it may be.
+    pub(super) fn described_alone(self) -> Self {
+        Self { uncertain: None, ..self }
+    }
+
     /// Oscillator and block, then the models of the frame, each with the origin of its restitution.
-    fn models(&self) -> impl Iterator<Item = (&System, &'static str)> {
+    pub(super) fn models(&self) -> impl Iterator<Item = (&System, &'static str)> {
         let of_frame = self.frame.iter().flat_map(|(frame, _)| frame.models());
         self.models.iter().map(|(model, origin)| (model, *origin)).chain(of_frame)
     }
@@ -375,27 +381,38 @@ impl<'a> OverturningAnalysis<'a> {
         hazards: &[Vec<Hazard<'_>>],
         asked: &FrameSites<'_>,
     ) -> Result<Vec<FrameCollapses>, DesignError> {
-        let Some((frame, places)) = &self.frame else { return Ok(Vec::new()) };
-        let mut of_measures = Vec::new();
-        for ((&measure, places), hazard) in self.measures.iter().zip(places).zip(hazards) {
-            let (Some(wobbling), Some(planar)) = (analysed.next(), analysed.next()) else { break };
-            let peaks = frame.peaks(&wobbling, Some(&planar));
-            of_measures.push(asked.collapses((measure, places), hazard, &peaks)?);
-        }
-        Ok(of_measures)
+        let of_measures = self.frame_peaks(analysed).into_iter().zip(hazards);
+        of_measures
+            .map(|((measure, places, peaks), hazard)| asked.collapses((measure, places), hazard, &peaks))
+            .collect()
     }
 
-    /// The stripes of each model by each measure, the models running fastest; those of the scale factors themselves,
-    /// then those of their neighbours. After all of them those of the frame, two a measure, and those of the structures
+    /// The peaks of the frame by each measure, with the positions of its levels; their stripes are the next of those
+    /// `analysed`. None of a structure that cannot wobble.
+    pub(super) fn frame_peaks(
+        &self,
+        analysed: &mut impl Iterator<Item = Analysed>,
+    ) -> Vec<(&'a SpectraOfResult, &[usize], FramePeaks)> {
+        let Some((frame, places)) = &self.frame else { return Vec::new() };
+        let measures = self.measures.iter().zip(places);
+        measures
+            .map_while(|(&measure, places)| {
+                let [wobbling, planar] = [analysed.next()?, analysed.next()?];
+                Some((measure, &places[..], frame.peaks(&wobbling, Some(&planar))))
+            })
+            .collect()
+    }
+
+    /// The stripes of each model by each measure, the models running fastest, with each of the `factors` on all scale
+    /// factors in turn. After all of them those of the frame, two a measure, and those of the structures
     /// that it may be, one a measure.
-    fn work(&self, title: &str) -> Result<Work<'_>, DesignError> {
+    pub(super) fn work(&self, title: &str, factors: &[f64]) -> Result<Work<'_>, DesignError> {
         let mut plans = Vec::new();
-        let factors = factors();
         let ShakenRecords { set, motions } = &self.records;
         for measure in &self.measures {
             for (model, _) in &self.models {
                 let plan = plan_stripes(&self.study, &measure.plan, set, std::slice::from_ref(model))?;
-                let plan = plan.multiplied(&factors)?;
+                let plan = plan.multiplied(factors)?;
                 let label = format!("{}, {}", measure.measure().label(), model.kind());
                 plans.push(LabelledPlan { label, remark: None, plan, motions, known: None });
             }

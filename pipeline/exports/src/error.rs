@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 use uplift_alarms::AlarmsError;
+use uplift_design::DesignError;
+use uplift_fragility::FragilityError;
 use uplift_hazard::HazardError;
 use uplift_job::JobError;
 use uplift_laboratory::LaboratoryError;
@@ -25,6 +27,10 @@ pub enum ExportsError {
     Alarms(#[from] AlarmsError),
     /// A question that has no answer.
     Questions(#[from] QuestionsError),
+    /// A structure that cannot be analysed.
+    Design(#[from] DesignError),
+    /// Demands of which no fragility can be made.
+    Fragility(#[from] FragilityError),
     /// A single test that cannot be carried out.
     Laboratory(#[from] LaboratoryError),
     /// A hazard curve cannot be read or used.

@@ -2,6 +2,7 @@
 
 mod error;
 pub mod export;
+pub mod fragility;
 pub mod table;
 
 pub use error::ExportsError;

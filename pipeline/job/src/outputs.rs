@@ -16,8 +16,8 @@ use crate::error::JobError;
 pub use metadata::{metadata_path, metadata_text};
 
 /// How names of files end that this program reads and writes; of none else that it makes.
-const FILE_ENDINGS: [&str; 12] =
-    ["h5", "toml", "csv", "json", "geojson", "mat", "xlsx", "svg", "png", "html", "txt", "AT2"];
+const FILE_ENDINGS: [&str; 13] =
+    ["h5", "toml", "csv", "json", "geojson", "mat", "xlsx", "svg", "png", "html", "xml", "txt", "AT2"];
 /// Bytes of a file in which this program names itself, where it wrote it.
 const HEAD: u64 = 4096;
 
@@ -29,10 +29,11 @@ const WORKBOOK_MARK: &[u8] = b"<dc:description>uplift ";
 const PNG_MARK: &[u8] = b"tEXtSoftwareuplift ";
 const SVG_MARK: &[u8] = b"<desc>uplift ";
 const PAGE_MARK: &[u8] = b"<meta name=\"generator\" content=\"uplift ";
+const NRML_MARK: &[u8] = b"<description>uplift ";
 /// Of remarks, and of tables once.
 const TEXT_MARK: &[u8] = b"# uplift ";
 /// All in which spaces count.
-const MARKS: [&[u8]; 6] = [MATLAB_MARK, WORKBOOK_MARK, PNG_MARK, SVG_MARK, PAGE_MARK, TEXT_MARK];
+const MARKS: [&[u8]; 7] = [MATLAB_MARK, WORKBOOK_MARK, PNG_MARK, SVG_MARK, PAGE_MARK, NRML_MARK, TEXT_MARK];
 
 /// What a file is: how its name ends, and by what one of this program's is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,6 +46,8 @@ pub enum OutputKind {
     Matlab,
     /// The same as a workbook of Excel.
     Workbook,
+    /// A fragility model of OpenQuake.
+    Nrml,
     /// A map of many sites.
     GeoJson,
     /// A figure, as its name ends.
@@ -141,6 +144,7 @@ impl OutputKind {
             Self::Json => &["json"],
             Self::Matlab => &["mat"],
             Self::Workbook => &["xlsx"],
+            Self::Nrml => &["xml"],
             Self::GeoJson => &["geojson"],
             Self::Figure => &["svg", "png"],
             Self::Page => &["html"],
@@ -176,6 +180,7 @@ impl OutputKind {
             }
             Self::Figure => contains(head, b"<svg") && contains(head, SVG_MARK),
             Self::Page => contains(head, PAGE_MARK),
+            Self::Nrml => contains(head, NRML_MARK),
             Self::Remarks => head.starts_with(TEXT_MARK),
             Self::Manifest | Self::Curve | Self::Record => false,
         }

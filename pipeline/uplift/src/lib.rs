@@ -63,7 +63,7 @@
 //! | [`machine`] | what a job needs of memory and disk, and what there is |
 //! | [`status`], [`verify`] | how far a run is, and whether a result is as it was written |
 //! | [`mod@alarms`] | what to know before the numbers of a result are used |
-//! | [`table`](mod@table), [`export`] | a result beside a reference, and for other programs |
+//! | [`table`](mod@table), [`export`], [`fragility`] | a result beside a reference, and for other programs |
 //! | [`response`], [`pulses`] | one record through one oscillator, block or frame; rocking spectra under wavelets |
 //! | [`pushover`](mod@pushover), [`restrainer`] | columns under a static force; restrainers, stacks of a catalogue |
 //! | [`validate`](mod@validate) | whether computed peaks are distributed as measured ones |
@@ -87,7 +87,7 @@ pub use result_of::result_of;
 pub use run::{RunOptions, RunReport, run};
 pub use shard::{check_inputs, merge, run_shard};
 pub use uplift_engine::{analysis, checkpoint};
-pub use uplift_exports::{export, table};
+pub use uplift_exports::{export, fragility, table};
 pub use uplift_inputs::{self as inputs, hazard_curves, import, records};
 pub use uplift_job::events::{Events, Phase, Silent};
 pub use uplift_job::{

@@ -1,0 +1,90 @@
+//! A fragility model of OpenQuake, NRML 0.5: discrete functions of the counted shares, continuous ones of the lognormal
+//! fits.
+
+use super::curves::{Fragility, StateFragility};
+use super::measures::openquake;
+
+/// The model, and what it leaves out; `line` says where the numbers come from.
+///
+/// All functions of a model have the same limit states: those that all systems have.
+pub(super) fn model(fragilities: &[Fragility], line: &str) -> (String, Vec<String>) {
+    let mut notes = Vec::new();
+    let names = common_states(fragilities, &mut notes);
+    let mut functions = String::new();
+    for fragility in fragilities {
+        let Some(measure) = openquake(fragility.measure) else { continue };
+        let states: Vec<&StateFragility> = fragility.states.iter().filter(|own| names.contains(&&*own.name)).collect();
+        let id = fragility.id();
+        let levels: Vec<f64> = fragility.levels.iter().map(|level| level * measure.factor).collect();
+        let open = |text: &mut String, id: &str, attributes: &str| {
+            *text += &format!("    <fragilityFunction id=\"{id}\" {attributes}>\n");
+        };
+        open(&mut functions, &id, "format=\"discrete\"");
+        functions += &format!("      <imls imt=\"{}\">{}</imls>\n", measure.name, numbers(&levels));
+        for state in &states {
+            functions += &format!("      <poes ls=\"{}\">{}</poes>\n", state.name, numbers(&state.shares));
+        }
+        functions += "    </fragilityFunction>\n";
+        let fits: Option<Vec<_>> = states.iter().map(|state| moments(state, measure.factor)).collect();
+        let Some(fits) = fits else {
+            let missing: Vec<&str> =
+                states.iter().filter(|own| moments(own, 1.0).is_none()).map(|own| &*own.name).collect();
+            notes.push(format!("{id}: no lognormal function: {} has no fit", missing.join(", ")));
+            continue;
+        };
+        open(&mut functions, &format!("{id}_lognormal"), "format=\"continuous\" shape=\"logncdf\"");
+        let (first, last) = (levels.first().copied().unwrap_or(0.0), levels.last().copied().unwrap_or(0.0));
+        functions += &format!("      <imls imt=\"{}\" minIML=\"{first}\" maxIML=\"{last}\"/>\n", measure.name);
+        for (state, [mean, deviation]) in states.iter().zip(fits) {
+            functions += &format!("      <params ls=\"{}\" mean=\"{mean}\" stddev=\"{deviation}\"/>\n", state.name);
+        }
+        functions += "    </fragilityFunction>\n";
+    }
+    let text = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n  \
+         <fragilityModel id=\"uplift\" assetCategory=\"structures\" lossCategory=\"structural\">\n    \
+         <description>{}</description>\n    \
+         <limitStates>{}</limitStates>\n{functions}  </fragilityModel>\n</nrml>\n",
+        escaped(line),
+        names.join(" ")
+    );
+    (text, notes)
+}
+
+/// The limit states that all systems have; `notes` gets the others.
+fn common_states<'a>(fragilities: &'a [Fragility], notes: &mut Vec<String>) -> Vec<&'a str> {
+    let has = |of: &Fragility, name: &str| of.states.iter().any(|state| state.name == name);
+    let mut all: Vec<&str> = Vec::new();
+    for state in fragilities.iter().flat_map(|of| &of.states) {
+        if !all.contains(&&*state.name) {
+            all.push(&state.name);
+        }
+    }
+    let (common, others): (Vec<&str>, Vec<&str>) =
+        all.into_iter().partition(|name| fragilities.iter().all(|of| has(of, name)));
+    for name in others {
+        let without: Vec<String> = fragilities.iter().filter(|of| !has(of, name)).map(Fragility::id).collect();
+        notes.push(format!("limit state {name} is left out: {} has none", without.join(", ")));
+    }
+    common
+}
+
+/// Mean and standard deviation of the intensity of a lognormal function, as OpenQuake takes them; none where there is
+/// no fit, or its dispersion is beyond all numbers.
+fn moments(state: &StateFragility, factor: f64) -> Option<[f64; 2]> {
+    let (fragility, _) = state.lognormal.as_ref().ok()?;
+    let variance = fragility.dispersion().powi(2);
+    let mean = factor * fragility.median() * (0.5 * variance).exp();
+    let deviation = mean * variance.exp_m1().sqrt();
+    deviation.is_finite().then_some([mean, deviation])
+}
+
+fn numbers(values: &[f64]) -> String {
+    values.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
+}
+
+/// `text` between tags.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}

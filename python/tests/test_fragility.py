@@ -1,0 +1,134 @@
+"""Fragilities for other programs, read and used by these: OpenQuake and pelicun."""
+
+import json
+import os
+import subprocess
+import sys
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+
+import uplift_urs as uplift
+
+TESTS = Path(__file__).parent
+PELICUN = TESTS.parent / "target" / "pelicun"
+LIMIT_S = 240
+STUDY = """title = "small"
+[records.synthetic]
+pairs = 20
+[strengths]
+values = [0.1, 0.2]
+[pgv]
+levels_cm_s = [1, 3, 10, 30, 60, 100]
+[regression]
+strength_above = 0
+[[sites]]
+name = "Here"
+pgv = "pgv.csv"
+"""
+
+
+def skip_or_fail(what, install):
+    """Without the other program a test is skipped; not in CI, where its wheels are."""
+    if "CI" in os.environ and (3, 11) <= sys.version_info < (3, 14):
+        pytest.fail(f"CI needs {what}: {install}")
+    pytest.skip(f"skipped: no {what}: {install}")
+
+
+@pytest.fixture(scope="module")
+def result(program, tmp_path_factory):
+    """A folder with a result `r.h5`."""
+    folder = tmp_path_factory.mktemp("fragility")
+    (folder / "study.toml").write_text(STUDY, encoding="utf-8")
+    (folder / "pgv.csv").write_text("iml,maf\n0.5,0.8\n2,0.05\n20,5e-4\n300,2.2e-6\n", encoding="utf-8")
+    (folder / "block.toml").write_text('kind = "block"\nwidth_m = 0.4\nheight_m = 3\nmass_kg = 1000\n')
+    program(folder, "run", "study.toml", "-o", "r.h5", "-q")
+    return folder
+
+
+def test_the_curves_are_the_counts_of_the_result(program, result):
+    h5py = pytest.importorskip("h5py")
+    asked = ["--displacement-m", "0.02,0.1", "--strength", "0.1,0.2"]
+    program(result, "export", "r.h5", "--fragility", "csv", *asked, "-q")
+    table = pandas.read_csv(result / "r.fragility.csv")
+    with h5py.File(result / "r.h5") as file:
+        edp_m = file["/ida/pgv/edp_m"][:]  # record, strength, level
+    for strength, name in enumerate(["strength_0p1_pgv", "strength_0p2_pgv"]):
+        for state, displacement_m in [("u_20mm", 0.02), ("u_100mm", 0.1)]:
+            rows = table[(table.id == name) & (table.limit_state == state)]
+            np.testing.assert_array_equal(rows.exceeding, (edp_m[:, strength] > displacement_m).sum(axis=0))
+            np.testing.assert_array_equal(rows.share, rows.exceeding / rows.records)
+    fits = pandas.read_csv(result / "r.fragility.fits.csv")
+    assert len(fits) == 4
+    normal = pytest.importorskip("scipy.stats").norm
+    for fit in fits.itertuples():
+        rows = table[(table.id == fit.id) & (table.limit_state == fit.limit_state)]
+        if np.isfinite(fit.theta):
+            np.testing.assert_allclose(rows.lognormal, normal.cdf(np.log(rows.level / fit.theta) / fit.beta), atol=1e-12)
+            assert np.abs(rows.lognormal - rows.share).max() == pytest.approx(fit.largest_error, abs=1e-12)
+        if np.isfinite(fit.theta_beyond):
+            factors = [
+                normal.cdf(np.log(rows.level / theta) / beta)
+                for theta, beta in [(fit.theta_uplift, fit.beta_uplift), (fit.theta_beyond, fit.beta_beyond)]
+            ]
+            np.testing.assert_allclose(rows.zero_inflated, factors[0] * factors[1], atol=1e-12)
+    assert np.isfinite(fits.theta).any() and np.isfinite(fits.theta_beyond).any(), fits
+    assert np.isfinite(fits.log_theta_standard_error).any(), fits
+
+
+def test_openquake_reads_the_model_and_its_damage_is_our_risk(program, tmp_path):
+    try:
+        version("openquake.engine")
+    except PackageNotFoundError:
+        skip_or_fail("OpenQuake", "pip install --no-deps -r python/tests/requirements-openquake.txt")
+    (tmp_path / "openquake.cfg").write_text(f"[dbserver]\nhost = 127.0.0.1\nfile = {tmp_path / 'jobs.sqlite3'}\n")
+    # as in test_interop.py
+    settings = {
+        "OQ_CONFIG_FILE": str(tmp_path / "openquake.cfg"),
+        "OQ_DATABASE": "127.0.0.1",
+        "OQ_DATADIR": str(tmp_path),
+        "OQ_DISTRIBUTE": "no",
+        "NUMBA_DISABLE_JIT": "1",
+    }
+    found = os.environ.get("UPLIFT_PROGRAM") or str(uplift.find_program())
+    command = [sys.executable, TESTS / "openquake_damage.py", tmp_path, found]
+    done = subprocess.run(command, env=os.environ | settings, capture_output=True, text=True, timeout=LIMIT_S)
+    assert done.returncode == 0, done.stderr
+
+
+def test_pelicun_loads_the_table_and_its_damage_is_our_curve(program, result):
+    if not (PELICUN / "pelicun").is_dir():
+        install = "pip install --no-deps --target python/target/pelicun -r python/tests/requirements-pelicun.txt"
+        skip_or_fail("pelicun", install)
+    for form in ("csv", "pelicun"):
+        program(result, "export", "r.h5", "--fragility", form, "--structure", "block.toml", "--force", "-q")
+    table = pandas.read_csv(result / "r.fragility.csv")
+    samples = 4000
+    levels = sorted(set(table.level))
+    done = subprocess.run(
+        [sys.executable, TESTS / "pelicun_damage.py", result / "r.pelicun.csv"],
+        input=json.dumps({"cm_s": levels, "samples": samples}),
+        env=os.environ | {"PYTHONPATH": str(PELICUN)},
+        cwd=result,
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+    )
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert {"block_oscillator_pgv", "block_block_pgv"} <= set(found), found
+    for component, shares in found.items():
+        curves = table[table.id == component.removesuffix("_lognormal")]
+        states = list(dict.fromkeys(curves.limit_state))
+        assert states == ["uplift", "capacity_50pct", "capacity", "overturning"]
+        column = "lognormal" if component.endswith("_lognormal") else "share"
+        for place, state in enumerate(states):
+            expected = curves[curves.limit_state == state][column].to_numpy()
+            # pelicun takes curves that rise
+            if column == "share" and (np.diff(expected) < 0).any():
+                continue
+            # stratified samples of one capacity are nearly exact, and all limit states share it
+            np.testing.assert_allclose(np.array(shares)[:, place], expected, atol=0.03, err_msg=f"{component} {state}")
