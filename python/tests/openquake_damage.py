@@ -1,4 +1,4 @@
-"""The damage that OpenQuake computes with our fragility model, and the risk that we do: `openquake_damage.py FOLDER`."""
+"""The damage that OpenQuake computes with our fragility model beside our risk: `openquake_damage.py FOLDER PROGRAM`."""
 
 # A program of its own for test_fragility.py, as openquake_handover.py is for test_interop.py.
 import json
@@ -78,7 +78,8 @@ def damage(folder, taxonomies):
     (folder / "exposure.xml").write_text(NRML.format(EXPOSURE), encoding="utf-8")
     job = JOB.replace("calculation_mode = classical\n", "calculation_mode = classical_damage\n")
     job = "\n".join(line for line in job.split("\n") if not line.startswith("sites = "))
-    job += f"exposure_file = exposure.xml\nstructural_fragility_file = fragility.xml\nrisk_investigation_time = {YEARS}\n"
+    job += "exposure_file = exposure.xml\nstructural_fragility_file = fragility.xml\n"
+    job += f"risk_investigation_time = {YEARS}\n"
     (folder / "damage.ini").write_text(job, encoding="utf-8")
     store = run_calc(str(folder / "damage.ini")).datastore
     ids = [asset.decode() for asset in store["assetcol"]["id"]]

@@ -67,7 +67,8 @@ def test_the_curves_are_the_counts_of_the_result(program, result):
     for fit in fits.itertuples():
         rows = table[(table.id == fit.id) & (table.limit_state == fit.limit_state)]
         if np.isfinite(fit.theta):
-            np.testing.assert_allclose(rows.lognormal, normal.cdf(np.log(rows.level / fit.theta) / fit.beta), atol=1e-12)
+            expected = normal.cdf(np.log(rows.level / fit.theta) / fit.beta)
+            np.testing.assert_allclose(rows.lognormal, expected, atol=1e-12)
             assert np.abs(rows.lognormal - rows.share).max() == pytest.approx(fit.largest_error, abs=1e-12)
         if np.isfinite(fit.theta_beyond):
             factors = [

@@ -1,4 +1,4 @@
-//! Fragilities for other programs: how often a displacement, or a limit state of a structure, is exceeded at each level.
+//! Fragilities for other programs: how often a displacement or a limit state of a structure is exceeded at each level.
 
 mod curves;
 mod measures;

@@ -8,8 +8,8 @@ use super::measures::{Foreign, pelicun};
 /// The column by which a table of this kind is known.
 pub(super) const COLUMN: &str = "Demand-Type";
 
-/// By how much the probabilities of a multilinear function rise from point to point at least: pelicun rounds them to six
-/// digits, and refuses those that do not rise.
+/// By how much the probabilities of a multilinear function rise from point to point at least: pelicun rounds them to
+/// six digits, and refuses those that do not rise.
 const RISE: f64 = 2e-6;
 /// The capacities of records that exceed nothing lie beyond the last level; so many times that level, they change no
 /// probability at a level by more than this part of it.
