@@ -26,7 +26,7 @@ use curves::{Fragility, displacement_limits};
 /// Formats of fragilities.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FragilityFormat {
-    /// A fragility model of OpenQuake (NRML 0.5): counted shares, and lognormal functions of them.
+    /// A fragility model of `OpenQuake` (NRML 0.5): counted shares, and lognormal functions of them.
     OpenQuake,
     /// A fragility table of pelicun 3: counted shares, and lognormal functions of them.
     Pelicun,

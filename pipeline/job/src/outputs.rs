@@ -46,7 +46,7 @@ pub enum OutputKind {
     Matlab,
     /// The same as a workbook of Excel.
     Workbook,
-    /// A fragility model of OpenQuake.
+    /// A fragility model in NRML.
     Nrml,
     /// A map of many sites.
     GeoJson,

@@ -108,8 +108,8 @@ pub(super) fn displacement_limits(displacements_m: &[f64]) -> Result<Vec<LimitSt
     if let Some(bad) = sorted_m.iter().find(|value| !(value.is_finite() && **value > 0.0)) {
         return Err(JobError::Usage(format!("--displacement-m {bad}: give positive displacements in m")));
     }
-    if let Some(twice) = sorted_m.windows(2).find(|two| two[0] == two[1]) {
-        return Err(JobError::Usage(format!("--displacement-m {} is given twice", twice[0])));
+    if let Some([twice, _]) = sorted_m.windows(2).find(|two| two[0] == two[1]) {
+        return Err(JobError::Usage(format!("--displacement-m {twice} is given twice")));
     }
     let state = |threshold_m: f64| {
         let millimetres = (1e3 * threshold_m * 1e9).round() / 1e9;

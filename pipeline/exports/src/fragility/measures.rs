@@ -31,7 +31,7 @@ pub(super) fn check(measure: IntensityMeasure, format: FragilityFormat) -> Resul
     })
 }
 
-/// The intensity measure type of OpenQuake 3.26 (`openquake.hazardlib.imt`); none where it has none.
+/// The intensity measure type of `OpenQuake` 3.26 (`openquake.hazardlib.imt`); none where it has none.
 pub(super) fn openquake(measure: IntensityMeasure) -> Option<Foreign> {
     let of = |name: &str, unit, factor| Some(Foreign { name: name.to_owned(), unit, factor });
     match measure {

@@ -1,5 +1,5 @@
-//! A fragility model of OpenQuake, NRML 0.5: discrete functions of the counted shares, continuous ones of the lognormal
-//! fits.
+//! A fragility model of `OpenQuake`, NRML 0.5: discrete functions of the counted shares, continuous ones of the
+//! lognormal fits.
 
 use super::curves::{Fragility, StateFragility};
 use super::measures::openquake;
@@ -10,44 +10,44 @@ use super::measures::openquake;
 pub(super) fn model(fragilities: &[Fragility], line: &str) -> (String, Vec<String>) {
     let mut notes = Vec::new();
     let names = common_states(fragilities, &mut notes);
-    let mut functions = String::new();
+    let mut lines = Vec::new();
     for fragility in fragilities {
         let Some(measure) = openquake(fragility.measure) else { continue };
         let states: Vec<&StateFragility> = fragility.states.iter().filter(|own| names.contains(&&*own.name)).collect();
-        let id = fragility.id();
+        let (id, imt) = (fragility.id(), &measure.name);
         let levels: Vec<f64> = fragility.levels.iter().map(|level| level * measure.factor).collect();
-        let open = |text: &mut String, id: &str, attributes: &str| {
-            *text += &format!("    <fragilityFunction id=\"{id}\" {attributes}>\n");
-        };
-        open(&mut functions, &id, "format=\"discrete\"");
-        functions += &format!("      <imls imt=\"{}\">{}</imls>\n", measure.name, numbers(&levels));
-        for state in &states {
-            functions += &format!("      <poes ls=\"{}\">{}</poes>\n", state.name, numbers(&state.shares));
-        }
-        functions += "    </fragilityFunction>\n";
-        let fits: Option<Vec<_>> = states.iter().map(|state| moments(state, measure.factor)).collect();
-        let Some(fits) = fits else {
-            let missing: Vec<&str> =
-                states.iter().filter(|own| moments(own, 1.0).is_none()).map(|own| &*own.name).collect();
+        lines.push(format!("    <fragilityFunction id=\"{id}\" format=\"discrete\">"));
+        lines.push(format!("      <imls imt=\"{imt}\">{}</imls>", numbers(&levels)));
+        let poes =
+            |state: &&StateFragility| format!("      <poes ls=\"{}\">{}</poes>", state.name, numbers(&state.shares));
+        lines.extend(states.iter().map(poes));
+        lines.push("    </fragilityFunction>".to_owned());
+        let missing: Vec<&str> =
+            states.iter().filter(|own| moments(own, 1.0).is_none()).map(|own| &*own.name).collect();
+        if !missing.is_empty() {
             notes.push(format!("{id}: no lognormal function: {} has no fit", missing.join(", ")));
             continue;
-        };
-        open(&mut functions, &format!("{id}_lognormal"), "format=\"continuous\" shape=\"logncdf\"");
-        let (first, last) = (levels.first().copied().unwrap_or(0.0), levels.last().copied().unwrap_or(0.0));
-        functions += &format!("      <imls imt=\"{}\" minIML=\"{first}\" maxIML=\"{last}\"/>\n", measure.name);
-        for (state, [mean, deviation]) in states.iter().zip(fits) {
-            functions += &format!("      <params ls=\"{}\" mean=\"{mean}\" stddev=\"{deviation}\"/>\n", state.name);
         }
-        functions += "    </fragilityFunction>\n";
+        let (first, last) = (levels.first().copied().unwrap_or(0.0), levels.last().copied().unwrap_or(0.0));
+        let attributes = "format=\"continuous\" shape=\"logncdf\"";
+        lines.push(format!("    <fragilityFunction id=\"{id}_lognormal\" {attributes}>"));
+        lines.push(format!("      <imls imt=\"{imt}\" minIML=\"{first}\" maxIML=\"{last}\"/>"));
+        let parameters = |state: &&StateFragility| {
+            let [mean, deviation] = moments(state, measure.factor)?;
+            Some(format!("      <params ls=\"{}\" mean=\"{mean}\" stddev=\"{deviation}\"/>", state.name))
+        };
+        lines.extend(states.iter().filter_map(parameters));
+        lines.push("    </fragilityFunction>".to_owned());
     }
     let text = format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
          <nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n  \
          <fragilityModel id=\"uplift\" assetCategory=\"structures\" lossCategory=\"structural\">\n    \
          <description>{}</description>\n    \
-         <limitStates>{}</limitStates>\n{functions}  </fragilityModel>\n</nrml>\n",
+         <limitStates>{}</limitStates>\n{}\n  </fragilityModel>\n</nrml>\n",
         escaped(line),
-        names.join(" ")
+        names.join(" "),
+        lines.join("\n")
     );
     (text, notes)
 }
@@ -70,7 +70,7 @@ fn common_states<'a>(fragilities: &'a [Fragility], notes: &mut Vec<String>) -> V
     common
 }
 
-/// Mean and standard deviation of the intensity of a lognormal function, as OpenQuake takes them; none where there is
+/// Mean and standard deviation of the intensity of a lognormal function, as `OpenQuake` takes them; none where there is
 /// no fit, or its dispersion is beyond all numbers.
 fn moments(state: &StateFragility, factor: f64) -> Option<[f64; 2]> {
     let (fragility, _) = state.lognormal.as_ref().ok()?;
