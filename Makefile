@@ -77,8 +77,22 @@ wheel: build
 	.ci/build-wheel $(UPLIFT)
 
 # What a release page holds, in dist: wheel, source distribution, archive of the program, bill of materials, sums.
+# PORTABLE=2.17 on Linux: program and wheel need that glibc and no newer one, since zig links them against its own copy.
+# Not yet tried to the end.
+HOST := $(shell rustc -vV | sed -n 's/^host: //p')
+PORTABLE ?=
+
+ifeq ($(PORTABLE),)
 dist: wheel
 	.ci/build-distribution $(UPLIFT)
+else
+dist:
+	PATH="$$(.ci/provide-zig):$$PATH" \
+		cargo zigbuild --release --locked --package uplift-cli --target $(HOST).$(PORTABLE)
+	.ci/check-glibc $(PORTABLE) target/$(HOST)/release/uplift
+	PORTABLE=$(PORTABLE) .ci/build-wheel target/$(HOST)/release/uplift
+	.ci/build-distribution target/$(HOST)/release/uplift
+endif
 
 # The engines of docs/cluster for real: Slurm, MPI, HyperQueue, as far as they can be had here. Apart from `test`: the
 # first build with MPI takes as long as that of the whole program.
