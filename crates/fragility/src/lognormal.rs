@@ -125,25 +125,30 @@ pub fn fit_lognormal(counts: &[StripeCount]) -> Result<LognormalFit, FragilityEr
     Err(FragilityError::NoConvergence { iterations: MAX_ITERATIONS })
 }
 
-/// The fits of `stripes` without each of their records in turn, `[record]`.
+/// The fits of `stripes` without each of the `units` in turn, its records left out at all levels, `[unit]`.
+///
+/// - `units`: positions of the records of each record, pair or earthquake.
 ///
 /// # Errors
 /// A threshold that is negative or not finite; as [`fit_lognormal`] for any of them.
-pub fn fits_without_each(stripes: &Stripes, threshold_m: f64) -> Result<Vec<LognormalFit>, FragilityError> {
-    let counts = stripe_counts(stripes, threshold_m)?;
-    let without = |record: usize| {
-        let of_level = |(level, (count, edp_m)): (usize, (&StripeCount, &f64))| {
-            let belongs = stripes.belongs(record, level);
-            StripeCount {
-                exceedances: count.exceedances - u32::from(belongs && *edp_m > threshold_m),
-                trials: count.trials - u32::from(belongs),
-                ..*count
+pub fn fits_without_each(
+    stripes: &Stripes,
+    threshold_m: f64,
+    units: &[Vec<usize>],
+) -> Result<Vec<LognormalFit>, FragilityError> {
+    let all = stripe_counts(stripes, threshold_m)?;
+    let without = |unit: &Vec<usize>| {
+        let count = |(level, count): (usize, &StripeCount)| {
+            let (mut exceedances, mut trials) = (count.exceedances, count.trials);
+            for &record in unit.iter().filter(|&&record| stripes.belongs(record, level)) {
+                trials -= 1;
+                exceedances -= u32::from(stripes.record(record)[level] > threshold_m);
             }
+            StripeCount { exceedances, trials, ..*count }
         };
-        let left: Vec<StripeCount> = counts.iter().zip(stripes.record(record)).enumerate().map(of_level).collect();
-        fit_lognormal(&left)
+        fit_lognormal(&all.iter().enumerate().map(count).collect::<Vec<_>>())
     };
-    (0..stripes.record_count()).map(without).collect()
+    units.iter().map(without).collect()
 }
 
 /// Refuses counts that are wrong, and counts whose likelihood has no maximum.
@@ -279,7 +284,8 @@ mod tests {
     fn without_a_record_the_fit_is_that_of_the_others() {
         let inf = f64::INFINITY;
         let demands = [0.1, inf, inf, 0.1, 0.2, inf, 0.1, 0.1, 0.2, inf, 0.1, inf];
-        let fits = fits_without_each(&Stripes::new(&[1.0, 2.0, 4.0], &demands).unwrap(), 1e9).unwrap();
+        let each: Vec<Vec<usize>> = (0..4).map(|record| vec![record]).collect();
+        let fits = fits_without_each(&Stripes::new(&[1.0, 2.0, 4.0], &demands).unwrap(), 1e9, &each).unwrap();
         assert_eq!(fits.len(), 4);
         for (record, fit) in fits.iter().enumerate() {
             let others = demands.chunks(3).enumerate().filter(|(other, _)| *other != record);

@@ -1,6 +1,6 @@
 //! How uncertain the parameters of a fitted fragility are, since it is fitted to so many records.
 
-use crate::{FragilityError, StripeCount, Stripes, fit_lognormal, stripe_counts};
+use crate::{FragilityError, Stripes, fits_without_each};
 
 /// Standard errors of the parameters of a lognormal fragility: its epistemic spread.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,24 +26,12 @@ pub fn lognormal_spread(
     threshold_m: f64,
     units: &[Vec<usize>],
 ) -> Result<FitSpread, FragilityError> {
-    let all = stripe_counts(stripes, threshold_m)?;
     if units.len() < 2 {
         return Err(FragilityError::TooFewUnits { units: units.len() });
     }
-    let without = |unit: &Vec<usize>| {
-        let count = |(level, count): (usize, &StripeCount)| {
-            let (mut exceedances, mut trials) = (count.exceedances, count.trials);
-            for &record in unit.iter().filter(|&&record| stripes.belongs(record, level)) {
-                trials -= 1;
-                exceedances -= u32::from(stripes.record(record)[level] > threshold_m);
-            }
-            StripeCount { exceedances, trials, ..*count }
-        };
-        let counts: Vec<StripeCount> = all.iter().enumerate().map(count).collect();
-        let fragility = fit_lognormal(&counts)?.fragility;
-        Ok([fragility.median().ln(), fragility.dispersion()])
-    };
-    let parameters = units.iter().map(without).collect::<Result<Vec<[f64; 2]>, FragilityError>>()?;
+    let fits = fits_without_each(stripes, threshold_m, units)?;
+    let parameters: Vec<[f64; 2]> =
+        fits.iter().map(|fit| [fit.fragility.median().ln(), fit.fragility.dispersion()]).collect();
     let n = units.len() as f64;
     let [log_median, dispersion] = [0, 1].map(|parameter| {
         let mean = parameters.iter().map(|own| own[parameter]).sum::<f64>() / n;

@@ -39,7 +39,8 @@ impl Fragilities {
     fn of(levels: &[f64], demands_m: &[f64]) -> Result<Self, FragilityError> {
         let stripes = Stripe::new(levels, demands_m)?;
         let all = fit_lognormal(&stripe_counts(&stripes, OVERTURNING_M)?)?.fragility;
-        let without = fits_without_each(&stripes, OVERTURNING_M)?;
+        let each: Vec<Vec<usize>> = (0..stripes.record_count()).map(|record| vec![record]).collect();
+        let without = fits_without_each(&stripes, OVERTURNING_M, &each)?;
         Ok(Self { levels: levels.to_vec(), all, without: without.iter().map(|fit| fit.fragility).collect() })
     }
 

@@ -45,7 +45,7 @@ impl Population {
                     let drawn = rows(&written_out(sample).collect::<Vec<_>>());
                     let stripes = Stripes::new(levels, &drawn)?;
                     let own = fit_lognormal(&stripe_counts(&stripes, OVERTURNING_M)?);
-                    let (Ok(own), Ok(without)) = (own, fits_without_each(&stripes, OVERTURNING_M)) else {
+                    let (Ok(own), Ok(without)) = (own, fits_without_each(&stripes, OVERTURNING_M, &alone)) else {
                         return Ok(None);
                     };
                     let of_site = |weights: &StripeWeights| {
