@@ -8,6 +8,8 @@
 //! - [`RunWeights`]: records that do not count alike, each with its share at every level.
 //! - [`ResamplingTable`]: the same ordinates for thousands of samples.
 //! - [`ReplicateWeights`]: the same for samples whose records are weighed anew, a few at once.
+//! - [`EventRisk`]: how often something happens to a structure.
+//! - [`StrengthPlace`]: a spectrum read between its strengths.
 //! - [`lognormal_risk`]: the risk integral of a lognormal fragility, exact on a log–log hazard curve.
 //!
 //! λ(c) is linear in the stripe fragilities, and these are counts (Eq. 4.7). So λ(c) = Σ w(level) m(record)/n over the
@@ -44,6 +46,7 @@ mod curve;
 mod demand;
 mod disaggregation;
 mod error;
+mod event_risk;
 mod fixed_point;
 mod grid;
 mod lognormal;
@@ -53,6 +56,7 @@ mod resampling;
 mod risk_targeted;
 mod run_weights;
 mod sample;
+mod strength_place;
 mod stretches;
 mod weights;
 
@@ -60,6 +64,7 @@ pub use curve::RiskCurve;
 pub use demand::PooledDemand;
 pub use disaggregation::Disaggregation;
 pub use error::RiskError;
+pub use event_risk::{BOUND_CONFIDENCE, EventRisk, at_most_per_year, share_at_most};
 pub use grid::ThresholdGrid;
 pub use lognormal::{LognormalRisk, lognormal_risk};
 pub use ordinate::{Ordinate, OrdinateFlag, TAIL_SHARE_LIMIT};
@@ -68,4 +73,5 @@ pub use resampling::ResamplingTable;
 pub use risk_targeted::{RiskTargetedLevel, risk_targeted_level};
 pub use run_weights::RunWeights;
 pub use sample::RecordSample;
+pub use strength_place::StrengthPlace;
 pub use weights::{StripeWeights, mean_annual_frequency};

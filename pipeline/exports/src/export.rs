@@ -8,6 +8,7 @@ mod matlab;
 mod shake_table;
 mod source;
 mod table;
+mod web;
 mod workbook;
 
 use std::path::{Path, PathBuf};
@@ -38,6 +39,8 @@ pub enum ExportFormat {
     Matlab,
     /// A workbook of Excel: a sheet each of spectra, bands, coefficients, hazard, and of where they come from.
     Workbook,
+    /// The stripes and hazard curves of the result for the page of `make web`, as JSON.
+    Web,
 }
 
 impl ExportFormat {
@@ -49,6 +52,7 @@ impl ExportFormat {
             Self::Json => "json",
             Self::Matlab => "mat",
             Self::Workbook => "xlsx",
+            Self::Web => "web.json",
         }
     }
 
@@ -56,7 +60,7 @@ impl ExportFormat {
         match self {
             Self::Csv if of == Kind::ShakeTable => OutputKind::Table(TESTS_COLUMN),
             Self::Csv => OutputKind::Table("fit_m"),
-            Self::Json => OutputKind::Json,
+            Self::Json | Self::Web => OutputKind::Json,
             Self::Matlab => OutputKind::Matlab,
             Self::Workbook => OutputKind::Workbook,
         }
@@ -96,7 +100,7 @@ pub struct ExportReport {
 pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportReport, ExportsError> {
     if options.formats.is_empty() || (options.output.is_some() && options.formats.len() > 1) {
         return Err(
-            JobError::Usage("give a format: --csv, --json, --mat or --xlsx (one of them with -o)".to_owned()).into()
+            JobError::Usage("give a format: --csv, --json, --mat, --xlsx or --web (one of them with -o)".to_owned()).into()
         );
     }
     let result = ResultFile::open(&options.result)?;
@@ -131,6 +135,7 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
             ExportFormat::Json => Ok(write_atomically(file, format!("{:#}\n", export.json()).as_bytes())?),
             ExportFormat::Matlab => Ok(write_atomically(file, &export.matlab()?)?),
             ExportFormat::Workbook => Ok(write_atomically(file, &export.workbook()?)?),
+            ExportFormat::Web => Err(result.fail("holds tests of a shaking table, and --web writes spectra").into()),
         });
     }
     let result = at(result, &options.risk)?;
@@ -142,6 +147,7 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
         ExportFormat::Json => Ok(write_atomically(file, format!("{:#}\n", export.json()).as_bytes())?),
         ExportFormat::Matlab => Ok(write_atomically(file, &export.matlab()?)?),
         ExportFormat::Workbook => Ok(write_atomically(file, &export.workbook()?)?),
+        ExportFormat::Web => Ok(write_atomically(file, format!("{}\n", web::web(&result)?).as_bytes())?),
     })?;
     if let Some(table) = findings {
         write_table(&table, export.provenance(), export.finding_columns())?;

@@ -10,7 +10,6 @@
 //! | `displacement` | displacements with their confidence bands, at any strength and risk |
 //! | [`consistency`] | whether the records have the hazard of the other measure, and weights by which they do |
 //! | `asked`, `study_of_result` | a result asked for other risks; its study and records read again |
-//! | `event_risk` | how often something happens to a structure |
 
 mod asked;
 mod coefficients;
@@ -18,7 +17,6 @@ pub mod consistency;
 mod displacement;
 mod epistemic;
 mod error;
-mod event_risk;
 mod precision;
 mod quoted;
 mod site_risk;
@@ -31,12 +29,10 @@ mod units;
 pub use asked::{AskedRisk, RiskTargets, at, stored_spectra};
 pub use coefficients::{Coefficients, fit_ordinates, fit_spectra, fit_spectrum};
 pub use displacement::{
-    CONFIDENCE, Displacement, DisplacementOptions, DisplacementReport, StrengthPlace, displacements, measure_index,
-    site_index,
+    CONFIDENCE, Displacement, DisplacementOptions, DisplacementReport, displacements, measure_index, site_index,
 };
 pub use epistemic::{BRANCHES, BranchSpectra, write_branch_spectra};
 pub use error::UniformRiskError;
-pub use event_risk::{BOUND_CONFIDENCE, EventRisk, at_most_per_year, share_at_most};
 pub use precision::{Precision, precision};
 pub use quoted::{BandOf, QuotedUnits};
 pub use site_risk::{SiteRisk, SiteSpectra};
@@ -47,6 +43,7 @@ pub use stripes::{
 };
 pub use study_of_result::{SpectraOfResult, StudyOfResult};
 pub use units::RecordUnits;
+pub use uplift_risk::{BOUND_CONFIDENCE, EventRisk, StrengthPlace, at_most_per_year, share_at_most};
 
 /// Of all replicates of repaired spectra, this share may fail before it is a matter to be reported.
 pub const MANY_FAILED: f64 = 0.05;

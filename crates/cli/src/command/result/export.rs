@@ -20,9 +20,6 @@ use crate::terminal::Terminal;
     uplift export results/quick.h5 --fragility openquake --strength 0.2 --displacement-m 0.1,0.3\n  \
     uplift export results/quick.h5 --fragility csv --structure configs/structures/pier.toml")]
 #[expect(clippy::struct_excessive_bools, reason = "a switch for each format")]
-#[command(after_help = "Examples:\n  \
-    uplift export results/study.h5 --csv --mat\n  \
-    uplift export results/study.h5 --xlsx -o spectra.xlsx --return-period 475,2475")]
 pub(crate) struct ExportArguments {
     /// Result file
     result: PathBuf,
@@ -38,7 +35,10 @@ pub(crate) struct ExportArguments {
     /// Excel workbook with spectra, bands, coefficients and hazard
     #[arg(long)]
     xlsx: bool,
-    #[command(flatten)]
+    /// Stripes and hazard as JSON, for the browser page
+    #[arg(long)]
+    web: bool,
+    #[command(flatten, next_help_heading = "Fragility")]
     fragility: FragilityArguments,
     /// Output file, for one format [default: beside the result]
     #[arg(short, long, value_name = "FILE")]
@@ -54,7 +54,7 @@ pub(crate) struct ExportArguments {
 struct FragilityArguments {
     /// Fragilities for another program, in place of spectra
     #[arg(long, value_enum, value_name = "openquake|pelicun|csv", hide_possible_values = true,
-        conflicts_with_all = ["csv", "json", "mat", "xlsx", "poe", "return_period", "years"])]
+        conflicts_with_all = ["csv", "json", "mat", "xlsx", "web", "poe", "return_period", "years"])]
     fragility: Option<Program>,
     /// Displacements that are exceeded, m
     #[arg(long, value_name = "M[,…]", allow_negative_numbers = true, value_parser = numbers,
@@ -113,6 +113,7 @@ impl ExportArguments {
             (self.json, ExportFormat::Json),
             (self.mat, ExportFormat::Matlab),
             (self.xlsx, ExportFormat::Workbook),
+            (self.web, ExportFormat::Web),
         ];
         wanted.into_iter().filter_map(|(wanted, format)| wanted.then_some(format)).collect()
     }

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 use uplift_hazard::{HazardError, probability_from_rate};
-use uplift_risk::StripeWeights;
+
+use crate::weights::StripeWeights;
 
 /// How often something happens to a structure at a site.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -1,0 +1,215 @@
+//! Many runs, a record at a time, so that the page can show how far they are and stop them.
+
+use serde_json::{Value, json};
+use uplift_block::RockingBlock;
+use uplift_bootstrap::{inferred_limits, inferred_rate};
+use uplift_fragility::Stripes as Stripe;
+use uplift_ida::{Plan, StripeRecord, System, Unwatched, analyse};
+use uplift_motion::IntensityMeasure;
+use uplift_oscillator::{Oscillator, PostUplift};
+use uplift_risk::{EventRisk, PooledDemand, RiskCurve, StripeWeights, at_most_per_year};
+use uplift_structure::PostUpliftForce;
+use uplift_study::{Structure, UniformRiskStudy};
+
+use crate::calculator::{Answer, At, refused};
+use crate::motions::{Motion, Motions};
+use crate::stripes::{CONFIDENCE, Measure, Stripes};
+use crate::structure::parse;
+
+/// A threshold that nothing but overturning exceeds.
+const OVERTURNING_M: f64 = f64::MAX;
+
+/// What was begun.
+pub(crate) struct Analysis {
+    systems: Vec<System>,
+    measures: Vec<(IntensityMeasure, Vec<f64>)>,
+    /// `[measure][record, system, level]`, m.
+    peaks_m: Vec<Vec<f64>>,
+    gravity_m_s2: f64,
+    free_vibration: bool,
+    /// Records that are finished, and all of them.
+    pub(crate) done: usize,
+    pub(crate) records: usize,
+    purpose: Purpose,
+}
+
+enum Purpose {
+    /// Stripes of the dropped records.
+    Records,
+    /// The demand on a structure, and how often it overturns.
+    Structure(Box<Structure>, At),
+}
+
+impl Analysis {
+    /// Of the dropped records, at all strengths and by all measures of `stripes`.
+    pub(crate) fn of_records(stripes: &Stripes, motions: &Motions) -> Answer<Self> {
+        let study = &stripes.study;
+        let own = |&strength: &f64| oscillator(study, strength);
+        let systems = study.strengths.iter().map(own).collect::<Answer<_>>()?;
+        let measures = stripes.measures.iter().map(|of| (of.measure, of.levels.clone())).collect();
+        let records = motions.dropped().len();
+        if records == 0 {
+            return Err("no record was dropped".to_owned());
+        }
+        Ok(Self::new(study, (systems, measures), (records, study.oscillator.free_vibration), Purpose::Records))
+    }
+
+    /// Of a structure, by the measure of `at`: its equivalent oscillator, and the block that rotates as it does where
+    /// there is one.
+    pub(crate) fn of_structure(stripes: &Stripes, motions: &mut Motions, text: &str, at: &At) -> Answer<Self> {
+        let structure = parse(text)?;
+        let of = stripes.place(at)?.of;
+        let own = structure.description.restitution;
+        let restitution = own.unwrap_or(stripes.study.oscillator.restitution);
+        let oscillator = structure.system.spectral_oscillator(restitution).map_err(refused)?;
+        let mut systems = vec![System::Oscillator(oscillator)];
+        if let Some(block) = structure.block
+            && let Ok(rocking) = RockingBlock::new(block.size_m, block.slenderness_rad)
+        {
+            let rocking = rocking
+                .with_gravity(structure.system.conditions().gravity_m_s2())
+                .and_then(|rocking| rocking.with_restitution(own.unwrap_or(block.restitution)));
+            systems.push(System::Block(rocking.map_err(refused)?));
+        }
+        let measures = vec![(of.measure, of.levels.clone())];
+        let records = motions.all()?.len();
+        let purpose = Purpose::Structure(Box::new(structure), at.clone());
+        // what is lost when a record ends has overturned
+        Ok(Self::new(&stripes.study, (systems, measures), (records, true), purpose))
+    }
+
+    fn new(
+        study: &UniformRiskStudy,
+        (systems, measures): (Vec<System>, Vec<(IntensityMeasure, Vec<f64>)>),
+        (records, free_vibration): (usize, bool),
+        purpose: Purpose,
+    ) -> Self {
+        let peaks_m = vec![Vec::new(); measures.len()];
+        let gravity_m_s2 = study.gravity_m_s2;
+        Self { systems, measures, peaks_m, gravity_m_s2, free_vibration, done: 0, records, purpose }
+    }
+
+    /// Runs the next record; whether there was one.
+    pub(crate) fn step(&mut self, motions: &Motions) -> Answer<bool> {
+        let all = match self.purpose {
+            Purpose::Records => motions.dropped(),
+            Purpose::Structure(..) => motions.known(),
+        };
+        if self.done == self.records {
+            return Ok(false);
+        }
+        let motion = all.get(self.done).filter(|_| all.len() == self.records);
+        let motion = motion.ok_or("the records changed while they were analysed: begin again")?;
+        for ((measure, levels), peaks_m) in self.measures.iter().zip(&mut self.peaks_m) {
+            let intensity = measure.amplitude(motion.intensity(*measure, self.gravity_m_s2));
+            let record = StripeRecord { id: motion.id(), accelerogram: motion.accelerogram(), intensity };
+            let levels: Vec<f64> = levels.iter().map(|&level| measure.amplitude(level)).collect();
+            let plan = Plan::stripes(vec![record], &self.systems, &levels, self.free_vibration).map_err(refused)?;
+            peaks_m.extend_from_slice(analyse(&plan, &Unwatched).map_err(refused)?.displacement_m());
+        }
+        self.done += 1;
+        Ok(true)
+    }
+
+    /// What comes of it.
+    pub(crate) fn finish(self, stripes: &mut Stripes, motions: &Motions) -> Answer<Value> {
+        match &self.purpose {
+            Purpose::Records => {
+                let records: Vec<String> = motions.dropped().iter().map(|own: &Motion| own.id().to_owned()).collect();
+                let set = format!("{} record files, dropped on this page", records.len());
+                let units: Vec<Vec<usize>> = (0..records.len()).map(|record| vec![record]).collect();
+                let measure = |(plan, peaks_m): (&(IntensityMeasure, Vec<f64>), &Vec<f64>)| {
+                    let peaks = (records.len(), self.systems.len(), &peaks_m[..]);
+                    Measure::new(plan.clone(), ("records".to_owned(), units.clone()), peaks)
+                };
+                let measures = self.measures.iter().zip(&self.peaks_m).map(measure).collect::<Answer<Vec<_>>>()?;
+                stripes.replace(records, set, measures);
+                Ok(stripes.about())
+            }
+            Purpose::Structure(structure, at) => self.of_structure_at(structure, stripes, at),
+        }
+    }
+
+    fn of_structure_at(&self, structure: &Structure, stripes: &Stripes, at: &At) -> Answer<Value> {
+        let (place, risk) = (stripes.place(at)?, stripes.risk(at)?);
+        let (weights, years, factor) = (place.weights, risk.years, structure.system.participation());
+        let units: Vec<Vec<usize>> = if self.records == stripes.records.len() {
+            place.of.units.clone()
+        } else {
+            (0..self.records).map(|record| vec![record]).collect()
+        };
+        let levels = &self.measures[0].1;
+        let demand = |system: usize| {
+            let stride = self.systems.len() * levels.len();
+            let peaks_m = &self.peaks_m[0][system * levels.len()..];
+            let stripe = Stripe::strided(levels, peaks_m, self.records, stride).map_err(refused)?;
+            PooledDemand::new(&stripe).map_err(refused)
+        };
+        let own = demand(0)?;
+        let capacity_m = match structure.system.post_uplift() {
+            PostUpliftForce::Negative { capacity_m } => Some(capacity_m),
+            PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
+        };
+        let ordinate = RiskCurve::new(&own, weights).and_then(|curve| curve.exact_ordinate(risk.per_year));
+        let ordinate = ordinate.map_err(refused)?;
+        let asked = (&[units.len()][..], CONFIDENCE);
+        let band_m = inferred_limits(&own, weights, &units, &[risk.per_year], asked).map_err(refused)?;
+        let band_m = band_m.first().map_or([f64::NAN; 2], |limits| limits.truth_m);
+        let beyond = match &self.systems[0] {
+            System::Oscillator(oscillator) => match oscillator.post_uplift() {
+                PostUplift::Negative { capacity_m } => Some(capacity_m),
+                PostUplift::Zero | PostUplift::Positive { .. } => None,
+            },
+            System::Block(_) | System::Frame(_) => None,
+        };
+        let beyond = beyond.map(|threshold_m| event(&own, (weights, &units), threshold_m, years, true)).transpose()?;
+        let mut overturning = Vec::new();
+        for (index, system) in self.systems.iter().enumerate() {
+            let may = system.can_overturn() && (index > 0 || capacity_m.is_some());
+            let mut found = event(&demand(index)?, (weights, &units), OVERTURNING_M, years, may)?;
+            found["model"] = system.kind().into();
+            overturning.push(found);
+        }
+        Ok(json!({
+            "analyses": self.records * self.systems.len() * levels.len(),
+            "demand_m": factor * ordinate.displacement_m,
+            "overturns": ordinate.displacement_m.is_infinite(),
+            "demand_band_m": band_m.map(|limit_m| factor * limit_m),
+            "capacity_m": capacity_m,
+            "beyond_capacity": beyond,
+            "overturning": overturning,
+        }))
+    }
+}
+
+/// The oscillator of a study at a strength.
+fn oscillator(study: &UniformRiskStudy, strength: f64) -> Answer<System> {
+    let of = &study.oscillator;
+    let oscillator =
+        Oscillator::new(strength, study.gravity_m_s2, of.uplift_displacement_m, of.restitution, of.post_uplift);
+    oscillator.map(System::Oscillator).map_err(refused)
+}
+
+/// How often `threshold_m` is exceeded, with its band, as `uplift overturning` has it.
+fn event(
+    demand: &PooledDemand,
+    (weights, units): (&StripeWeights, &[Vec<usize>]),
+    threshold_m: f64,
+    years: f64,
+    may_happen: bool,
+) -> Answer<Value> {
+    let curve = RiskCurve::new(demand, weights).map_err(refused)?;
+    let per_year = curve.mean_annual_frequency(threshold_m).map_err(refused)?;
+    let parts = curve.disaggregation(threshold_m).map_err(refused)?;
+    let tails = [parts.lower_tail_per_year, parts.upper_tail_per_year];
+    let mut risk = EventRisk::new(per_year, tails, years).map_err(refused)?;
+    if may_happen && per_year == 0.0 {
+        risk.at_most_per_year = Some(at_most_per_year(weights, units.len() as f64));
+    }
+    let band = inferred_rate(demand, weights, units, (threshold_m, CONFIDENCE)).map_err(refused)?;
+    let mut told = serde_json::to_value(risk).map_err(refused)?;
+    told["may_happen"] = may_happen.into();
+    // NaN of a single record, and 0 where no run exceeds it
+    told["band_per_year"] = if band[1] > 0.0 { json!(band) } else { Value::Null };
+    Ok(told)
+}

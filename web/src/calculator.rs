@@ -1,0 +1,199 @@
+//! What the page asks, and where it is answered.
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+use uplift_hazard::{probability_from_rate, rate_from_probability};
+use uplift_plausible::RETURN_PERIOD;
+
+use crate::analysis::Analysis;
+use crate::curves::DroppedCurve;
+use crate::motions::Motions;
+use crate::stripes::Stripes;
+
+/// Why a question has no answer: the message of the crate that refused, or of the page's own.
+pub(crate) type Answer<T> = Result<T, String>;
+
+/// The message of an error.
+pub(crate) fn refused(error: impl ToString) -> String {
+    error.to_string()
+}
+
+/// A question of the page.
+#[derive(Deserialize)]
+#[serde(tag = "ask", rename_all = "kebab-case")]
+enum Question {
+    /// Takes the stripes of a result, the file.
+    Stripes,
+    /// What the stripes hold.
+    About,
+    /// A spectrum, its band and the hazard curve.
+    Spectrum(At),
+    /// An ordinate and the fragility there.
+    Point { at: At, strength: f64 },
+    /// Reads hazard curves out of the file.
+    Curves { name: String, measure: Option<String> },
+    /// Adds a site with the curves of these numbers.
+    Site { name: String, curves: Vec<usize> },
+    /// Reads a record file.
+    Record { name: String },
+    /// Forgets the record files.
+    NoRecords,
+    /// The names of the motions, and their measures.
+    Motions,
+    /// A structure held against the spectrum.
+    Structure { text: String, at: Option<At>, safety_factor: f64 },
+    /// The motion of a structure.
+    Motion { text: String, motion: usize, measure: String, level: f64 },
+    /// Begins the analysis of the dropped records.
+    AnalyseRecords,
+    /// Begins the analysis of a structure.
+    AnalyseStructure { text: String, at: At },
+    /// Goes on with what was begun, by one record.
+    Step,
+    /// Ends what was begun.
+    Stop,
+    /// The study file with its hazard curves.
+    Study(At),
+}
+
+/// A spectrum: where, by which measure, how rare.
+#[derive(Debug, Clone, Deserialize)]
+pub(crate) struct At {
+    /// Name of the site.
+    pub(crate) site: String,
+    /// Key of the measure, `pgv`.
+    pub(crate) measure: String,
+    /// Return period, years; or the probability.
+    return_period: Option<f64>,
+    /// Probability of exceedance in `years`.
+    poe: Option<f64>,
+    /// Years that the probability refers to.
+    years: Option<f64>,
+}
+
+/// How rare, as `uplift spectrum --return-period` and `--poe` take it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Risk {
+    pub(crate) poe: f64,
+    pub(crate) years: f64,
+    /// Target rate, 1/yr (Eq. 4.8).
+    pub(crate) per_year: f64,
+}
+
+impl At {
+    /// How rare; `years` are those of the study.
+    pub(crate) fn risk(&self, years: f64) -> Answer<Risk> {
+        let years = self.years.unwrap_or(years);
+        let poe = match (self.poe, self.return_period) {
+            (Some(poe), _) => poe,
+            (None, Some(period)) => {
+                RETURN_PERIOD.check("return period", period).map_err(refused)?;
+                probability_from_rate(1.0 / period, years).map_err(refused)?
+            }
+            (None, None) => return Err("give a return period or a probability".to_owned()),
+        };
+        Ok(Risk { poe, years, per_year: rate_from_probability(poe, years).map_err(refused)? })
+    }
+}
+
+/// What the page has given, and what was begun.
+#[derive(Default)]
+pub struct Calculator {
+    stripes: Option<Stripes>,
+    curves: Vec<DroppedCurve>,
+    motions: Motions,
+    analysis: Option<Analysis>,
+}
+
+impl Calculator {
+    /// Without stripes.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The answer to a question in JSON, with the `file` that belongs to it; JSON.
+    pub fn reply(&mut self, question: &[u8], file: &[u8]) -> String {
+        let answer = serde_json::from_slice(question).map_err(refused).and_then(|question| self.answer(question, file));
+        match answer {
+            Ok(answer) => json!({ "answer": answer }),
+            Err(error) => json!({ "error": error }),
+        }
+        .to_string()
+    }
+
+    fn answer(&mut self, question: Question, file: &[u8]) -> Answer<Value> {
+        match question {
+            Question::Stripes => {
+                let stripes = Stripes::read(file)?;
+                self.motions = Motions::of(&stripes);
+                self.analysis = None;
+                let about = stripes.about();
+                self.stripes = Some(stripes);
+                Ok(about)
+            }
+            Question::About => Ok(self.stripes()?.about()),
+            Question::Spectrum(at) => self.stripes()?.spectrum(&at),
+            Question::Point { at, strength } => self.stripes()?.point(&at, strength),
+            Question::Curves { name, measure } => {
+                let found = DroppedCurve::read(file, &name, measure.as_deref())?;
+                let first = self.curves.len();
+                let told = found.iter().enumerate().map(|(place, curve)| curve.about(first + place)).collect();
+                self.curves.extend(found);
+                Ok(told)
+            }
+            Question::Site { name, curves } => {
+                let chosen: Option<Vec<_>> = curves.iter().map(|&place| self.curves.get(place)).collect();
+                let chosen = chosen.ok_or("there is no such curve")?;
+                let chosen = chosen.into_iter().map(|own| own.curve.clone()).collect();
+                self.stripes.as_mut().ok_or(NO_STRIPES)?.add_site(&name, chosen)
+            }
+            Question::Record { name } => self.motions.add(file, &name),
+            Question::NoRecords => {
+                self.motions.forget();
+                Ok(Value::Null)
+            }
+            Question::Motions => self.motions.about(),
+            Question::Structure { text, at, safety_factor } => {
+                crate::structure::design(self.stripes.as_mut(), &text, at.as_ref(), safety_factor)
+            }
+            Question::Motion { text, motion, measure, level } => {
+                crate::structure::motion(&text, self.motions.scaled(motion, &measure, level)?)
+            }
+            Question::AnalyseRecords => {
+                let stripes = self.stripes.as_ref().ok_or(NO_STRIPES)?;
+                self.begin(Analysis::of_records(stripes, &self.motions)?)
+            }
+            Question::AnalyseStructure { text, at } => {
+                let stripes = self.stripes.as_mut().ok_or(NO_STRIPES)?;
+                let analysis = Analysis::of_structure(stripes, &mut self.motions, &text, &at)?;
+                self.begin(analysis)
+            }
+            Question::Step => {
+                let analysis = self.analysis.as_mut().ok_or("nothing was begun")?;
+                if analysis.step(&self.motions)? {
+                    return Ok(json!({ "done": analysis.done, "of": analysis.records }));
+                }
+                let analysis = self.analysis.take().ok_or("nothing was begun")?;
+                let stripes = self.stripes.as_mut().ok_or(NO_STRIPES)?;
+                Ok(json!({ "finished": analysis.finish(stripes, &self.motions)? }))
+            }
+            Question::Stop => {
+                self.analysis = None;
+                Ok(Value::Null)
+            }
+            Question::Study(at) => crate::studies::files(self.stripes()?, &at),
+        }
+    }
+
+    fn begin(&mut self, analysis: Analysis) -> Answer<Value> {
+        let of = analysis.records;
+        self.analysis = Some(analysis);
+        Ok(json!({ "done": 0, "of": of }))
+    }
+
+    fn stripes(&mut self) -> Answer<&mut Stripes> {
+        self.stripes.as_mut().ok_or_else(|| NO_STRIPES.to_owned())
+    }
+}
+
+const NO_STRIPES: &str = "no stripes were given";

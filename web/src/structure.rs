@@ -1,0 +1,141 @@
+//! A structure: what the rules of design make of the spectrum, and how it moves.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+use uplift_block::{FreeRocking, RockingBlock};
+use uplift_frame::{GroundMotion, Model, Options};
+use uplift_motion::Accelerogram;
+use uplift_structure::{Check, PostUpliftForce, Rule};
+use uplift_study::Structure;
+
+use crate::calculator::{Answer, At, refused};
+use crate::stripes::{Stripes, rarity};
+
+/// Most rows of a motion that the page draws.
+const MOST_ROWS: usize = 6000;
+
+/// A structure file.
+pub(crate) fn parse(text: &str) -> Answer<Structure> {
+    let told = |error: uplift_study::StudyError| match error.mistakes() {
+        [] => error.to_string(),
+        mistakes => mistakes.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
+    };
+    Structure::parse(Path::new("structure.toml"), text.to_owned()).map_err(told)
+}
+
+/// The structure, and where a spectrum is given what it asks of it: as `uplift design --spectrum-only`.
+pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>, safety_factor: f64) -> Answer<Value> {
+    let structure = parse(text)?;
+    let system = &structure.system;
+    let capacity_m = match system.post_uplift() {
+        PostUpliftForce::Negative { capacity_m } => Some(capacity_m),
+        PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
+    };
+    let mut told = json!({
+        "kind": structure.description.kind.name(),
+        "mass_kg": system.mass_kg(),
+        "uplift_force_n": system.uplift_force_n(),
+        "strength": system.strength(),
+        "participation": system.participation(),
+        "spectral_strength": system.spectral_strength(),
+        "uplift_displacement_m": system.conditions().uplift_displacement_m(),
+        "capacity_m": capacity_m,
+        "post_uplift_stiffness_n_m": system.post_uplift_stiffness_n_m(),
+        "can_move": structure.block.is_some() || structure.rocking_frame().is_some(),
+        "warnings": system.warnings().iter().map(ToString::to_string)
+            .chain(structure.warnings.iter().map(ToString::to_string)).collect::<Vec<_>>(),
+    });
+    let (Some(stripes), Some(at)) = (stripes, at) else { return Ok(told) };
+    let (place, risk) = (stripes.place(at)?, stripes.risk(at)?);
+    told["risk"] = rarity(risk);
+    let strength = system.spectral_strength_at(stripes.study.gravity_m_s2);
+    let ordinates = match stripes.ordinate_at(place, risk, strength) {
+        Ok((ordinates, _)) => ordinates,
+        Err(reason) => {
+            told["without_demand"] = reason.into();
+            return Ok(told);
+        }
+    };
+    told["ordinate_m"] = json!(ordinates[0]);
+    told["ordinate_band_m"] = json!(&ordinates[1..]);
+    if !ordinates[0].is_finite() {
+        told["without_demand"] = "the spectrum has no finite ordinate there".into();
+        return Ok(told);
+    }
+    if matches!(system.post_uplift(), PostUpliftForce::Positive { .. }) {
+        told["without_demand"] = "the force rises after uplift: the rules do not apply".into();
+        return Ok(told);
+    }
+    let mut rules = Vec::new();
+    for rule in [Rule::EqualDisplacement, Rule::EqualEnergy] {
+        let check = |ordinate_m: f64| -> Answer<Check> {
+            let demand_m = system.zero_stiffness_demand_m(ordinate_m).map_err(refused)?;
+            Check::of(system, rule, safety_factor, demand_m).map_err(refused)
+        };
+        let own = check(ordinates[0])?;
+        let limits: Vec<Option<Check>> = ordinates[1..].iter().map(|&limit_m| check(limit_m).ok()).collect();
+        let of_limits = |value: fn(&Check) -> f64| -> Vec<Option<f64>> {
+            limits.iter().map(|check| check.as_ref().map(value)).collect()
+        };
+        let demand_m = own.demand.displacement_m();
+        rules.push(json!({
+            "rule": rule,
+            "zero_stiffness_demand_m": own.zero_stiffness_demand_m,
+            "demand_m": demand_m,
+            "demand_band_m": of_limits(|check| check.demand.displacement_m()),
+            "overturns": demand_m.is_infinite(),
+            "required_capacity_m": own.required_capacity_m,
+            "required_capacity_band_m": of_limits(|check| check.required_capacity_m),
+            "margin_m": own.margin_m(),
+            "safety_factor": own.safety_factor(),
+            "satisfied": own.is_satisfied(),
+        }));
+    }
+    told["rules"] = rules.into();
+    Ok(told)
+}
+
+/// The motion of a structure under a record: the block that rotates as it does, or the frame in its plane.
+pub(crate) fn motion(text: &str, ground: Accelerogram) -> Answer<Value> {
+    let structure = parse(text)?;
+    let own = structure.description.restitution;
+    // time, rotation, displacement of the top or the deck, its rise
+    let (rows, overturned, model): (Vec<[f64; 4]>, bool, &str) = if let Some(of) = structure.block {
+        let block = RockingBlock::new(of.size_m, of.slenderness_rad)
+            .and_then(|block| block.with_gravity(structure.system.conditions().gravity_m_s2()))
+            .and_then(|block| block.with_restitution(own.unwrap_or(of.restitution)))
+            .map_err(refused)?;
+        let free = FreeRocking::Lasting { duration_s: 2.0 };
+        let (response, history) = uplift_block::respond_with_history(&block, &ground, free).map_err(refused)?;
+        let row = |row: &uplift_block::HistoryRow| {
+            [row.time_s, row.rotation_rad, block.top_displacement_m(row.rotation_rad), f64::NAN]
+        };
+        (history.rows.iter().map(row).collect(), response.is_overturned(), "block")
+    } else if let Some(frame) = structure.rocking_frame() {
+        let frame = frame.map_err(refused)?;
+        let options = Options { restitution: own, ..Options::default() };
+        let shaking = GroundMotion::along_x(&ground);
+        let (response, history) =
+            uplift_frame::respond_with_history(&frame, &shaking, Model::Planar, &options).map_err(refused)?;
+        let row = |row: &uplift_frame::HistoryRow| [row.time_s, row.rotation_rad, row.displacement_x_m, row.rise_m];
+        (history.rows.iter().map(row).collect(), response.overturned, "frame")
+    } else {
+        return Err("only columns with flat ends and blocks have a motion here".to_owned());
+    };
+    let every = rows.len().div_ceil(MOST_ROWS).max(1);
+    let of = |value: usize| rows.iter().step_by(every).map(|row| row[value]).collect::<Vec<_>>();
+    let peak_m = rows.iter().map(|row| row[2].abs()).fold(0.0, f64::max);
+    let samples = ground.acceleration_m_s2();
+    let thin = samples.len().div_ceil(MOST_ROWS).max(1);
+    Ok(json!({
+        "model": model,
+        "time_s": of(0),
+        "rotation_rad": of(1),
+        "displacement_m": of(2),
+        "peak_m": peak_m,
+        "overturned": overturned,
+        "ground_m_s2": samples.iter().step_by(thin).collect::<Vec<_>>(),
+        "ground_step_s": ground.dt_s() * thin as f64,
+    }))
+}
