@@ -1,0 +1,659 @@
+"use strict";
+const $ = (id) => document.getElementById(id);
+const bytesOf = (id) => Uint8Array.from(atob($(id).textContent.trim()), (letter) => letter.charCodeAt(0));
+
+// ---- the worker -----------------------------------------------------------------------------------------------------
+const worker = new Worker(URL.createObjectURL(new Blob([$("worker").textContent], { type: "text/javascript" })));
+const waiting = new Map();
+let number = 0;
+worker.onmessage = ({ data: { id, answer, error, progress, isBug } }) => {
+  const own = waiting.get(id);
+  if (!own) return;
+  if (progress) return own.progress?.(progress);
+  waiting.delete(id);
+  if (error === undefined) own.resolve(answer);
+  else own.reject(Object.assign(new Error(error), { isBug }));
+};
+const send = (message, progress) => new Promise((resolve, reject) => {
+  waiting.set(++number, { resolve, reject, progress });
+  worker.postMessage({ id: number, ...message });
+});
+const ask = (question, file) => send({ kind: "ask", question, file });
+// asks the last of what is wanted while an answer is awaited: what a slider passed is not computed
+const latest = (work) => {
+  let running = false;
+  let again = false;
+  return async function run() {
+    if (running) { again = true; return; }
+    running = true;
+    do { again = false; await work(); } while (again);
+    running = false;
+  };
+};
+
+// ---- numbers as people read them ------------------------------------------------------------------------------------
+const digits = (value, most = 2) => {
+  if (value === null || value === undefined) return "∞";
+  if (value === 0) return "0";
+  const whole = Number(value.toPrecision(Math.abs(value) >= 100 ? 3 : most));
+  return Math.abs(whole) < 1e-4 || Math.abs(whole) >= 1e6 ? whole.toExponential() : String(whole);
+};
+const metres = (value) => (value === null || value === undefined ? "no limit" : `${digits(value)} m`);
+const band = (limits) => limits && limits[1] !== null
+  ? ` (90 % band ${digits(limits[0])} to ${digits(limits[1])} m)`
+  : limits && limits[0] !== null ? ` (90 % band from ${digits(limits[0])} m, no upper limit)` : "";
+const rate = (value) => (value === 0 ? "0" : value.toExponential(1).replace("e", "·10^").replace("+", ""));
+const element = (tag, attributes = {}, ...children) => {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  made.append(...children);
+  return made;
+};
+const escaped = (text) => String(text).replace(/[&<>"]/g, (letter) => `&#${letter.charCodeAt(0)};`);
+
+// ---- state, and the link that holds it ------------------------------------------------------------------------------
+const KINDS = {
+  pier: { kind: "frame", columns: 1, width_m: 1.2, height_m: 12, column_mass_kg: 43200, deck_mass_kg: 220000,
+    tendon_stiffness_n_m: 0, uplift_displacement_m: 0.006, restitution: 0.98 },
+  wall: { kind: "block", width_m: 1.2, height_m: 6, mass_kg: 9000, uplift_displacement_m: 0.0005 },
+  frame: { kind: "frame", columns: 4, width_m: 1.6, height_m: 9.6, column_mass_kg: 48000, deck_mass_kg: 900000,
+    tendon_stiffness_n_m: 1500000, uplift_displacement_m: 0.0005 },
+};
+const FIELDS = {
+  columns: ["Columns", "1", 1], column_mass_kg: ["Mass of a column, kg", "any"], deck_mass_kg: ["Mass of the deck, kg", "any"],
+  mass_kg: ["Mass, kg", "any"],
+  tendon_stiffness_n_m: ["Stiffness of the tendon in each column, N/m; 0: none", "any"],
+  uplift_displacement_m: ["Displacement at uplift, m", "any"],
+  restitution: ["Restitution; empty: that of the study", "any"],
+};
+const state = { site: null, measure: null, period: 2475, strength: 0.1, kind: "pier", safety: 2.5, own: {} };
+for (const [kind, fields] of Object.entries(KINDS)) state.own[kind] = { ...fields };
+let about = null;
+let motions = null;
+
+function readLink() {
+  const link = new URLSearchParams(location.hash.slice(1));
+  const number = (key, fallback) => (link.has(key) && Number.isFinite(Number(link.get(key))) ? Number(link.get(key)) : fallback);
+  state.site = link.get("site");
+  state.measure = link.get("measure");
+  state.period = Math.min(1e5, Math.max(20, number("period", state.period)));
+  state.strength = number("strength", state.strength);
+  state.safety = number("safety", state.safety);
+  if (KINDS[link.get("kind")]) state.kind = link.get("kind");
+  for (const key of Object.keys({ ...FIELDS, width_m: 0, height_m: 0 })) {
+    if (link.has(key) && key in KINDS[state.kind] || (key === "restitution" && link.has(key))) {
+      state.own[state.kind][key] = link.get(key) === "" ? undefined : number(key, undefined);
+    }
+  }
+}
+function link() {
+  const { site, measure, period, strength, safety, kind } = state;
+  const all = { site, measure, period, strength, safety, kind };
+  for (const [key, value] of Object.entries(state.own[kind])) if (key !== "kind" && value !== undefined) all[key] = value;
+  return `#${new URLSearchParams(all)}`;
+}
+const writeLink = () => history.replaceState(null, "", link());
+const at = () => ({ site: state.site, measure: state.measure, return_period: state.period });
+
+// ---- charts ---------------------------------------------------------------------------------------------------------
+const palette = () => {
+  const style = getComputedStyle(document.documentElement);
+  return Object.fromEntries(["paper", "ink", "soft", "line", "blue", "band", "red"].map((name) =>
+    [name, style.getPropertyValue(`--${name}`).trim()]));
+};
+const PRINTED = { paper: "#fff", ink: "#1b1e23", soft: "#5a6270", line: "#c8ced7", blue: "#00618f", band: "#b9d8e8", red: "#a4262c" };
+function ticks(scale) {
+  const { from, to, log } = scale;
+  if (log) {
+    const decades = [];
+    for (let power = Math.ceil(Math.log10(from) - 1e-9); 10 ** power <= to * (1 + 1e-9); power++) decades.push(10 ** power);
+    if (decades.length > 2) return decades.length > 7 ? decades.filter((_, place) => place % 2 === 0) : decades;
+    const all = [];
+    for (let power = Math.floor(Math.log10(from)); power <= Math.log10(to); power++)
+      for (const own of [1, 2, 5]) all.push(own * 10 ** power);
+    return all.filter((own) => own >= from * (1 - 1e-9) && own <= to * (1 + 1e-9));
+  }
+  const raw = (to - from) / 5;
+  const step = [1, 2, 5, 10].map((own) => own * 10 ** Math.floor(Math.log10(raw))).find((own) => own >= raw);
+  const all = [];
+  for (let own = Math.ceil(from / step) * step; own <= to + 1e-9 * step; own += step) all.push(Math.abs(own) < 1e-12 ? 0 : own);
+  return all;
+}
+const label = (value) => (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5)
+  ? `1e${Math.round(Math.log10(Math.abs(value)))}` : String(Number(value.toPrecision(3))));
+// a figure: series are lines {x, y, colour}, bands {x, low, high} and points {x, y}; null breaks a line
+function svgOf(figure, colours) {
+  const [wide, high, left, right, top, bottom] = [460, figure.high ?? 320, 62, 14, 14, 48];
+  const place = (scale, from, to) => (value) => {
+    const own = scale.log ? Math.log(value / scale.from) / Math.log(scale.to / scale.from)
+      : (value - scale.from) / (scale.to - scale.from);
+    return (from + Math.min(1.5, Math.max(-0.5, own)) * (to - from)).toFixed(1);
+  };
+  const x = place(figure.x, left, wide - right);
+  const y = place(figure.y, high - bottom, top);
+  const parts = [`<rect width="${wide}" height="${high}" fill="${colours.paper}"/>`];
+  for (const own of ticks(figure.x)) parts.push(`<path d="M${x(own)} ${top}V${high - bottom}" stroke="${colours.line}" stroke-width="0.7"/>`,
+    `<text x="${x(own)}" y="${high - bottom + 16}" text-anchor="middle" fill="${colours.ink}">${label(own)}</text>`);
+  for (const own of ticks(figure.y)) parts.push(`<path d="M${left} ${y(own)}H${wide - right}" stroke="${colours.line}" stroke-width="0.7"/>`,
+    `<text x="${left - 6}" y="${Number(y(own)) + 4}" text-anchor="end" fill="${colours.ink}">${label(own)}</text>`);
+  const usable = (scale, value) => value !== null && value !== undefined && Number.isFinite(value) && (!scale.log || value > 0);
+  const path = (xs, ys) => {
+    let pen = "M";
+    return xs.map((own, place) => {
+      if (!usable(figure.x, own) || !usable(figure.y, ys[place])) { pen = "M"; return ""; }
+      const drawn = `${pen}${x(own)} ${y(ys[place])}`;
+      pen = "L";
+      return drawn;
+    }).join("");
+  };
+  parts.push(`<clipPath id="clip-${figure.name}"><rect x="${left}" y="${top}" width="${wide - left - right}" height="${high - top - bottom}"/></clipPath>`,
+    `<g clip-path="url(#clip-${figure.name})">`);
+  for (const { x: xs, low, high: up } of figure.bands ?? []) {
+    const there = xs.map((_, place) => place).filter((place) => usable(figure.x, xs[place]) && low[place] !== null);
+    const floor = figure.y.from;
+    const ceiling = figure.y.to;
+    const line = (ys, missing) => there.map((place) => `${x(xs[place])} ${y(usable(figure.y, ys[place]) ? ys[place] : missing)}`);
+    if (there.length) parts.push(`<path d="M${[...line(low, floor), ...line(up, ceiling).reverse()].join("L")}Z" fill="${colours.band}"/>`);
+  }
+  for (const { x: xs, y: ys, colour, dash } of figure.lines) parts.push(`<path d="${path(xs, ys)}" fill="none" stroke="${colours[colour ?? "blue"]}" stroke-width="${dash ? 1 : 2}" stroke-linejoin="round"${dash ? ' stroke-dasharray="5 4"' : ""}/>`);
+  parts.push("</g>");
+  for (const { x: own, y: height } of figure.points ?? []) if (usable(figure.x, own) && usable(figure.y, height)) parts.push(`<circle cx="${x(own)}" cy="${y(height)}" r="5" fill="${colours.red}" stroke="${colours.paper}" stroke-width="1.5"/>`);
+  parts.push(`<rect x="${left}" y="${top}" width="${wide - left - right}" height="${high - top - bottom}" fill="none" stroke="${colours.soft}"/>`,
+    `<text x="${(left + wide - right) / 2}" y="${high - 8}" text-anchor="middle" fill="${colours.ink}">${escaped(figure.x.name)}</text>`,
+    `<text transform="translate(14 ${(top + high - bottom) / 2}) rotate(-90)" text-anchor="middle" fill="${colours.ink}">${escaped(figure.y.name)}</text>`);
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${wide} ${high}" width="${wide}" height="${high}" role="img" aria-label="${escaped(figure.said)}" font-family="sans-serif" font-size="12"><title>${escaped(figure.said)}</title>${parts.join("")}</svg>`;
+}
+function save(name, content, type = "text/plain") {
+  const anchor = element("a", { href: URL.createObjectURL(content instanceof Blob ? content : new Blob([content], { type })), download: name });
+  anchor.click();
+  setTimeout(() => URL.revokeObjectURL(anchor.href), 10000);
+}
+const figures = {};
+function show(id, figure) {
+  const place = $(id);
+  if (!place.firstChild) {
+    const caption = element("figcaption", {}, element("span"));
+    const button = (format, act) => {
+      const made = element("button", { type: "button", "aria-label": `${format} of this figure` }, format);
+      made.onclick = act;
+      caption.append(made);
+    };
+    const printed = () => svgOf(figures[id], PRINTED);
+    button("CSV", () => save(`${figures[id].name}.csv`, csvOf(figures[id]), "text/csv"));
+    button("SVG", () => save(`${figures[id].name}.svg`, printed(), "image/svg+xml"));
+    button("PNG", async () => save(`${figures[id].name}.png`, await pngOf(printed())));
+    place.append(element("div"), caption);
+  }
+  figures[id] = figure;
+  place.firstChild.innerHTML = svgOf(figure, palette());
+  place.querySelector("figcaption span").textContent = figure.caption;
+}
+const csvOf = ({ columns, head }) => [`# ${head}`, Object.keys(columns).join(","),
+  ...Object.values(columns)[0].map((_, row) => Object.values(columns).map((column) => column[row] ?? "inf").join(","))].join("\n") + "\n";
+async function pngOf(svg) {
+  const image = new Image();
+  image.src = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
+  await image.decode();
+  const canvas = element("canvas", { width: 3 * image.width, height: 3 * image.height });
+  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+  URL.revokeObjectURL(image.src);
+  return new Promise((resolve) => canvas.toBlob(resolve));
+}
+const span = (values, log) => {
+  const there = values.filter((own) => own !== null && Number.isFinite(own) && (!log || own > 0));
+  return there.length ? [Math.min(...there), Math.max(...there)] : log ? [0.1, 1] : [0, 1];
+};
+
+// ---- the spectrum ---------------------------------------------------------------------------------------------------
+const measureOf = () => about.measures.find((own) => own.key === state.measure);
+const whereWords = () => `${state.site}, ${digits(state.period, 3)} years, by ${measureOf().label}`;
+const drawSpectrum = latest(async () => {
+  let spectrum;
+  let point;
+  try {
+    [spectrum, point] = await Promise.all([ask({ ask: "spectrum", ...at() }), ask({ ask: "point", at: at(), strength: state.strength })]);
+  } catch (error) {
+    $("answer").textContent = error.message;
+    return;
+  }
+  window.shown = { spectrum, point };
+  const { unit, label: name } = measureOf();
+  const probability = digits(100 * spectrum.risk.poe, 3);
+  const value = point.u_m === null ? "No displacement has this risk: it is exceeded more often" : metres(point.u_m) + band(point.band_m);
+  $("answer").replaceChildren(value, element("small", {}, `${state.site}, strength ${state.strength}, ${digits(state.period, 3)} years (${probability} % in ${spectrum.risk.years} years), by ${name}`));
+  const head = `${about.provenance}; ${whereWords()}`;
+  const [low, high] = span([...spectrum.u_m, ...spectrum.upper_m], true);
+  show("f-spectrum", {
+    name: "spectrum", head, said: `Displacement over uplift strength, ${whereWords()}: ${value} at strength ${state.strength}`,
+    caption: `Uniform risk spectrum with its ${Math.round(100 * spectrum.confidence)} % band, ${about.records} ${about.synthetic ? "synthetic " : ""}records.`,
+    x: { name: "Uplift strength η", from: spectrum.strengths.find((own) => own > 0), to: spectrum.strengths.at(-1), log: true },
+    y: { name: "Displacement, m", from: Math.max(low * 0.8, high * 1e-4), to: high * 1.25, log: true },
+    bands: [{ x: spectrum.strengths, low: spectrum.lower_m, high: spectrum.upper_m }],
+    lines: [{ x: spectrum.strengths, y: spectrum.u_m }], points: [{ x: state.strength, y: point.u_m }],
+    columns: { strength: spectrum.strengths, u_m: spectrum.u_m, lower_m: spectrum.lower_m, upper_m: spectrum.upper_m, flag: spectrum.flag },
+  });
+  const { levels, maf_per_year: rates, level } = spectrum.hazard;
+  show("f-hazard", {
+    name: "hazard", head, said: `Hazard curve of ${state.site}: ${level === null ? "no level" : `${digits(level)} ${unit}`} once in ${digits(state.period, 3)} years`,
+    caption: `Hazard curve. The point is ${level === null ? "outside the curve" : `${digits(level)} ${unit}, exceeded`} once in ${digits(state.period, 3)} years.`,
+    x: { name: `${name}, ${unit}`, from: levels[0], to: levels.at(-1), log: true },
+    y: { name: "Annual rate of exceedance", from: Math.max(Math.min(...rates), 1e-7), to: Math.max(...rates), log: true },
+    lines: [{ x: levels, y: rates }], points: [{ x: level, y: 1 / state.period }],
+    columns: { [`${state.measure}_${unit.replace("/", "_")}`]: levels, maf_per_year: rates },
+  });
+  show("f-fragility", {
+    name: "fragility", head, said: `Share of the records that exceed ${metres(point.u_m)} over ${name}`,
+    caption: point.fragility ? `Fragility: share of the records that exceed ${metres(point.u_m)} at strength ${state.strength}.` : "No fragility: the ordinate is not finite.",
+    x: { name: `${name}, ${unit}`, from: point.levels[0], to: point.levels.at(-1), log: true },
+    y: { name: "Share of the records", from: 0, to: 1 }, lines: [{ x: point.levels, y: point.fragility ?? [] }],
+    columns: { [`${state.measure}_${unit.replace("/", "_")}`]: point.levels, share: point.fragility ?? point.levels.map(() => 0) },
+  });
+  const place = spectrum.strengths.indexOf(state.strength);
+  const told = spectrum.alarms.map((own) => element("li", {}, element("span", { class: "kind" }, `${own.severity === "mistake" ? "mistake?" : own.severity}: `),
+    `${own.subject}${own.also.length ? ` (${own.also.length} more)` : ""}: ${own.what}. ${own.what_to_do}`));
+  for (const [end, share] of [["above the last level", spectrum.upper_tail_share[place]], ["below the first level", spectrum.lower_tail_share[place]]]) {
+    if (share > 0.01) told.push(element("li", {}, element("span", { class: "kind" }, share > 0.1 ? "caution: " : "note: "), `${digits(100 * share)} % of the risk at this point comes from ${end} of the analysis.`));
+  }
+  if (spectrum.alarms.length) told.push(element("li", { class: "note" }, `The program raised the first ${spectrum.alarms.length} for ${about.poes.map((own) => digits(100 * own)).join(", ")} % in ${about.years} years.`));
+  $("alarms").replaceChildren(...(told.length ? told : [element("li", {}, about.synthetic ? "None." : "The program checks records and curves in more detail: uplift warnings.")]));
+});
+
+// ---- the structure --------------------------------------------------------------------------------------------------
+const own = () => state.own[state.kind];
+function toml() {
+  const fields = { ...own() };
+  if (fields.tendon_stiffness_n_m > 0) fields.kind = "restrained-frame";
+  else delete fields.tendon_stiffness_n_m;
+  const lines = [`# A ${state.kind}, from the calculator of uplift in the browser`, `kind = "${fields.kind}"`];
+  for (const [key, value] of Object.entries(fields)) if (key !== "kind" && value !== undefined) lines.push(`${key} = ${value}`);
+  if (fields.kind === "restrained-frame") lines.push('tendon_anchorage = "foundation"');
+  return `${lines.join("\n")}\n`;
+}
+// lengths of the drawing: those of the structure, and what no structure tells
+function scene() {
+  const { width_m: width = 1, height_m: height = 1, columns = 1 } = own();
+  const deck = own().deck_mass_kg === undefined ? 0 : Math.min(0.12 * height, Math.max(0.05 * height, 0.5 * width));
+  const shown = Math.min(5, Math.max(1, Math.round(columns) || 1));
+  const spacing = width + Math.max(1.6 * width, 0.28 * height);
+  const wide = (shown - 1) * spacing + width;
+  return { width, height, deck, shown, spacing, wide, over: deck ? 0.35 * width : 0, tendons: own().tendon_stiffness_n_m > 0 };
+}
+// the structure with its columns rotated, in metres upwards from the ground; only geometry of the picture
+function bodies({ width, height, deck, shown, spacing, wide, over, tendons }, rotation, scale, x, ground, colours) {
+  const sign = Math.sign(rotation);
+  const angle = Math.abs(rotation);
+  const parts = [];
+  const [dx, dy] = [width * (1 - Math.cos(angle)) + height * Math.sin(angle), width * Math.sin(angle) + height * (Math.cos(angle) - 1)];
+  for (let column = 0; column < shown; column++) {
+    const left = x + column * spacing * scale;
+    const pivot = sign >= 0 ? left + width * scale : left;
+    parts.push(`<g transform="rotate(${(rotation * 180) / Math.PI} ${pivot} ${ground})"><rect x="${left}" y="${ground - height * scale}" width="${width * scale}" height="${height * scale}" fill="${colours.band}" stroke="${colours.ink}" stroke-width="1.3"/>`
+      + (tendons ? `<path d="M${left + (width * scale) / 2} ${ground - height * scale + 5}V${ground}" stroke="${colours.blue}" stroke-width="1.6"/>` : "") + "</g>");
+  }
+  if (deck) parts.push(`<rect x="${x - over * scale + sign * dx * scale}" y="${ground - (height + deck + dy) * scale}" width="${(wide + 2 * over) * scale}" height="${deck * scale}" fill="${colours.line}" stroke="${colours.ink}" stroke-width="1.3"/>`);
+  return parts.join("");
+}
+const groundLine = (y, colours) => `<path d="M10 ${y}H450" stroke="${colours.ink}" stroke-width="1.6"/>${Array.from({ length: 32 }, (_, step) => `<path d="M${20 + 13 * step} ${y}l-6 7" stroke="${colours.soft}" stroke-width="0.8"/>`).join("")}`;
+function drawing() {
+  const of = scene();
+  const colours = palette();
+  const [ground, room] = [330, 290];
+  const scale = Math.min(280 / (of.wide + 2 * of.over), room / (of.height + of.deck));
+  const x = 120 + (300 - of.wide * scale) / 2;
+  const top = ground - of.height * scale;
+  const dimension = `stroke="${colours.soft}" fill="none"`;
+  const svg = `<svg viewBox="0 0 460 400" role="img" aria-label="Elevation of the ${state.kind}: ${of.width} m wide, ${of.height} m high">${groundLine(ground, colours)}${bodies(of, 0, scale, x, ground, colours)}
+    <path d="M95 ${ground}V${top}M90 ${ground}h10M90 ${top}h10" ${dimension}/><path d="M${x} 352H${x + of.width * scale}M${x} 347v10M${x + of.width * scale} 347v10" ${dimension}/>
+    ${own().columns > of.shown ? `<text x="440" y="150" text-anchor="end" fill="${colours.ink}">of ${own().columns}</text>` : ""}</svg>`;
+  const place = $("drawing");
+  if (!place.querySelector("svg")) {
+    place.append(element("div"));
+    for (const [key, said] of [["height_m", "Height, m"], ["width_m", "Width, m"]]) place.append(input(key, said, "0.05"));
+  }
+  place.firstChild.innerHTML = svg;
+  const put = (key, left, height) => {
+    const box = place.querySelector(`#field-${key}`);
+    box.style.left = `${(100 * left) / 460}%`;
+    box.style.top = `${(100 * height) / 400}%`;
+    if (document.activeElement !== box) box.value = own()[key];
+  };
+  put("height_m", 50, (ground + top) / 2);
+  put("width_m", Math.min(400, Math.max(60, x + (of.width * scale) / 2)), 376);
+}
+function input(key, said, step) {
+  const box = element("input", { id: `field-${key}`, type: "number", step, "aria-label": said });
+  box.oninput = () => {
+    own()[key] = box.value === "" ? undefined : Number(box.value);
+    changed();
+  };
+  return box;
+}
+function fields() {
+  const rows = [];
+  for (const [key, [said, step]] of Object.entries(FIELDS)) {
+    if (!(key in KINDS[state.kind]) && key !== "restitution") continue;
+    if (key === "columns" && state.kind === "pier") continue;
+    const box = input(key, said, step);
+    box.value = own()[key] ?? "";
+    rows.push(element("label", { for: box.id }, said), box);
+  }
+  const factor = element("input", { id: "safety", type: "number", min: 1, step: 0.1, value: state.safety });
+  factor.oninput = () => { state.safety = Number(factor.value); changed(); };
+  rows.push(element("label", { for: "safety" }, "Safety factor on the demand"), factor);
+  $("fields").replaceChildren(...rows);
+}
+const rows = (...all) => element("div", { class: "table" }, element("table", {}, element("tbody", {}, ...all.filter(Boolean).map(([said, value, bad]) =>
+  element("tr", {}, element("th", { scope: "row" }, said), element("td", { class: `number${bad ? " bad" : ""}` }, value))))));
+const drawDesign = latest(async () => {
+  $("toml").textContent = toml();
+  let told;
+  try {
+    told = await ask({ ask: "structure", text: toml(), at: at(), safety_factor: state.safety });
+  } catch (error) {
+    $("mistake").hidden = false;
+    $("mistake").textContent = error.message;
+    $("design").replaceChildren();
+    return;
+  }
+  window.design = told;
+  $("mistake").hidden = true;
+  const limits = (values) => band(values);
+  $("design").replaceChildren(
+    rows(
+      ["Uplift strength", `${digits(told.spectral_strength, 3)} (read in the spectrum; Γ ${digits(told.participation, 4)})`],
+      ["Displacement capacity", told.capacity_m === null ? "none: the force does not fall after uplift" : metres(told.capacity_m)],
+      told.ordinate_m !== undefined && ["Ordinate of the spectrum", `${metres(told.ordinate_m)}${limits(told.ordinate_band_m)}`],
+      told.without_demand && ["Demand", told.without_demand, true],
+      ...(told.rules ?? []).flatMap((rule) => [
+        [`Demand, rule of ${rule.rule.replace("-", " ")}`, rule.overturns ? "overturns" : `${metres(rule.demand_m)}${limits(rule.demand_band_m)}`, rule.overturns],
+        [`Required capacity, ${rule.rule.replace("-", " ")}`, rule.required_capacity_m === null ? "no finite one" : `${metres(rule.required_capacity_m)}${limits(rule.required_capacity_band_m)}`],
+        [`Verdict, ${rule.rule.replace("-", " ")}`, rule.satisfied ? `satisfied: safety factor ${digits(rule.safety_factor)}` : `not satisfied: safety factor ${digits(rule.safety_factor)}, ${digits(state.safety)} required`, !rule.satisfied],
+      ]),
+    ),
+    ...told.warnings.map((own) => element("p", { class: "note" }, own)),
+    element("p", { class: "note" }, `${whereWords()}${about.synthetic ? ", synthetic records" : ""}. A satisfied rule is no proof: analyse the structure itself.`),
+  );
+});
+function changed() {
+  writeLink();
+  drawing();
+  drawDesign();
+  drawMotion();
+  $("own-demand").replaceChildren();
+  $("command").textContent = `uplift run study.toml && uplift design structure.toml --urs results/study.h5 --return-period ${state.period} --measure ${state.measure}`;
+}
+const everything = () => { drawSpectrum(); changed(); };
+
+async function analyse(question, done) {
+  const [bar, stop] = [$("progress"), $("stop")];
+  const buttons = [$("analyse"), $("analyse-records")];
+  buttons.forEach((button) => { button.disabled = true; });
+  stop.disabled = false;
+  bar.hidden = false;
+  bar.removeAttribute("value");
+  try {
+    await done(await send({ kind: "analyse", question }, ({ done: finished, of }) => {
+      bar.max = of;
+      bar.value = finished;
+      $("state").textContent = `${finished} of ${of} records analysed`;
+    }));
+    $("state").textContent = "";
+  } catch (error) {
+    $("state").textContent = error.message === "stopped" ? "Stopped." : error.message;
+  }
+  buttons.forEach((button) => { button.disabled = false; });
+  stop.disabled = true;
+  bar.hidden = true;
+}
+const often = (event) => {
+  if (!event.may_happen) return "cannot happen: the force does not fall after uplift";
+  const limits = event.band_per_year ? ` (90 % band ${rate(event.band_per_year[0])} to ${rate(event.band_per_year[1])})` : "";
+  if (event.per_year === 0) return `no record shows it; at most ${rate(event.at_most_per_year)} a year`;
+  return `${rate(event.per_year)} a year${limits}, ${digits(100 * event.probability)} % in ${about.years} years`;
+};
+$("analyse").onclick = () => analyse({ ask: "analyse-structure", text: toml(), at: at() }, (found) => {
+  window.ownDemand = found;
+  $("own-demand").replaceChildren(element("h3", {}, "The structure itself"), rows(
+    ["Demand", found.overturns ? "overturns more often than the return period allows" : `${metres(found.demand_m)}${band(found.demand_band_m)}`, found.overturns],
+    found.beyond_capacity && ["Exceeds its capacity", often(found.beyond_capacity)],
+    ...found.overturning.map((event) => [`Overturns, ${event.model}`, often(event)]),
+    ["Analyses", String(found.analyses)],
+  ));
+});
+$("stop").onclick = () => worker.postMessage({ kind: "stop" });
+
+// ---- the motion -----------------------------------------------------------------------------------------------------
+let moving = null;
+const drawMotion = latest(async () => {
+  if (!motions?.length) return;
+  const level = Number($("level").value);
+  const { unit, label: name } = measureOf();
+  $("level-number").textContent = `${name} ${digits(level)} ${unit}`;
+  let motion;
+  try {
+    motion = await ask({ ask: "motion", text: toml(), motion: Number($("motion").value), measure: state.measure, level });
+  } catch (error) {
+    moving = null;
+    $("peak").textContent = error.message;
+    $("stage").replaceChildren();
+    $("f-trace").replaceChildren();
+    return;
+  }
+  moving = motion;
+  window.moving = motion;
+  $("peak").textContent = motion.overturned ? "It overturns." : `Largest displacement ${metres(motion.peak_m)}.`;
+  const [low, high] = span(motion.displacement_m);
+  const reach = Math.max(Math.abs(low), Math.abs(high), 1e-3) * 1.1;
+  show("f-trace", {
+    name: "motion", high: 240, head: `${motions[Number($("motion").value)].id} scaled to ${name} ${level} ${unit}`,
+    said: `Displacement in time: ${$("peak").textContent}`, caption: `Displacement of the top under ${motions[Number($("motion").value)].id}, with the ground's acceleration (grey, to its own scale).`,
+    x: { name: "Time, s", from: 0, to: motion.time_s.at(-1) || 1 }, y: { name: "Displacement, m", from: -reach, to: reach },
+    lines: [{ x: motion.ground_m_s2.map((_, place) => place * motion.ground_step_s),
+      y: motion.ground_m_s2.map((own) => (own * 0.5 * reach) / Math.max(...motion.ground_m_s2.map(Math.abs), 1e-9)), colour: "line" },
+    { x: motion.time_s, y: motion.displacement_m }],
+    columns: { time_s: motion.time_s, displacement_m: motion.displacement_m, rotation_rad: motion.rotation_rad },
+  });
+  pose(0);
+});
+function pose(time) {
+  const of = scene();
+  const colours = palette();
+  let place = 0;
+  const { time_s: times, rotation_rad: rotations } = moving;
+  let [from, to] = [0, times.length - 1];
+  while (from < to) {
+    place = (from + to + 1) >> 1;
+    if (times[place] <= time) from = place; else to = place - 1;
+  }
+  const rotation = Math.max(-1.57, Math.min(1.57, rotations[from] ?? 0));
+  const room = of.height + of.deck;
+  const scale = Math.min(240 / room, 300 / (of.wide + 2 * of.over + room * 0.4));
+  $("stage").innerHTML = `<svg viewBox="0 0 460 300" role="img" aria-label="The ${state.kind} at ${time.toFixed(1)} s, in true shape">${groundLine(270, colours)}${bodies(of, rotation, scale, 230 - (of.wide * scale) / 2, 270, colours)}<text x="450" y="20" text-anchor="end" fill="${colours.ink}">${time.toFixed(2)} s</text></svg>`;
+}
+let playing = 0;
+$("play").onclick = () => {
+  if (playing) { cancelAnimationFrame(playing); playing = 0; $("play").textContent = "Play"; return; }
+  if (!moving) return;
+  const begin = performance.now();
+  $("play").textContent = "Pause";
+  const frame = (now) => {
+    const time = (now - begin) / 1000;
+    if (!moving || time > (moving.time_s.at(-1) ?? 0)) { playing = 0; $("play").textContent = "Play"; return; }
+    pose(time);
+    playing = requestAnimationFrame(frame);
+  };
+  playing = requestAnimationFrame(frame);
+};
+async function listMotions() {
+  try {
+    motions = await ask({ ask: "motions" });
+    $("motion").replaceChildren(...motions.map((own, place) => element("option", { value: place }, `${own.id}: PGV ${digits(own.pgv_cm_s)} cm/s, PGA ${digits(own.pga_g)} g, ${digits(own.duration_s)} s`)));
+  } catch (error) {
+    motions = [];
+    $("peak").textContent = error.message;
+  }
+  drawMotion();
+}
+
+// ---- files ----------------------------------------------------------------------------------------------------------
+const say = (text) => { $("state").textContent = text; };
+let curves = [];
+function offer(found) {
+  curves.push(...found.filter((curve) => about.measures.some((own) => own.key === curve.measure)));
+  const refusedCurves = found.filter((curve) => !curves.includes(curve));
+  if (refusedCurves.length) say(`There are no stripes by the measure of ${refusedCurves.map((curve) => curve.label).join(", ")}.`);
+  $("found").hidden = !curves.length;
+  const chosen = new Set();
+  $("found-list").replaceChildren(...curves.map((curve) => {
+    const box = element("input", { type: "checkbox", value: curve.place });
+    box.checked = !chosen.has(curve.measure);
+    chosen.add(curve.measure);
+    return element("div", {}, element("label", {}, box, ` ${curve.label}, ${curve.points} points, ${curve.unit}`));
+  }));
+}
+const bytes = async (file) => new Uint8Array(await file.arrayBuffer());
+async function takeCurves(files) {
+  for (const file of files) {
+    try {
+      const content = await bytes(file);
+      const name = /(pgv|pga)/i.exec(file.name)?.[0].toLowerCase();
+      offer(await ask({ ask: "curves", name: file.name, measure: name ?? state.measure }, content));
+    } catch (error) { say(error.message); }
+  }
+}
+async function takeRecords(files) {
+  for (const file of files) {
+    try {
+      const { format, records } = await ask({ ask: "record", name: file.name }, await bytes(file));
+      $("dropped").hidden = false;
+      $("dropped-count").textContent = `${records} ${records === 1 ? "record" : "records"} (${format}).`;
+    } catch (error) { say(error.message); }
+  }
+  await listMotions();
+}
+async function takeStripes([file]) {
+  if (!file) return;
+  try {
+    const content = await bytes(file);
+    await settle(await ask({ ask: "stripes" }, content));
+    say(`${file.name} is shown.`);
+  } catch (error) { say(error.message); }
+}
+// what a dropped file is: an exported result, a hazard curve, else a record
+async function take(files) {
+  $("own").open = true;
+  for (const file of files) {
+    const head = new TextDecoder().decode((await bytes(file)).slice(0, 4000));
+    if (/^\s*\{\s*"format":\s*"uplift-web/.test(head)) await takeStripes([file]);
+    else if (/hazard|\bpoe|\bmaf\b|iml|imtls|xvalues/i.test(head) || /\.(nrml|xml|json)$/i.test(file.name)) await takeCurves([file]);
+    else await takeRecords([file]);
+  }
+}
+$("files-hazard").onchange = (event) => takeCurves(event.target.files);
+$("files-records").onchange = (event) => takeRecords(event.target.files);
+$("files-stripes").onchange = (event) => takeStripes(event.target.files);
+$("take-paste").onclick = () => takeCurves([new File([$("paste").value], "pasted curve")]);
+$("take-found").onclick = async () => {
+  const places = [...$("found-list").querySelectorAll("input:checked")].map((box) => Number(box.value));
+  try {
+    const { notes, about: now } = await ask({ ask: "site", name: "Your site", curves: places });
+    state.site = "Your site";
+    await settle(now);
+    say(notes.join(" "));
+  } catch (error) { say(error.message); }
+};
+$("analyse-records").onclick = () => analyse({ ask: "analyse-records" }, settle);
+$("forget-records").onclick = async () => {
+  await ask({ ask: "no-records" });
+  $("dropped").hidden = true;
+  await settle(await send({ kind: "restart" }));
+};
+for (const kind of ["dragover", "dragleave", "drop"]) addEventListener(kind, (event) => {
+  event.preventDefault();
+  document.body.classList.toggle("over", kind === "dragover");
+  if (kind === "drop") take([...event.dataTransfer.files]);
+});
+
+// ---- what is taken along --------------------------------------------------------------------------------------------
+$("save-study").onclick = async () => {
+  const { files } = await ask({ ask: "study", ...at() });
+  for (const [name, text] of Object.entries(files)) save(name, text);
+};
+$("save-structure").onclick = () => save("structure.toml", toml());
+$("save-link").onclick = async () => {
+  writeLink();
+  try { await navigator.clipboard.writeText(location.href); say("The link is copied."); } catch { say(location.href); }
+};
+$("print").onclick = () => print();
+
+// ---- controls -------------------------------------------------------------------------------------------------------
+async function settle(now) {
+  about = now;
+  if (!about.sites.some((own) => own.name === state.site)) state.site = (about.sites.find((own) => own.name === "Athens") ?? about.sites[0])?.name;
+  $("site").replaceChildren(...about.sites.map((own) => element("option", {}, own.name)));
+  $("site").value = state.site;
+  measures();
+  const { strengths } = about;
+  const nearest = strengths.reduce((best, own, place) => (Math.abs(own - state.strength) < Math.abs(strengths[best] - state.strength) ? place : best), 0);
+  state.strength = strengths[nearest];
+  $("strength").max = strengths.length - 1;
+  $("strength").value = nearest;
+  $("strength-number").textContent = state.strength;
+  $("synthetic").hidden = !about.synthetic;
+  $("provenance").textContent = about.provenance;
+  everything();
+  listMotions();
+}
+function measures() {
+  const there = about.sites.find((own) => own.name === state.site)?.measures ?? [];
+  const known = about.measures.filter((own) => there.includes(own.key));
+  if (!known.some((own) => own.key === state.measure)) state.measure = known[0]?.key;
+  $("measure").replaceChildren(...known.map((own) => element("option", { value: own.key }, own.label)));
+  $("measure").value = state.measure;
+  const { levels } = measureOf();
+  const reach = span(levels);
+  $("level").min = reach[0];
+  $("level").max = reach[1];
+  $("level").value = reach[1] * 0.3;
+}
+$("site").onchange = () => { state.site = $("site").value; measures(); everything(); };
+$("measure").onchange = () => { state.measure = $("measure").value; measures(); everything(); };
+const setPeriod = (value, from) => {
+  state.period = Number(Math.min(1e5, Math.max(20, value)).toPrecision(4));
+  if (from !== "range") $("period").value = Math.log10(state.period);
+  if (from !== "number") $("period-number").value = state.period;
+};
+$("period").oninput = () => { setPeriod(10 ** Number($("period").value), "range"); everything(); };
+$("period-number").onchange = () => { setPeriod(Number($("period-number").value) || 475); everything(); };
+$("strength").oninput = () => {
+  state.strength = about.strengths[Number($("strength").value)];
+  $("strength").setAttribute("aria-valuetext", String(state.strength));
+  $("strength-number").textContent = state.strength;
+  writeLink();
+  drawSpectrum();
+};
+$("level").oninput = drawMotion;
+$("motion").onchange = drawMotion;
+for (const box of document.querySelectorAll("[name=kind]")) box.onchange = () => { state.kind = box.value; fields(); changed(); };
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", everything);
+// another link is another state
+addEventListener("hashchange", () => { readLink(); begin(); settle(about); });
+function begin() {
+  document.querySelector(`[name=kind][value=${state.kind}]`).checked = true;
+  setPeriod(state.period);
+  fields();
+}
+(async () => {
+  const started = performance.now();
+  readLink();
+  begin();
+  try {
+    const now = await send({ kind: "start", module: bytesOf("module"), stripes: bytesOf("stripes") });
+    document.querySelector("main").hidden = false;
+    await settle(now);
+    say("");
+    window.ready = performance.now() - started;
+  } catch (error) {
+    say(`The page could not start: ${error.message}`);
+  }
+})();
