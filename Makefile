@@ -23,7 +23,7 @@ export CARGO_INCREMENTAL ?= 0
 endif
 
 .PHONY: run build install wheel dist test tests-built test-long check test-cluster torture doc-figures doc-outputs \
-	lint docs book python sbom notices bench coverage fuzz clean
+	lint docs book web python sbom notices bench coverage fuzz clean
 
 run: build
 	$(UPLIFT) run $(STUDY) $(SET) -o $(OUTPUT)
@@ -110,6 +110,7 @@ lint:
 	.ci/check-dependencies
 	cargo fmt --all --check
 	cargo fmt --manifest-path python/Cargo.toml --check
+	cargo fmt --manifest-path web/Cargo.toml --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 
 # Documentation of the code, without warnings; every example in it runs.
@@ -120,6 +121,12 @@ docs:
 # The documents as one searchable book, target/book/index.html: no warning, no broken link, nothing from other hosts.
 book:
 	.ci/build-book
+
+# The calculator in the browser, web/dist/index.html (docs/browser.md), by the program of `make build` or another one:
+# `make web UPLIFT=target/debug/uplift`.
+web:
+	@[ -x $(UPLIFT) ] || $(MAKE) --no-print-directory build
+	web/build $(UPLIFT)
 
 # Python reads the result files in the tests; without it those tests say that they were skipped.
 python:
@@ -170,3 +177,4 @@ fuzz/%:
 clean:
 	cargo clean
 	rm -rf .venv .tools results dist crates/*/fuzz/target python/target python/dist python/uplift_urs._native.data
+	rm -rf web/target web/dist
