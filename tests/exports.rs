@@ -159,3 +159,30 @@ fn what_has_one_hazard_curve_is_exported_as_ever() {
     assert!(json(&study).get("consistency").is_none());
     assert!(!sheets(&study).contains("Consisten") && !matlab_has(&study, "consisten"));
 }
+
+#[test]
+fn the_page_gets_stripes_hazard_and_warnings_without_a_path() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.uplift(&["export", "r.h5", "--web", "-q"]).ok();
+    let text = std::fs::read_to_string(study.path().join("r.web.json")).unwrap();
+    assert!(!text.contains(study.path().to_str().unwrap()), "a path of this machine");
+    let page: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!((page["format"].as_str(), page["synthetic"].as_bool()), (Some("uplift-web-1"), Some(true)));
+    let result = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+    let (records, strengths) = (page["records"].as_array().unwrap().len(), result.axis_f64("strength").unwrap().len());
+    for own in page["measures"].as_array().unwrap() {
+        let (levels, peaks_m) = (own["levels"].as_array().unwrap(), own["peaks_m"].as_array().unwrap());
+        assert_eq!(peaks_m.len(), records * strengths * levels.len());
+        let stored = result.array_f64(&format!("/ida/{}/edp_m", own["im"].as_str().unwrap())).unwrap().values;
+        // an infinite peak is null
+        let same = |(a, b): (&Value, &f64)| a.as_f64() == Some(*b).filter(|peak_m| peak_m.is_finite());
+        assert!(peaks_m.iter().zip(&stored).all(same));
+    }
+    let shown =
+        study.uplift(&["spectrum", "r.h5", "--site", page["sites"][0]["name"].as_str().unwrap(), "--json"]).ok();
+    let shown: Value = serde_json::from_str(&shown.stdout).unwrap();
+    assert_eq!(page["sites"][0]["curves"][0]["alarms"], shown["alarms"]);
+    // it is the program's own, and may be written again
+    study.uplift(&["export", "r.h5", "--web", "-q"]).ok();
+}

@@ -38,10 +38,15 @@ const digits = (value, most = 2) => {
   const whole = Number(value.toPrecision(Math.abs(value) >= 100 ? 3 : most));
   return Math.abs(whole) < 1e-4 || Math.abs(whole) >= 1e6 ? whole.toExponential() : String(whole);
 };
-const metres = (value) => (value === null || value === undefined ? "no limit" : `${digits(value)} m`);
+// with their zeros: 0.20
+const length = (value) => {
+  const text = value.toPrecision(Math.abs(value) >= 100 ? 3 : 2);
+  return value === 0 || /e/.test(text) ? digits(value) : text;
+};
+const metres = (value) => (value === null || value === undefined ? "no limit" : `${length(value)} m`);
 const band = (limits) => limits && limits[1] !== null
-  ? ` (90 % band ${digits(limits[0])} to ${digits(limits[1])} m)`
-  : limits && limits[0] !== null ? ` (90 % band from ${digits(limits[0])} m, no upper limit)` : "";
+  ? ` (90 % band ${length(limits[0])} to ${length(limits[1])} m)`
+  : limits && limits[0] !== null ? ` (90 % band from ${length(limits[0])} m, no upper limit)` : "";
 const rate = (value) => (value === 0 ? "0" : value.toExponential(1).replace("e", "·10^").replace("+", ""));
 const element = (tag, attributes = {}, ...children) => {
   const made = document.createElement(tag);
@@ -206,7 +211,7 @@ const span = (values, log) => {
 
 // ---- the spectrum ---------------------------------------------------------------------------------------------------
 const measureOf = () => about.measures.find((own) => own.key === state.measure);
-const whereWords = () => `${state.site}, ${digits(state.period, 3)} years, by ${measureOf().label}`;
+const whereWords = () => `${state.site}, ${state.period} years, by ${measureOf().label}`;
 const drawSpectrum = latest(async () => {
   let spectrum;
   let point;
@@ -220,7 +225,7 @@ const drawSpectrum = latest(async () => {
   const { unit, label: name } = measureOf();
   const probability = digits(100 * spectrum.risk.poe, 3);
   const value = point.u_m === null ? "No displacement has this risk: it is exceeded more often" : metres(point.u_m) + band(point.band_m);
-  $("answer").replaceChildren(value, element("small", {}, `${state.site}, strength ${state.strength}, ${digits(state.period, 3)} years (${probability} % in ${spectrum.risk.years} years), by ${name}`));
+  $("answer").replaceChildren(value, element("small", {}, `${state.site}, strength ${state.strength}, ${state.period} years (${probability} % in ${spectrum.risk.years} years), by ${name}`));
   const head = `${about.provenance}; ${whereWords()}`;
   const [low, high] = span([...spectrum.u_m, ...spectrum.upper_m], true);
   show("f-spectrum", {
@@ -234,8 +239,8 @@ const drawSpectrum = latest(async () => {
   });
   const { levels, maf_per_year: rates, level } = spectrum.hazard;
   show("f-hazard", {
-    name: "hazard", head, said: `Hazard curve of ${state.site}: ${level === null ? "no level" : `${digits(level)} ${unit}`} once in ${digits(state.period, 3)} years`,
-    caption: `Hazard curve. The point is ${level === null ? "outside the curve" : `${digits(level)} ${unit}, exceeded`} once in ${digits(state.period, 3)} years.`,
+    name: "hazard", head, said: `Hazard curve of ${state.site}: ${level === null ? "no level" : `${digits(level)} ${unit}`} once in ${state.period} years`,
+    caption: `Hazard curve. The point is ${level === null ? "outside the curve" : `${digits(level)} ${unit}, exceeded`} once in ${state.period} years.`,
     x: { name: `${name}, ${unit}`, from: levels[0], to: levels.at(-1), log: true },
     y: { name: "Annual rate of exceedance", from: Math.max(Math.min(...rates), 1e-7), to: Math.max(...rates), log: true },
     lines: [{ x: levels, y: rates }], points: [{ x: level, y: 1 / state.period }],
@@ -411,7 +416,7 @@ const often = (event) => {
   if (event.per_year === 0) return `no record shows it; at most ${rate(event.at_most_per_year)} a year`;
   return `${rate(event.per_year)} a year${limits}, ${digits(100 * event.probability)} % in ${about.years} years`;
 };
-$("analyse").onclick = () => analyse({ ask: "analyse-structure", text: toml(), at: at() }, (found) => {
+$("analyse").onclick = () => analyse({ ask: "analyse-structure", text: toml(), at: at(), block: $("with-block").checked }, (found) => {
   window.ownDemand = found;
   $("own-demand").replaceChildren(element("h3", {}, "The structure itself"), rows(
     ["Demand", found.overturns ? "overturns more often than the return period allows" : `${metres(found.demand_m)}${band(found.demand_band_m)}`, found.overturns],

@@ -54,16 +54,21 @@ impl Analysis {
         Ok(Self::new(study, (systems, measures), (records, study.oscillator.free_vibration), Purpose::Records))
     }
 
-    /// Of a structure, by the measure of `at`: its equivalent oscillator, and the block that rotates as it does where
-    /// there is one.
-    pub(crate) fn of_structure(stripes: &Stripes, motions: &mut Motions, text: &str, at: &At) -> Answer<Self> {
+    /// Of a structure, by the measure of `at`: its equivalent oscillator, and where it is asked for and there is one,
+    /// the block that rotates as it does.
+    pub(crate) fn of_structure(
+        stripes: &Stripes,
+        motions: &mut Motions,
+        (text, with_block): (&str, bool),
+        at: &At,
+    ) -> Answer<Self> {
         let structure = parse(text)?;
         let of = stripes.place(at)?.of;
         let own = structure.description.restitution;
         let restitution = own.unwrap_or(stripes.study.oscillator.restitution);
         let oscillator = structure.system.spectral_oscillator(restitution).map_err(refused)?;
         let mut systems = vec![System::Oscillator(oscillator)];
-        if let Some(block) = structure.block
+        if let Some(block) = structure.block.filter(|_| with_block)
             && let Ok(rocking) = RockingBlock::new(block.size_m, block.slenderness_rad)
         {
             let rocking = rocking

@@ -46,8 +46,8 @@ enum Question {
     Motion { text: String, motion: usize, measure: String, level: f64 },
     /// Begins the analysis of the dropped records.
     AnalyseRecords,
-    /// Begins the analysis of a structure.
-    AnalyseStructure { text: String, at: At },
+    /// Begins the analysis of a structure, and of the block that rotates as it does.
+    AnalyseStructure { text: String, at: At, block: bool },
     /// Goes on with what was begun, by one record.
     Step,
     /// Ends what was begun.
@@ -163,9 +163,9 @@ impl Calculator {
                 let stripes = self.stripes.as_ref().ok_or(NO_STRIPES)?;
                 self.begin(Analysis::of_records(stripes, &self.motions)?)
             }
-            Question::AnalyseStructure { text, at } => {
+            Question::AnalyseStructure { text, at, block } => {
                 let stripes = self.stripes.as_mut().ok_or(NO_STRIPES)?;
-                let analysis = Analysis::of_structure(stripes, &mut self.motions, &text, &at)?;
+                let analysis = Analysis::of_structure(stripes, &mut self.motions, (&text, block), &at)?;
                 self.begin(analysis)
             }
             Question::Step => {

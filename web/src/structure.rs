@@ -1,5 +1,6 @@
 //! A structure: what the rules of design make of the spectrum, and how it moves.
 
+use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -123,6 +124,9 @@ pub(crate) fn motion(text: &str, ground: Accelerogram) -> Answer<Value> {
     } else {
         return Err("only columns with flat ends and blocks have a motion here".to_owned());
     };
+    // what lies on its side moves no more
+    let standing = rows.iter().position(|row| row[1].abs() > FRAC_PI_2).unwrap_or(rows.len());
+    let rows = &rows[..standing];
     let every = rows.len().div_ceil(MOST_ROWS).max(1);
     let of = |value: usize| rows.iter().step_by(every).map(|row| row[value]).collect::<Vec<_>>();
     let peak_m = rows.iter().map(|row| row[2].abs()).fold(0.0, f64::max);

@@ -99,10 +99,9 @@ pub struct ExportReport {
 /// overwrite the result or what is not this program's, or cannot be written.
 pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportReport, ExportsError> {
     if options.formats.is_empty() || (options.output.is_some() && options.formats.len() > 1) {
-        return Err(JobError::Usage(
-            "give a format: --csv, --json, --mat, --xlsx or --web (one of them with -o)".to_owned(),
-        )
-        .into());
+        return Err(
+            JobError::Usage("give a format: --csv, --json, --mat, --xlsx or --web (with -o one)".to_owned()).into()
+        );
     }
     let result = ResultFile::open(&options.result)?;
     let kind = result.kind();
