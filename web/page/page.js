@@ -276,7 +276,9 @@ function toml() {
 }
 // lengths of the drawing: those of the structure, and what no structure tells
 function scene() {
-  const { width_m: width = 1, height_m: height = 1, columns = 1 } = own();
+  // what cannot be drawn is refused by the module, with its message
+  const [width, height] = [own().width_m, own().height_m].map((length) => (length > 0 && length < 1e4 ? length : 1));
+  const { columns = 1 } = own();
   const deck = own().deck_mass_kg === undefined ? 0 : Math.min(0.12 * height, Math.max(0.05 * height, 0.5 * width));
   const shown = Math.min(5, Math.max(1, Math.round(columns) || 1));
   const spacing = width + Math.max(1.6 * width, 0.28 * height);
