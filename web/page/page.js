@@ -621,7 +621,7 @@ function measures() {
   const reach = span(levels);
   $("level").min = reach[0];
   $("level").max = reach[1];
-  $("level").value = reach[1] * 0.3;
+  $("level").value = reach[1] * 0.15;
 }
 $("site").onchange = () => { state.site = $("site").value; measures(); everything(); };
 $("measure").onchange = () => { state.measure = $("measure").value; measures(); everything(); };
