@@ -583,8 +583,9 @@ for (const kind of ["dragover", "dragleave", "drop"]) addEventListener(kind, (ev
 
 // ---- what is taken along --------------------------------------------------------------------------------------------
 $("save-study").onclick = async () => {
-  const { files } = await ask({ ask: "study", ...at() });
+  const { files, runs_as_it_is: runs } = await ask({ ask: "study", ...at() });
   for (const [name, text] of Object.entries(files)) save(name, text);
+  if (!runs) say("The study reads its records from where they were: correct records.manifest.");
 };
 $("save-structure").onclick = () => save("structure.toml", toml());
 $("save-link").onclick = async () => {

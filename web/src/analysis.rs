@@ -121,14 +121,14 @@ impl Analysis {
         match &self.purpose {
             Purpose::Records => {
                 let records: Vec<String> = motions.dropped().iter().map(|own: &Motion| own.id().to_owned()).collect();
-                let set = format!("{} record files, dropped on this page", records.len());
+                let manifest = motions.dropped().iter().map(Motion::row).collect();
                 let units: Vec<Vec<usize>> = (0..records.len()).map(|record| vec![record]).collect();
                 let measure = |(plan, peaks_m): (&(IntensityMeasure, Vec<f64>), &Vec<f64>)| {
                     let peaks = (records.len(), self.systems.len(), &peaks_m[..]);
                     Measure::new(plan.clone(), ("records".to_owned(), units.clone()), peaks)
                 };
                 let measures = self.measures.iter().zip(&self.peaks_m).map(measure).collect::<Answer<Vec<_>>>()?;
-                stripes.replace(records, set, measures);
+                stripes.replace(records, manifest, measures);
                 Ok(stripes.about())
             }
             Purpose::Structure(structure, at) => self.of_structure_at(structure, stripes, at),

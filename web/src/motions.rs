@@ -18,8 +18,8 @@ const MOST_DROPPED: usize = 200;
 pub(crate) enum Motion {
     /// A component of a pair, whose measure is that of both.
     OfPair(Box<RecordPair>, Horizontal),
-    /// A component alone, whose measure is its own.
-    Alone(String, Accelerogram),
+    /// A component alone, whose measure is its own, by its name and its number in a file of several.
+    Alone(String, Accelerogram, Option<usize>),
 }
 
 impl Motion {
@@ -27,15 +27,28 @@ impl Motion {
     pub(crate) fn id(&self) -> &str {
         match self {
             Self::OfPair(pair, _) => &pair.id,
-            Self::Alone(id, _) => id,
+            Self::Alone(id, ..) => id,
         }
+    }
+
+    /// Its row of a manifest: name, file and number of the component, twice, since a manifest has pairs.
+    pub(crate) fn row(&self) -> String {
+        let (id, number) = match self {
+            Self::OfPair(pair, _) => (&pair.id, None),
+            Self::Alone(id, _, number) => (id, *number),
+        };
+        let number = number.map_or_else(String::new, |number| number.to_string());
+        let file = id.strip_suffix(&format!(":{number}")).unwrap_or(id);
+        let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
+        let (id, file) = (quoted(id), quoted(file));
+        format!("{id},{file},{number},{file},{number}\n")
     }
 
     /// What shakes.
     pub(crate) fn accelerogram(&self) -> &Accelerogram {
         match self {
             Self::OfPair(pair, which) => pair.component(*which),
-            Self::Alone(_, accelerogram) => accelerogram,
+            Self::Alone(_, accelerogram, _) => accelerogram,
         }
     }
 
@@ -43,7 +56,7 @@ impl Motion {
     pub(crate) fn intensity(&self, measure: IntensityMeasure, gravity_m_s2: f64) -> f64 {
         match self {
             Self::OfPair(pair, _) => measure.of_pair(pair, gravity_m_s2),
-            Self::Alone(_, accelerogram) => measure.of_component(accelerogram, gravity_m_s2),
+            Self::Alone(_, accelerogram, _) => measure.of_component(accelerogram, gravity_m_s2),
         }
     }
 }
@@ -90,8 +103,9 @@ impl Motions {
         let horizontal = read.recordings.into_iter().enumerate().filter(|(_, own)| is_horizontal(own));
         let added: Vec<Motion> = horizontal
             .map(|(place, own)| {
-                let id = if several { format!("{name}:{}", place + 1) } else { name.to_owned() };
-                Motion::Alone(id, own.accelerogram)
+                let number = several.then_some(place + 1);
+                let id = number.map_or_else(|| name.to_owned(), |number| format!("{name}:{number}"));
+                Motion::Alone(id, own.accelerogram, number)
             })
             .collect();
         if added.is_empty() {

@@ -14,6 +14,8 @@ use crate::calculator::{Answer, At, Risk, refused};
 
 /// What `uplift export --web` calls its files.
 const FORMAT: &str = "uplift-web-1";
+/// Fewer records are a warning (Section 4.5.1).
+const FEW_RECORDS: usize = 40;
 /// How often a band is to hold the displacement of all records like those at hand, as `uplift spectrum` has it.
 pub(crate) const CONFIDENCE: f64 = 0.9;
 
@@ -123,6 +125,8 @@ pub(crate) struct Stripes {
     pub(crate) study_text: String,
     pub(crate) measures: Vec<Measure>,
     pub(crate) sites: Vec<Site>,
+    /// The rows of a manifest of records that were dropped.
+    pub(crate) manifest: Option<String>,
 }
 
 /// Stripes and hazard of one measure at a site.
@@ -169,6 +173,7 @@ impl Stripes {
             study_text: read.study,
             measures,
             sites: Vec::new(),
+            manifest: None,
         };
         for site in read.sites {
             let mut curves = Vec::new();
@@ -240,12 +245,18 @@ impl Stripes {
         found.into_iter().cloned().collect()
     }
 
-    /// Puts the stripes of other records in the place of these; what was warned of no longer holds.
-    pub(crate) fn replace(&mut self, records: Vec<String>, record_set: String, measures: Vec<Measure>) {
+    /// Puts the stripes of records that were dropped in the place of these; what was warned of no longer holds.
+    pub(crate) fn replace(&mut self, records: Vec<String>, manifest: String, measures: Vec<Measure>) {
+        let record_set = format!("{} record files, dropped on this page", records.len());
         self.provenance.clone_from(&record_set);
+        self.manifest = Some(manifest);
+        // as the program has it
+        let few = json!([{ "severity": "caution", "kind": "few-records", "subject": "Few records", "also": [],
+            "what": format!("{} ({FEW_RECORDS} advised)", records.len()), "what_to_do": "Drop more" }]);
+        let alarms = if records.len() < FEW_RECORDS { few } else { json!([]) };
         (self.record_set, self.records, self.measures, self.synthetic) = (record_set, records, measures, false);
         for curve in self.sites.iter_mut().flat_map(|site| &mut site.curves) {
-            curve.alarms = json!([]);
+            curve.alarms.clone_from(&alarms);
         }
     }
 

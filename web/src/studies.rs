@@ -35,15 +35,14 @@ pub(crate) fn files(stripes: &Stripes, at: &At) -> Answer<Value> {
         of.insert("years".to_owned(), risk.years.into());
     }
     let is_made = matches!(stripes.study.records.source, RecordSource::Synthetic { .. });
-    let dropped = stripes.record_set.ends_with("dropped on this page");
-    if dropped {
+    if let Some(rows) = &stripes.manifest {
         // the program reads the files that were dropped, from the folder of the study
-        let rows = stripes.records.iter().map(|id| format!("{id},{id}\n")).collect::<String>();
-        files.insert("records.csv".to_owned(), format!("record_id,file_h1\n{rows}").into());
+        let head = "record_id,file_h1,channel_h1,file_h2,channel_h2\n";
+        files.insert("records.csv".to_owned(), format!("{head}{rows}").into());
         let records = Table::from_iter([("manifest".to_owned(), Toml::from("records.csv"))]);
         study.insert("records".to_owned(), records.into());
     }
     let text = toml::to_string(&study).map_err(refused)?;
     files.insert("study.toml".to_owned(), text.into());
-    Ok(json!({ "files": files, "runs_as_it_is": is_made || dropped }))
+    Ok(json!({ "files": files, "runs_as_it_is": is_made || stripes.manifest.is_some() }))
 }
