@@ -14,6 +14,7 @@ use crate::stripes::Stripes;
 pub(crate) type Answer<T> = Result<T, String>;
 
 /// The message of an error.
+#[expect(clippy::needless_pass_by_value, reason = "what `map_err` hands over")]
 pub(crate) fn refused(error: impl ToString) -> String {
     error.to_string()
 }
@@ -157,16 +158,17 @@ impl Calculator {
                 crate::structure::design(self.stripes.as_mut(), &text, at.as_ref(), safety_factor)
             }
             Question::Motion { text, motion, measure, level } => {
-                crate::structure::motion(&text, self.motions.scaled(motion, &measure, level)?)
+                crate::structure::motion(&text, &self.motions.scaled(motion, &measure, level)?)
             }
             Question::AnalyseRecords => {
                 let stripes = self.stripes.as_ref().ok_or(NO_STRIPES)?;
-                self.begin(Analysis::of_records(stripes, &self.motions)?)
+                let analysis = Analysis::of_records(stripes, &self.motions)?;
+                Ok(self.begin(analysis))
             }
             Question::AnalyseStructure { text, at, block } => {
                 let stripes = self.stripes.as_mut().ok_or(NO_STRIPES)?;
                 let analysis = Analysis::of_structure(stripes, &mut self.motions, (&text, block), &at)?;
-                self.begin(analysis)
+                Ok(self.begin(analysis))
             }
             Question::Step => {
                 let analysis = self.analysis.as_mut().ok_or("nothing was begun")?;
@@ -185,10 +187,10 @@ impl Calculator {
         }
     }
 
-    fn begin(&mut self, analysis: Analysis) -> Answer<Value> {
+    fn begin(&mut self, analysis: Analysis) -> Value {
         let of = analysis.records;
         self.analysis = Some(analysis);
-        Ok(json!({ "done": 0, "of": of }))
+        json!({ "done": 0, "of": of })
     }
 
     fn stripes(&mut self) -> Answer<&mut Stripes> {

@@ -58,6 +58,7 @@ struct ExportedMeasure {
 }
 
 /// Stripes of one measure.
+#[expect(clippy::struct_field_names, reason = "the measure itself")]
 pub(crate) struct Measure {
     pub(crate) measure: IntensityMeasure,
     /// In the unit of the measure, ascending.

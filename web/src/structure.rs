@@ -98,7 +98,7 @@ pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>,
 }
 
 /// The motion of a structure under a record: the block that rotates as it does, or the frame in its plane.
-pub(crate) fn motion(text: &str, ground: Accelerogram) -> Answer<Value> {
+pub(crate) fn motion(text: &str, ground: &Accelerogram) -> Answer<Value> {
     let structure = parse(text)?;
     let own = structure.description.restitution;
     // time, rotation, displacement of the top or the deck, its rise
@@ -108,7 +108,7 @@ pub(crate) fn motion(text: &str, ground: Accelerogram) -> Answer<Value> {
             .and_then(|block| block.with_restitution(own.unwrap_or(of.restitution)))
             .map_err(refused)?;
         let free = FreeRocking::Lasting { duration_s: 2.0 };
-        let (response, history) = uplift_block::respond_with_history(&block, &ground, free).map_err(refused)?;
+        let (response, history) = uplift_block::respond_with_history(&block, ground, free).map_err(refused)?;
         let row = |row: &uplift_block::HistoryRow| {
             [row.time_s, row.rotation_rad, block.top_displacement_m(row.rotation_rad), f64::NAN]
         };
@@ -116,7 +116,7 @@ pub(crate) fn motion(text: &str, ground: Accelerogram) -> Answer<Value> {
     } else if let Some(frame) = structure.rocking_frame() {
         let frame = frame.map_err(refused)?;
         let options = Options { restitution: own, ..Options::default() };
-        let shaking = GroundMotion::along_x(&ground);
+        let shaking = GroundMotion::along_x(ground);
         let (response, history) =
             uplift_frame::respond_with_history(&frame, &shaking, Model::Planar, &options).map_err(refused)?;
         let row = |row: &uplift_frame::HistoryRow| [row.time_s, row.rotation_rad, row.displacement_x_m, row.rise_m];
