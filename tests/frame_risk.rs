@@ -316,6 +316,11 @@ fn a_case_known_by_hand() {
     let expected = 0.5 * share * (rate(0.12) - rate(0.3)) + share * (rate(0.3) - rate(0.8)) + share * rate(0.8);
     let found = number(&report["overturning"]["per_year"]);
     assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    // three records tell little
+    let [lower, upper] = [0, 1].map(|end| number(&report["overturning"]["bands"]["by_record"][end]));
+    assert!(lower < 0.5 * found && upper > 1.2 * found, "{lower} {found} {upper}");
+    let line = run.stdout.lines().find(|line| line.starts_with("Overturning")).unwrap();
+    assert!(line.contains(" per year (") && line.contains(" to "), "{line}");
     assert_eq!(report["direction"]["wobbling_overturns"], 0);
     assert!(report["alarms"].to_string().contains("of the risk lies above the last level, 0.8 g"));
 }

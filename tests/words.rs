@@ -47,7 +47,7 @@ fn runs_and_questions_print_few_words() {
     // of many warnings three are shown, a short line each
     let (_, warnings) = run.split_once("\nWarnings\n").unwrap();
     let warnings: Vec<&str> = warnings.lines().take_while(|line| line.starts_with("  ")).collect();
-    assert!(warnings.len() == 4 && warnings[3].ends_with(" more: --details"), "{run}");
+    assert!(warnings.len() == 4 && warnings[3].ends_with(" more: uplift warnings r.h5"), "{run}");
     assert!(warnings.iter().all(|line| line.split_whitespace().count() <= 28), "{run}");
 
     brief(&study, "spectrum r.h5", 120);

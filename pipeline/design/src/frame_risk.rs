@@ -14,17 +14,18 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_bootstrap::{ResamplingPlan, Unit};
-use uplift_fragility::LognormalFit;
+use uplift_fragility::{LognormalFit, Stripes};
 use uplift_frame::Model;
 use uplift_ida::Shard;
 use uplift_motion::IntensityMeasure;
+use uplift_risk::PooledDemand;
 use uplift_structure::Rule;
 use uplift_study::Structure;
 
 pub use demand::{Banded, ModelDemand, RiskPoint};
 pub use edps::{DirectionEffect, EventReport, StateAtDemand};
 
-use super::certainty::{Bands, Scatter};
+use super::certainty::{Bands, Scatter, rate_bands};
 use super::collapse::{Collapse, collapse};
 use super::design::{DesignOptions, design};
 use super::hazard::Hazard;
@@ -32,7 +33,7 @@ use super::lognormal::lognormal_bands;
 use super::opening::{Place, check_tables, choose_measure, job_name, study_with_common_records};
 use super::own_frame::loss;
 use super::report::{ReportSource, StructureReport};
-use super::risk::own_risk;
+use super::risk::{OVERTURNING_M, own_risk};
 use super::weights::RepairedWeights;
 use crate::error::DesignError;
 use analysis::{Demands, FrameAnalysis};
@@ -137,7 +138,9 @@ pub struct FrameOverturning {
     pub beta: Option<f64>,
     /// Frequency with that fragility in place of the counts, 1/yr.
     pub lognormal_per_year: Option<f64>,
-    /// Its confidence band by the records; none without a fit, where that hangs on one record, and of a single one.
+    /// Confidence band of the frequency from the counts, by the records; none where no run overturns.
+    pub bands: Option<Bands>,
+    /// That of the frequency by the fit; none without a fit, where that hangs on one record, and of a single one.
     pub lognormal_bands: Option<Bands>,
     /// The fit itself.
     #[serde(skip)]
@@ -207,6 +210,8 @@ pub fn frame_risk(
         overturning.repaired = collapse(levels, (own_m, &pairs), &[(weights, repaired)], years, true)?.repaired;
     }
     let hazard = Hazard::from_file(&file, (place.name, site), (measure, &source.study))?;
+    let counted = PooledDemand::new(&Stripes::new(levels, own_m)?)?;
+    let bands = rate_bands(&counted, (&hazard, None), scatter, OVERTURNING_M)?;
     let mut of_fit = lognormal_bands((levels, own_m), &[hazard], scatter)?;
     let scope = Scope { measure: Some(measure.measure()), ..Scope::default() };
     let mut alarms = alarms_of_inputs(&file, &scope)?;
@@ -235,7 +240,7 @@ pub fn frame_risk(
         direction: demands.wobbling_m.is_some().then(|| DirectionEffect::from_peaks(&demands.directions_m)),
         notes: notes(&analysis, (structure, &demands), &source, &overturning),
         demands: rows,
-        overturning: FrameOverturning::from_collapse(&overturning, of_fit.pop().flatten()),
+        overturning: FrameOverturning::from_collapse(&overturning, [bands, of_fit.pop().flatten()]),
         alarms: ranked(alarms),
         files: Vec::new(),
         source: ReportSource::read(&file, &source)?,
@@ -383,7 +388,7 @@ fn notes(
 }
 
 impl FrameOverturning {
-    fn from_collapse(found: &Collapse, lognormal_bands: Option<Bands>) -> Self {
+    fn from_collapse(found: &Collapse, [bands, lognormal_bands]: [Option<Bands>; 2]) -> Self {
         let fit = found.fit.as_ref().ok();
         Self {
             levels: found.counts.iter().map(|count| count.level).collect(),
@@ -393,6 +398,7 @@ impl FrameOverturning {
             theta: fit.map(|fit| fit.fragility.median()),
             beta: fit.map(|fit| fit.fragility.dispersion()),
             lognormal_per_year: found.fitted.as_ref().map(|fitted| fitted[0].per_year),
+            bands,
             lognormal_bands,
             fit: fit.copied(),
         }

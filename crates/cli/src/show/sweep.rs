@@ -87,8 +87,7 @@ fn print_displacements(
         _ => format!(", by earthquake: {}", by_earthquake.join(", ")),
     };
     let band = if is_banded { format!(" ({} band{whose})", per_cent(CONFIDENCE)) } else { String::new() };
-    writeln!(out, "\n{kind} by {im}{risk_of_all}")?;
-    writeln!(out, "Displacement, m{band}, at strength")?;
+    writeln!(out, "\n{kind} by {im}{risk_of_all}: displacement, m{band}, at strength")?;
 
     let strengths = |variant: &VariantReport| -> Vec<String> {
         let of_site = of(variant, sites.first().copied());
