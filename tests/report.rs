@@ -1,8 +1,12 @@
 //! `uplift report` and `uplift plot`: what is in them, and what a browser makes of the page.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::read::GzDecoder;
 use uplift_labelled::LabelledReader;
 
 use crate::common::{self, SmallStudy};
@@ -106,6 +110,47 @@ fn a_report_is_one_file_without_a_network() {
     study.uplift(&["report", "r.h5", "-o", "r.h5"]).fails(2, &["html"]);
     study.uplift(&["report", "absent.h5"]).fails(4, &["absent.h5"]);
     study.uplift(&["report"]).fails(2, &["RESULT"]);
+}
+
+/// What the built page of the calculator has that a report looks for.
+const CALCULATOR: &str = "<p title=\"a&amp;b\">/*</p>\n<script id=\"module\" type=\"text/plain\">AAAA</script>\n\
+     <script id=\"stripes\" type=\"text/plain\">BBBB</script>";
+
+#[test]
+fn a_report_embeds_the_calculator_with_the_stripes_of_its_result() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.write("built.html", CALCULATOR);
+    study.uplift(&["export", "r.h5", "--web", "-q"]).ok();
+    let exported = std::fs::read_to_string(study.path().join("r.web.json")).unwrap();
+    let read = || std::fs::read_to_string(study.path().join("r.html")).unwrap();
+    study.uplift(&["report", "r.h5", "-q"]).ok();
+    let plain = read();
+    assert!(!plain.contains("<iframe") && !plain.contains("wasm") && !plain.contains("blob:"));
+    study.uplift(&["report", "r.h5", "--explore", "built.html", "-q"]).ok();
+    let page = read();
+    let embedded = page.split_once("<iframe").unwrap().1.split_once("srcdoc=\"").unwrap().1.split_once('"').unwrap().0;
+    let embedded = embedded.replace("&quot;", "\"").replace("&amp;", "&");
+    let (before, after) = CALCULATOR.split_once("BBBB").unwrap();
+    let packed = embedded.strip_prefix(before).unwrap().strip_suffix(after).unwrap();
+    let mut stripes = String::new();
+    GzDecoder::new(&*STANDARD.decode(packed).unwrap()).read_to_string(&mut stripes).unwrap();
+    assert_eq!(stripes, exported.trim_end());
+    assert!(page.contains("href=\"#explore\"") && page.contains("'wasm-unsafe-eval'"));
+    study.uplift(&["report", "r.h5", "--explore", "built.html", "-q"]).ok();
+    assert_eq!(read(), page, "the same bytes again");
+
+    // what is not the built page: another page, the source of the page, a report, none; the report stays
+    study.write("source.html", &CALCULATOR.replace("BBBB", "/*STRIPES*/"));
+    study.write("empty.html", "");
+    std::fs::copy(study.path().join("r.html"), study.path().join("live.html")).unwrap();
+    for wrong in ["source.html", "empty.html", "live.html", "r.h5", "absent.html"] {
+        study.uplift(&["report", "r.h5", "--explore", wrong]).fails(4, &[wrong, "make web", "web/dist/index.html"]);
+    }
+    assert_eq!(read(), page);
+    study.uplift(&["report", "r.h5", "r.h5", "--explore", "built.html"]).fails(2, &["one result"]);
+    study.uplift(&["report", "r.h5", "--explore", "built.html", "-o", "built.html"]).fails(2, &["built.html"]);
+    assert_eq!(std::fs::read_to_string(study.path().join("built.html")).unwrap(), CALCULATOR);
 }
 
 /// The text of `page` between two marks, its tags left out.

@@ -97,7 +97,9 @@ function link() {
   for (const [key, value] of Object.entries(state.own[kind])) if (key !== "kind" && value !== undefined) all[key] = value;
   return `#${new URLSearchParams(all)}`;
 }
-const writeLink = () => history.replaceState(null, "", link());
+// a page inside a report has no address of its own
+const embedded = location.protocol === "about:";
+const writeLink = () => embedded || history.replaceState(null, "", link());
 const at = () => ({ site: state.site, measure: state.measure, return_period: state.period });
 
 // ---- charts ---------------------------------------------------------------------------------------------------------
@@ -588,6 +590,7 @@ $("save-study").onclick = async () => {
   if (!runs) say("The study reads its records from where they were: correct records.manifest.");
 };
 $("save-structure").onclick = () => save("structure.toml", toml());
+$("save-link").hidden = embedded;
 $("save-link").onclick = async () => {
   writeLink();
   try { await navigator.clipboard.writeText(location.href); say("The link is copied."); } catch { say(location.href); }

@@ -13,7 +13,7 @@ mod risk;
 mod shake_table;
 mod structures;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use minijinja::{Environment, Value, context};
 use serde::Serialize;
@@ -24,13 +24,15 @@ use structures::AskedStructure;
 use uplift::alarms::{Alarm, alarms};
 use uplift::bootstrap::resampled;
 use uplift::events::Events;
+use uplift::export::calculator;
 use uplift::outputs;
-use uplift::result::{AskedRisk, Head, Kind, ResultFile, at};
+use uplift::result::{Head, Kind, ResultFile, at};
 use uplift::text::{Table, visible};
 use uplift::{JobError, UpliftError};
 use uplift_plot::{Figure, html};
 
 use crate::figures::{FigureSource, together};
+use crate::report::ReportOptions;
 
 /// What every page begins with: its style, and how a table is written.
 pub(crate) const STYLE: &str = include_str!("page/report.css");
@@ -90,17 +92,22 @@ struct Read {
     structures: Vec<AskedStructure>,
 }
 
-/// The page on the results at `paths`, in their order and at the risks `asked` for, as HTML.
+/// The page on the results of `options`, in their order, as HTML.
 ///
 /// # Errors
-/// A result that is missing, damaged or without sites.
-pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result<String, UpliftError> {
-    let mut results = Vec::new();
-    for path in paths {
+/// A result that is missing, damaged or without sites; a page to embed that is not the calculator's.
+pub fn page(options: &ReportOptions, events: &dyn Events) -> Result<String, UpliftError> {
+    let (mut results, mut live) = (Vec::new(), None);
+    for path in &options.results {
         if events.cancelled() {
             return Err(JobError::Interrupted.into());
         }
-        results.push(read(path, &resampled(at(ResultFile::open(path)?, asked)?, events)?)?);
+        let result = resampled(at(ResultFile::open(path)?, &options.risk)?, events)?;
+        if let Some(built) = &options.explore {
+            let calculator = calculator(&result, built)?.replace('&', "&amp;").replace('"', "&quot;");
+            live = Some(Value::from_safe_string(calculator));
+        }
+        results.push(read(path, &result)?);
     }
     let heads: Vec<&Head> = results.iter().map(|of| &of.head).collect();
     let titles: Vec<&str> = results.iter().map(Read::title).collect();
@@ -147,7 +154,7 @@ pub fn page(paths: &[PathBuf], asked: &AskedRisk, events: &dyn Events) -> Result
     render(
         REPORT,
         context! {
-            sections, subjects, heading, place, several, names, differences, common,
+            sections, subjects, heading, place, several, names, differences, common, live,
             style => STYLE,
             script => include_str!("page/report.js"),
             mark,

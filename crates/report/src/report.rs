@@ -20,6 +20,8 @@ pub struct ReportOptions {
     pub output: Option<PathBuf>,
     /// The risks of the spectra.
     pub risk: AskedRisk,
+    /// The built page of the calculator, embedded with the stripes of the one result; none for a page without it.
+    pub explore: Option<PathBuf>,
     /// Whether existing files are overwritten.
     pub force: bool,
 }
@@ -34,21 +36,26 @@ pub struct PageReport {
 /// Writes one HTML file with every figure and table of the results, to hand over.
 ///
 /// # Errors
-/// A result that is missing, damaged or without sites; a file that cannot be written.
+/// A result that is missing, damaged or without sites; a calculator for several results, or from a page that is not
+/// its own; a file that cannot be written.
 pub fn report(options: &ReportOptions, events: &dyn Events) -> Result<PageReport, UpliftError> {
     let Some(first) = options.results.first() else {
         return Err(JobError::Usage("give at least one result".to_owned()).into());
     };
+    if options.explore.is_some() && options.results.len() > 1 {
+        return Err(JobError::Usage("--explore takes one result: write a report for each".to_owned()).into());
+    }
     let file = options.output.clone().unwrap_or_else(|| beside(first, "html"));
     let output = Output::new(&file, OutputKind::Page).with_result(first);
-    outputs::check(&[output], &options.results, options.force)?;
+    let inputs: Vec<PathBuf> = options.results.iter().chain(&options.explore).cloned().collect();
+    outputs::check(&[output], &inputs, options.force)?;
     // what is no result at all is reported as what it is
     for other in options.results.iter().filter(|path| !is_hdf5(path)) {
         ResultFile::open(other)?;
     }
     // what is handed over says nothing of a file that is not as it was written, even where it would not show
     require_whole(&options.results)?;
-    write_atomically(&file, page(&options.results, &options.risk, events)?.as_bytes())?;
+    write_atomically(&file, page(options, events)?.as_bytes())?;
     // after the page itself was written again
     for result in &options.results {
         ResultFile::open(result)?.tell_made_of_another(events)?;

@@ -25,6 +25,7 @@ use uplift_questions::bootstrap::resampled;
 use uplift_result::{Kind, ResultFile};
 use uplift_studies::shake_table::TESTS_COLUMN;
 use uplift_uniform_risk::{AskedRisk, at};
+pub use web::calculator;
 
 use crate::error::ExportsError;
 

@@ -19,6 +19,9 @@ pub(crate) struct ReportArguments {
     /// Page to write [default: the first result with .html]
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
+    /// Embed the calculator with this result: web/dist/index.html of `make web`; adds 2 MB, and some 40 kB a record
+    #[arg(long, value_name = "PAGE.html")]
+    explore: Option<PathBuf>,
     #[command(flatten)]
     risk: RiskArguments,
     #[command(flatten)]
@@ -30,6 +33,7 @@ pub(crate) fn report(arguments: &ReportArguments, terminal: &Terminal) -> Result
         results: arguments.results.clone(),
         output: arguments.output.clone(),
         risk: arguments.risk.asked(),
+        explore: arguments.explore.clone(),
         force: arguments.overwriting.force,
     };
     print_files(&[write_report(&options, terminal)?.file], terminal)
