@@ -11,8 +11,8 @@ pub struct FitSpread {
     pub dispersion: f64,
 }
 
-/// The spread of the [lognormal fragility](crate::fit_lognormal) of `threshold_m` by the jackknife: fitted without each of the
-/// `units`, its records left out at all levels together, so that one record at many levels counts once.
+/// The spread of the [lognormal fragility](crate::fit_lognormal) of `threshold_m` by the jackknife: fitted without each
+/// of the `units`, its records left out at all levels together, so that one record at many levels counts once.
 ///
 /// - `units`: positions of the records of each pair or earthquake.
 ///
