@@ -65,11 +65,10 @@ const KINDS = {
     tendon_stiffness_n_m: 1500000, uplift_displacement_m: 0.0005 },
 };
 const FIELDS = {
-  columns: ["Columns", "1", 1], column_mass_kg: ["Mass of a column, kg", "any"], deck_mass_kg: ["Mass of the deck, kg", "any"],
-  mass_kg: ["Mass, kg", "any"],
-  tendon_stiffness_n_m: ["Stiffness of the tendon in each column, N/m; 0: none", "any"],
-  uplift_displacement_m: ["Displacement at uplift, m", "any"],
-  restitution: ["Restitution; empty: that of the study", "any"],
+  columns: "Columns", column_mass_kg: "Mass of a column, kg", deck_mass_kg: "Mass of the deck, kg", mass_kg: "Mass, kg",
+  tendon_stiffness_n_m: "Stiffness of the tendon in each column, N/m; 0: none",
+  uplift_displacement_m: "Displacement at uplift, m",
+  restitution: "Restitution; empty: that of the study",
 };
 const state = { site: null, measure: null, period: 2475, strength: 0.1, kind: "pier", safety: 2.5, own: {} };
 for (const [kind, fields] of Object.entries(KINDS)) state.own[kind] = { ...fields };
@@ -225,14 +224,14 @@ const drawSpectrum = latest(async () => {
   }
   window.shown = { spectrum, point };
   const { unit, label: name } = measureOf();
-  const probability = digits(100 * spectrum.risk.poe, 3);
+  const probability = digits(100 * spectrum.risk.poe);
   const value = point.u_m === null ? "No displacement has this risk: it is exceeded more often" : metres(point.u_m) + band(point.band_m);
   $("answer").replaceChildren(value, element("small", {}, `${state.site}, strength ${state.strength}, ${state.period} years (${probability} % in ${spectrum.risk.years} years), by ${name}`));
   const head = `${about.provenance}; ${whereWords()}`;
   const [low, high] = span([...spectrum.u_m, ...spectrum.upper_m], true);
   show("f-spectrum", {
     name: "spectrum", head, said: `Displacement over uplift strength, ${whereWords()}: ${value} at strength ${state.strength}`,
-    caption: `Uniform risk spectrum with its ${Math.round(100 * spectrum.confidence)} % band, ${about.records} ${about.synthetic ? "synthetic " : ""}records.`,
+    caption: `Uniform risk spectrum${spectrum.lower_m.some((own) => own !== null) ? ` with its ${Math.round(100 * spectrum.confidence)} % band` : ""}, ${about.records} ${about.synthetic ? "synthetic " : ""}${about.records === 1 ? "record" : "records"}.`,
     x: { name: "Uplift strength η", from: spectrum.strengths.find((own) => own > 0), to: spectrum.strengths.at(-1), log: true },
     y: { name: "Displacement, m", from: Math.max(low * 0.8, high * 1e-4), to: high * 1.25, log: true },
     bands: [{ x: spectrum.strengths, low: spectrum.lower_m, high: spectrum.upper_m }],
@@ -257,11 +256,11 @@ const drawSpectrum = latest(async () => {
   });
   const place = spectrum.strengths.indexOf(state.strength);
   const told = spectrum.alarms.map((own) => element("li", {}, element("span", { class: "kind" }, `${own.severity === "mistake" ? "mistake?" : own.severity}: `),
-    `${own.subject}${own.also.length ? ` (${own.also.length} more)` : ""}: ${own.what}. ${own.what_to_do}`));
+    `${own.subject}${own.also.length ? ` (${own.also.length} more)` : ""}: ${own.what}.`));
   for (const [end, share] of [["above the last level", spectrum.upper_tail_share[place]], ["below the first level", spectrum.lower_tail_share[place]]]) {
     if (share > 0.01) told.push(element("li", {}, element("span", { class: "kind" }, share > 0.1 ? "caution: " : "note: "), `${digits(100 * share)} % of the risk at this point comes from ${end} of the analysis.`));
   }
-  if (spectrum.alarms.length) told.push(element("li", { class: "note" }, `The program raised the first ${spectrum.alarms.length} for ${about.poes.map((own) => digits(100 * own)).join(", ")} % in ${about.years} years.`));
+  if (spectrum.alarms.length) told.push(element("li", { class: "note" }, `Warnings of the analysis concern ${about.poes.map((own) => digits(100 * own)).join(", ")} % in ${about.years} years.`));
   $("alarms").replaceChildren(...(told.length ? told : [element("li", {}, about.synthetic ? "None." : "The program checks records and curves in more detail: uplift warnings.")]));
 });
 
@@ -317,46 +316,72 @@ function drawing() {
   const place = $("drawing");
   if (!place.querySelector("svg")) {
     place.append(element("div"));
-    for (const [key, said] of [["height_m", "Height, m"], ["width_m", "Width, m"]]) place.append(input(key, said, "0.05"));
+    for (const [key, said] of [["height_m", "Height, m"], ["width_m", "Width, m"]]) place.append(input(key, said));
   }
   place.firstChild.innerHTML = svg;
   const put = (key, left, height) => {
     const box = place.querySelector(`#field-${key}`);
     box.style.left = `${(100 * left) / 460}%`;
     box.style.top = `${(100 * height) / 400}%`;
-    if (document.activeElement !== box) box.value = own()[key];
+    if (document.activeElement !== box && !mistyped.has(key)) box.value = own()[key];
   };
   put("height_m", 50, (ground + top) / 2);
   put("width_m", Math.min(400, Math.max(60, x + (of.width * scale) / 2)), 376);
 }
-function input(key, said, step) {
-  const box = element("input", { id: `field-${key}`, type: "number", step, "aria-label": said });
+// what is typed wrong, by field
+const mistyped = new Map();
+function typed(key, said, text) {
+  const value = text.trim() === "" ? undefined : Number(text);
+  mistyped.delete(key);
+  if (Number.isNaN(value)) mistyped.set(key, `${said}: ${/^\s*-?\d+,\d+\s*$/.test(text) ? `use a point: ${text.trim().replace(",", ".")}` : "give a number"}.`);
+  else if (value === undefined && key !== "restitution") mistyped.set(key, `${said}: give a number.`);
+  else if (value < 0) mistyped.set(key, `${said}: give a positive number.`);
+  return value;
+}
+function input(key, said) {
+  const box = element("input", { id: `field-${key}`, type: "text", inputmode: "decimal", autocomplete: "off", "aria-label": said });
   box.oninput = () => {
-    own()[key] = box.value === "" ? undefined : Number(box.value);
+    const value = typed(key, said, box.value);
+    if (!mistyped.has(key)) own()[key] = value;
     changed();
   };
   return box;
 }
 function fields() {
   const rows = [];
-  for (const [key, [said, step]] of Object.entries(FIELDS)) {
+  for (const [key, said] of Object.entries(FIELDS)) {
     if (!(key in KINDS[state.kind]) && key !== "restitution") continue;
     if (key === "columns" && state.kind === "pier") continue;
-    const box = input(key, said, step);
+    const box = input(key, said);
     box.value = own()[key] ?? "";
     rows.push(element("label", { for: box.id }, said), box);
   }
-  const factor = element("input", { id: "safety", type: "number", min: 1, step: 0.1, value: state.safety });
-  factor.oninput = () => { state.safety = Number(factor.value); changed(); };
+  const factor = element("input", { id: "safety", type: "text", inputmode: "decimal", autocomplete: "off", value: state.safety });
+  factor.oninput = () => {
+    const value = typed("safety", "Safety factor", factor.value);
+    if (!mistyped.has("safety")) state.safety = value;
+    changed();
+  };
   rows.push(element("label", { for: "safety" }, "Safety factor on the demand"), factor);
   $("fields").replaceChildren(...rows);
 }
 const rows = (...all) => element("div", { class: "table" }, element("table", {}, element("tbody", {}, ...all.filter(Boolean).map(([said, value, bad]) =>
   element("tr", {}, element("th", { scope: "row" }, said), element("td", { class: `number${bad ? " bad" : ""}` }, value))))));
+// a verdict that holds for the best estimate alone
+const atUpperEnd = ({ required_capacity_band_m: limits }, { capacity_m: capacity }) =>
+  (limits && capacity !== null && (limits[1] === null || limits[1] > capacity) ? " (not at the upper limit of the band)" : "");
+// the demand read off the spectrum is of the oscillator that the spectrum was computed for
+function otherOscillator() {
+  const differing = [["uplift_displacement_m", "uplift displacement", 1000, " mm"], ["restitution", "restitution", 1, ""]]
+    .filter(([key]) => own()[key] !== undefined && Math.abs(own()[key] - about[key]) > 1e-9)
+    .map(([key, said, times, unit]) => `${said} ${digits(times * about[key], 3)}${unit} (structure: ${digits(times * own()[key], 3)}${unit})`);
+  return differing.length ? [element("p", { class: "note" }, `The spectrum was computed for ${differing.join(" and ")}: analyse the structure itself for its own demand.`)] : [];
+}
 const drawDesign = latest(async () => {
   $("toml").textContent = toml();
   let told;
   try {
+    if (mistyped.size) throw new Error([...mistyped.values()].join("\n"));
     told = await ask({ ask: "structure", text: toml(), at: at(), safety_factor: state.safety });
   } catch (error) {
     $("mistake").hidden = false;
@@ -368,17 +393,21 @@ const drawDesign = latest(async () => {
   $("mistake").hidden = true;
   const limits = (values) => band(values);
   $("design").replaceChildren(
+    ...(told.rules ?? []).filter((rule) => !rule.overturns).slice(-1).map((rule) => element("p", { class: "answer" },
+      `${metres(rule.demand_m)}${limits(rule.demand_band_m)}: ${rule.satisfied ? "satisfied" : "not satisfied"}`,
+      element("small", {}, `Demand of the ${state.kind} by ${rule.rule.replace("-", " ")}, ${whereWords()}`))),
     rows(
-      ["Uplift strength", `${digits(told.spectral_strength, 3)} (read in the spectrum; Γ ${digits(told.participation, 4)})`],
+      ["Uplift strength", `${digits(told.spectral_strength, 3)} (displacements are ${digits(told.participation, 4)} times the spectrum's)`],
       ["Displacement capacity", told.capacity_m === null ? "none: the force does not fall after uplift" : metres(told.capacity_m)],
-      told.ordinate_m !== undefined && ["Ordinate of the spectrum", `${metres(told.ordinate_m)}${limits(told.ordinate_band_m)}`],
+      told.ordinate_m !== undefined && ["Displacement by the spectrum", `${metres(told.ordinate_m)}${limits(told.ordinate_band_m)}`],
       told.without_demand && ["Demand", told.without_demand, true],
       ...(told.rules ?? []).flatMap((rule) => [
         [`Demand, rule of ${rule.rule.replace("-", " ")}`, rule.overturns ? "overturns" : `${metres(rule.demand_m)}${limits(rule.demand_band_m)}`, rule.overturns],
         [`Required capacity, ${rule.rule.replace("-", " ")}`, rule.required_capacity_m === null ? "no finite one" : `${metres(rule.required_capacity_m)}${limits(rule.required_capacity_band_m)}`],
-        [`Verdict, ${rule.rule.replace("-", " ")}`, rule.satisfied ? `satisfied: safety factor ${digits(rule.safety_factor)}` : `not satisfied: safety factor ${digits(rule.safety_factor)}, ${digits(state.safety)} required`, !rule.satisfied],
+        [`Verdict, ${rule.rule.replace("-", " ")}`, rule.satisfied ? `satisfied: safety factor ${digits(rule.safety_factor, 3)}${atUpperEnd(rule, told)}` : `not satisfied: safety factor ${digits(rule.safety_factor, 3)}, ${digits(state.safety, 3)} required`, !rule.satisfied],
       ]),
     ),
+    ...otherOscillator(),
     ...told.warnings.map((own) => element("p", { class: "note" }, own)),
     element("p", { class: "note" }, `${whereWords()}${about.synthetic ? ", synthetic records" : ""}. A satisfied rule is no proof: analyse the structure itself.`),
   );
@@ -401,14 +430,14 @@ async function analyse(question, done) {
   bar.hidden = false;
   bar.removeAttribute("value");
   try {
-    await done(await send({ kind: "analyse", question }, ({ done: finished, of }) => {
+    const told = await done(await send({ kind: "analyse", question }, ({ done: finished, of }) => {
       bar.max = of;
       bar.value = finished;
-      $("state").textContent = `${finished} of ${of} records analysed`;
+      say(`${finished} of ${of} records analysed`);
     }));
-    $("state").textContent = "";
+    say(told ?? "");
   } catch (error) {
-    $("state").textContent = error.message === "stopped" ? "Stopped." : error.message;
+    say(error.message === "stopped" ? "Stopped." : error.message);
   }
   buttons.forEach((button) => { button.disabled = false; });
   stop.disabled = true;
@@ -420,15 +449,23 @@ const often = (event) => {
   if (event.per_year === 0) return `no record shows it; at most ${rate(event.at_most_per_year)} a year`;
   return `${rate(event.per_year)} a year${limits}, ${digits(100 * event.probability)} % in ${about.years} years`;
 };
-$("analyse").onclick = () => analyse({ ask: "analyse-structure", text: toml(), at: at(), block: $("with-block").checked }, (found) => {
+$("analyse").onclick = () => {
+  const inputs = () => toml() + JSON.stringify(at());
+  const asked = inputs();
+  return analyse({ ask: "analyse-structure", text: toml(), at: at(), block: $("with-block").checked }, (found) => {
+    if (inputs() !== asked) return "The inputs changed during the analysis: analyse again.";
+    showOwn(found);
+  });
+};
+function showOwn(found) {
   window.ownDemand = found;
-  $("own-demand").replaceChildren(element("h3", {}, "The structure itself"), rows(
+  $("own-demand").replaceChildren(element("h3", {}, `The structure itself: ${state.kind}, ${whereWords()}`), rows(
     ["Demand", found.overturns ? "overturns more often than the return period allows" : `${metres(found.demand_m)}${band(found.demand_band_m)}`, found.overturns],
     found.beyond_capacity && ["Exceeds its capacity", often(found.beyond_capacity)],
     ...found.overturning.map((event) => [`Overturns, ${event.model}`, often(event)]),
     ["Analyses", String(found.analyses)],
   ));
-});
+}
 $("stop").onclick = () => worker.postMessage({ kind: "stop" });
 
 // ---- the motion -----------------------------------------------------------------------------------------------------
@@ -600,6 +637,7 @@ $("print").onclick = () => print();
 // ---- controls -------------------------------------------------------------------------------------------------------
 async function settle(now) {
   about = now;
+  const missing = state.site && !about.sites.some((own) => own.name === state.site) ? state.site : null;
   if (!about.sites.some((own) => own.name === state.site)) state.site = (about.sites.find((own) => own.name === "Athens") ?? about.sites[0])?.name;
   $("site").replaceChildren(...about.sites.map((own) => element("option", {}, own.name)));
   $("site").value = state.site;
@@ -614,6 +652,7 @@ async function settle(now) {
   $("provenance").textContent = about.provenance;
   everything();
   listMotions();
+  return missing ? `${missing} has no hazard curve here: drop it again. ${state.site} is shown.` : "";
 }
 function measures() {
   const there = about.sites.find((own) => own.name === state.site)?.measures ?? [];
@@ -645,7 +684,7 @@ $("strength").oninput = () => {
 };
 $("level").oninput = drawMotion;
 $("motion").onchange = drawMotion;
-for (const box of document.querySelectorAll("[name=kind]")) box.onchange = () => { state.kind = box.value; fields(); changed(); };
+for (const box of document.querySelectorAll("[name=kind]")) box.onchange = () => { state.kind = box.value; mistyped.clear(); fields(); changed(); };
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", everything);
 // another link is another state
 addEventListener("hashchange", () => { readLink(); begin(); settle(about); });
@@ -661,8 +700,7 @@ function begin() {
   try {
     const now = await send({ kind: "start", module: bytesOf("module"), stripes: bytesOf("stripes") });
     document.querySelector("main").hidden = false;
-    await settle(now);
-    say("");
+    say(await settle(now));
     window.ready = performance.now() - started;
   } catch (error) {
     say(`The page could not start: ${error.message}`);
