@@ -367,6 +367,8 @@ function fields() {
 }
 const rows = (...all) => element("div", { class: "table" }, element("table", {}, element("tbody", {}, ...all.filter(Boolean).map(([said, value, bad]) =>
   element("tr", {}, element("th", { scope: "row" }, said), element("td", { class: `number${bad ? " bad" : ""}` }, value))))));
+// the rule that asks for the most; none where there are no rules
+const worst = (rules) => [...rules].sort((a, b) => (a.required_capacity_m ?? Infinity) - (b.required_capacity_m ?? Infinity)).slice(-1);
 // a verdict that holds for the best estimate alone
 const atUpperEnd = ({ required_capacity_band_m: limits }, { capacity_m: capacity }) =>
   (limits && capacity !== null && (limits[1] === null || limits[1] > capacity) ? " (not at the upper limit of the band)" : "");
@@ -393,8 +395,8 @@ const drawDesign = latest(async () => {
   $("mistake").hidden = true;
   const limits = (values) => band(values);
   $("design").replaceChildren(
-    ...(told.rules ?? []).filter((rule) => !rule.overturns).slice(-1).map((rule) => element("p", { class: "answer" },
-      `${metres(rule.demand_m)}${limits(rule.demand_band_m)}: ${rule.satisfied ? "satisfied" : "not satisfied"}`,
+    ...worst(told.rules ?? []).map((rule) => element("p", { class: "answer" },
+      `${rule.overturns ? "It overturns" : `${metres(rule.demand_m)}${limits(rule.demand_band_m)}`}: ${rule.satisfied ? "satisfied" : "not satisfied"}`,
       element("small", {}, `Demand of the ${state.kind} by ${rule.rule.replace("-", " ")}, ${whereWords()}`))),
     rows(
       ["Uplift strength", `${digits(told.spectral_strength, 3)} (displacements are ${digits(told.participation, 4)} times the spectrum's)`],
@@ -450,6 +452,7 @@ const often = (event) => {
   return `${rate(event.per_year)} a year${limits}, ${digits(100 * event.probability)} % in ${about.years} years`;
 };
 $("analyse").onclick = () => {
+  if (mistyped.size) return say([...mistyped.values()].join(" "));
   const inputs = () => toml() + JSON.stringify(at());
   const asked = inputs();
   return analyse({ ask: "analyse-structure", text: toml(), at: at(), block: $("with-block").checked }, (found) => {
