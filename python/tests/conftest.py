@@ -2,6 +2,8 @@
 
 import os
 import subprocess
+import sys
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +18,32 @@ def noise(seed, samples=1500, amplitude_m_s2=4.0):
     """Noise in an envelope: a record with many uplifts and impacts."""
     random = np.random.default_rng(seed)
     return amplitude_m_s2 * random.uniform(-1, 1, samples) * np.sin(np.pi * np.arange(samples) / samples)
+
+
+def skip_or_fail(what, install):
+    """Without the other program a test is skipped; not in CI, where its wheels are."""
+    if "CI" in os.environ and (3, 11) <= sys.version_info < (3, 14):
+        pytest.fail(f"CI needs {what}: {install}")
+    pytest.skip(f"skipped: no {what}: {install}")
+
+
+@pytest.fixture
+def openquake(tmp_path):
+    """The environment of a calculation of OpenQuake within `tmp_path`: one process, no server, no workers."""
+    try:
+        version("openquake.engine")
+    except PackageNotFoundError:
+        skip_or_fail("OpenQuake", "pip install --no-deps -r python/tests/requirements-openquake.txt")
+    (tmp_path / "openquake.cfg").write_text(f"[dbserver]\nhost = 127.0.0.1\nfile = {tmp_path / 'jobs.sqlite3'}\n")
+    return os.environ | {
+        "OQ_CONFIG_FILE": str(tmp_path / "openquake.cfg"),
+        "OQ_DATABASE": "127.0.0.1",
+        "OQ_DATADIR": str(tmp_path),
+        "OQ_DISTRIBUTE": "no",
+        # numba would compile first, which takes two minutes in a fresh environment; a calculation takes less than a
+        # second without it
+        "NUMBA_DISABLE_JIT": "1",
+    }
 
 
 @pytest.fixture(scope="session")

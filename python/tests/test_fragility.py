@@ -4,7 +4,6 @@ import json
 import os
 import subprocess
 import sys
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +11,7 @@ import pandas
 import pytest
 
 import uplift_urs as uplift
+from conftest import skip_or_fail
 
 TESTS = Path(__file__).parent
 PELICUN = TESTS.parent / "target" / "pelicun"
@@ -29,13 +29,6 @@ strength_above = 0
 name = "Here"
 pgv = "pgv.csv"
 """
-
-
-def skip_or_fail(what, install):
-    """Without the other program a test is skipped; not in CI, where its wheels are."""
-    if "CI" in os.environ and (3, 11) <= sys.version_info < (3, 14):
-        pytest.fail(f"CI needs {what}: {install}")
-    pytest.skip(f"skipped: no {what}: {install}")
 
 
 @pytest.fixture(scope="module")
@@ -80,23 +73,10 @@ def test_the_curves_are_the_counts_of_the_result(program, result):
     assert np.isfinite(fits.log_theta_standard_error).any(), fits
 
 
-def test_openquake_reads_the_model_and_its_damage_is_our_risk(program, tmp_path):
-    try:
-        version("openquake.engine")
-    except PackageNotFoundError:
-        skip_or_fail("OpenQuake", "pip install --no-deps -r python/tests/requirements-openquake.txt")
-    (tmp_path / "openquake.cfg").write_text(f"[dbserver]\nhost = 127.0.0.1\nfile = {tmp_path / 'jobs.sqlite3'}\n")
-    # as in test_interop.py
-    settings = {
-        "OQ_CONFIG_FILE": str(tmp_path / "openquake.cfg"),
-        "OQ_DATABASE": "127.0.0.1",
-        "OQ_DATADIR": str(tmp_path),
-        "OQ_DISTRIBUTE": "no",
-        "NUMBA_DISABLE_JIT": "1",
-    }
+def test_openquake_reads_the_model_and_its_damage_is_our_risk(program, openquake, tmp_path):
     found = os.environ.get("UPLIFT_PROGRAM") or str(uplift.find_program())
     command = [sys.executable, TESTS / "openquake_damage.py", tmp_path, found]
-    done = subprocess.run(command, env=os.environ | settings, capture_output=True, text=True, timeout=LIMIT_S)
+    done = subprocess.run(command, env=openquake, capture_output=True, text=True, timeout=LIMIT_S)
     assert done.returncode == 0, done.stderr
 
 

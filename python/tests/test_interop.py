@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import h5py
@@ -83,26 +82,8 @@ def test_arrays_as_a_datastore_of_openquake_has_them(tmp_path):
     assert spectra_of(curves).shape == (2, 3, 2)
 
 
-def test_a_calculation_of_openquake(tmp_path):
+def test_a_calculation_of_openquake(openquake, tmp_path):
     """Calculated, exported and read by OpenQuake itself, its arrays and its export handed over and compared."""
-    try:
-        version("openquake.engine")
-    except PackageNotFoundError:
-        install = "pip install --no-deps -r python/tests/requirements-openquake.txt"
-        if "CI" in os.environ and (3, 11) <= sys.version_info < (3, 14):
-            pytest.fail(f"CI needs OpenQuake: {install}")
-        pytest.skip(f"skipped: no OpenQuake: {install}")
-    (tmp_path / "openquake.cfg").write_text(f"[dbserver]\nhost = 127.0.0.1\nfile = {tmp_path / 'jobs.sqlite3'}\n")
-    settings = {
-        # everything within one process and the folder of the test: no server, no workers, nothing of the home's
-        "OQ_CONFIG_FILE": str(tmp_path / "openquake.cfg"),
-        "OQ_DATABASE": "127.0.0.1",
-        "OQ_DATADIR": str(tmp_path),
-        "OQ_DISTRIBUTE": "no",
-        # numba would compile first, which takes two minutes in a fresh environment; the calculation takes less than a
-        # second without it
-        "NUMBA_DISABLE_JIT": "1",
-    }
     program = [sys.executable, Path(__file__).with_name("openquake_handover.py"), tmp_path]
-    done = subprocess.run(program, env=os.environ | settings, capture_output=True, text=True, timeout=LIMIT_S)
+    done = subprocess.run(program, env=openquake, capture_output=True, text=True, timeout=LIMIT_S)
     assert done.returncode == 0, done.stderr

@@ -112,7 +112,7 @@ pub struct DesignReport {
     /// What the frame itself says; none of a structure that cannot wobble, by its proxy, and without an analysis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frame: Option<FrameReport>,
-    /// Why a frame that can wobble is left out where it is not by its proxy that it is wanted.
+    /// Why a frame that can wobble is left out although no `--proxy` asks for that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub without_frame: Option<String>,
     /// The structure where its quantities are not known exactly; none where its file says that they are, and without

@@ -76,7 +76,7 @@ pub struct OverturningReport {
     /// The oscillator where its quantities are not known exactly; none where the structure file says that they are.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<UncertaintyReport>,
-    /// Why a frame that can wobble is left out where it is not by its proxy that it is wanted.
+    /// Why a frame that can wobble is left out although no `--proxy` asks for that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub without_frame: Option<String>,
     /// How the models differ, and what could not be done.

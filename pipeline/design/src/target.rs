@@ -90,7 +90,7 @@ pub struct TargetReport {
     /// What the frame itself says; none of a structure that cannot wobble, and by its proxy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frame: Option<TargetFrame>,
-    /// Why a frame that can wobble is left out where it is not by its proxy that it is wanted.
+    /// Why a frame that can wobble is left out although no `--proxy` asks for that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub without_frame: Option<String>,
     /// How often it may happen, 1/yr.
@@ -350,7 +350,7 @@ fn alarms_before(
     Ok(alarms)
 }
 
-/// Why a frame that can wobble is left out where it is not by its proxy that it is wanted.
+/// Why a frame that can wobble is left out although no `--proxy` asks for that.
 fn why_left_out(structure: &Structure, options: &TargetOptions) -> Option<String> {
     let is_asked = OwnFrame::is_described(structure) && !options.proxy;
     let has_columns = !matches!(options.quantity, Quantity::Strength | Quantity::Capacity);

@@ -58,17 +58,22 @@ const REQUIRED: [&str; 3] = ["record_id", "file_h1", "file_h2"];
 /// # Errors
 /// Everything that is wrong with it, a line each.
 pub fn read(path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
-    let bytes = read_file(path, LARGEST_BYTES).map_err(|error| {
+    read_bytes(&file_bytes(path)?, path, tag)
+}
+
+/// What the file at `path` contains; of a folder of records, which is what people have, how to make a manifest.
+fn file_bytes(path: &Path) -> Result<Vec<u8>, Vec<String>> {
+    read_file(path, LARGEST_BYTES).map_err(|error| {
         let name = path.display();
-        // a folder of records is what people have
-        let advice = format!("make one of its records: uplift records import {name} -o records.csv");
         vec![if path.is_dir() {
-            format!("{name} is a folder, not a manifest: {advice}")
+            format!(
+                "{name} is a folder, not a manifest: make one of its records: \
+                 uplift records import {name} -o records.csv"
+            )
         } else {
             format!("manifest {error}")
         }]
-    })?;
-    read_bytes(&bytes, path, tag)
+    })
 }
 
 /// The files of the records that the manifest at `path` lists; none where it cannot be read, or is no manifest.
@@ -139,17 +144,7 @@ pub fn read_bytes(bytes: &[u8], path: &Path, tag: Option<&str>) -> Result<Vec<Ro
 /// Everything that is wrong with it, a line each.
 pub fn rows_of(path: &Path, ids: &BTreeSet<&str>, folder: &Path) -> Result<Vec<Column>, Vec<String>> {
     let fail = |reason: String| vec![format!("manifest {} cannot be read: {reason}", path.display())];
-    let bytes = read_file(path, LARGEST_BYTES).map_err(|error| {
-        let name = path.display();
-        // a folder of records is what people have
-        let advice = format!("make one of its records: uplift records import {name} -o records.csv");
-        vec![if path.is_dir() {
-            format!("{name} is a folder, not a manifest: {advice}")
-        } else {
-            format!("manifest {error}")
-        }]
-    })?;
-    let table = parse(&bytes).map_err(fail)?;
+    let table = parse(&file_bytes(path)?).map_err(fail)?;
     let origin = path.parent().unwrap_or(Path::new(""));
     let text = |column: &Column, row: usize| -> String {
         let cell = plain(column.str().ok().and_then(|cells| cells.get(row)).unwrap_or_default().trim()).to_owned();

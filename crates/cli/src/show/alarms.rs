@@ -12,6 +12,9 @@ use crate::terminal::{Terminal, output};
 /// Warnings shown at most, without `--details`.
 const SHOWN: usize = 3;
 
+/// What shows the others.
+pub(super) const DETAILS: &str = "--details";
+
 /// The worst warnings, a line each, of an answer from `result`; all of them in detail. Nothing on a quiet terminal.
 pub(super) fn print_warnings(
     out: &mut impl Write,
@@ -22,8 +25,7 @@ pub(super) fn print_warnings(
     if terminal.is_quiet() {
         return Ok(());
     }
-    let lines: Vec<_> = alarms.iter().map(|alarm| warning(alarm, result)).collect();
-    print_lines(out, &lines, terminal.shows_details()).map(drop)
+    print_lines(out, &warnings(alarms, result), terminal.shows_details()).map(drop)
 }
 
 /// The same of a `result` itself, of which another command shows the others.
@@ -33,13 +35,12 @@ pub(super) fn print_result_warnings(
     result: &Path,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
-    let shown = if terminal.shows_details() { alarms.len() } else { alarms.len().min(SHOWN) };
-    print_warnings(out, &alarms[..shown], Some(result), terminal)?;
-    match alarms.len() - shown {
-        0 => Ok(()),
-        _ if terminal.is_quiet() => Ok(()),
-        more => Ok(writeln!(out, "  {more} more: uplift warnings {}", typed_path(result))?),
+    if terminal.is_quiet() {
+        return Ok(());
     }
+    let lines = warnings(alarms, Some(result));
+    let shown = number_shown(&lines, terminal.shows_details());
+    print_shown(out, &lines[..shown], lines.len() - shown, &format!("uplift warnings {}", typed_path(result)))
 }
 
 /// That the records are synthetic, of answers that have no other warning of a result.
@@ -61,21 +62,30 @@ pub(super) fn print_warnings_and_more(
 
 /// The first lines, or `all`, and how to see the others; nothing where there are none. Whether some are left out.
 pub(super) fn print_lines(out: &mut impl Write, lines: &[String], all: bool) -> Result<bool, CommandError> {
-    let shown = if all { lines.len() } else { lines.len().min(SHOWN) };
+    let shown = number_shown(lines, all);
     let more = lines.len() - shown;
-    print_shown(out, &lines[..shown], more)?;
+    print_shown(out, &lines[..shown], more, DETAILS)?;
     Ok(more > 0)
 }
 
-/// These lines, and how to see so many `more`; nothing where there are none of either.
-pub(super) fn print_shown(out: &mut impl Write, lines: &[String], more: usize) -> Result<(), CommandError> {
+fn number_shown(lines: &[String], all: bool) -> usize {
+    if all { lines.len() } else { lines.len().min(SHOWN) }
+}
+
+/// These lines, and `what_to_type` to see so many `more`; nothing where there are none of either.
+pub(super) fn print_shown(
+    out: &mut impl Write,
+    lines: &[String],
+    more: usize,
+    what_to_type: &str,
+) -> Result<(), CommandError> {
     if !lines.is_empty() || more > 0 {
         writeln!(out, "\nWarnings")?;
     }
     for line in lines {
         writeln!(out, "  {line}")?;
     }
-    if more > 0 { Ok(writeln!(out, "  {more} more: --details")?) } else { Ok(()) }
+    if more > 0 { Ok(writeln!(out, "  {more} more: {what_to_type}")?) } else { Ok(()) }
 }
 
 /// Every warning with all that it is about.
@@ -86,10 +96,9 @@ pub(crate) fn print_all_warnings(alarms: &[Alarm], result: &Path) -> Result<(), 
     }
     for alarm in alarms {
         writeln!(out, "{:<8}  {}", alarm.severity.word(), alarm.subject)?;
-        let end = if alarm.what.ends_with(['.', '?', '!']) { "" } else { "." };
-        writeln!(out, "          {}{end}", alarm.what)?;
+        writeln!(out, "          {}{}", alarm.what, full_stop(alarm))?;
         if !alarm.what_to_do.is_empty() {
-            writeln!(out, "          {}", sentence(&alarm.what_to_do).replace("RESULT", &typed_path(result)))?;
+            writeln!(out, "          {}", remedy(alarm, Some(result)))?;
         }
         if !alarm.also.is_empty() {
             writeln!(out, "          Also: {}", alarm.also.join("; "))?;
@@ -101,10 +110,21 @@ pub(crate) fn print_all_warnings(alarms: &[Alarm], result: &Path) -> Result<(), 
 /// What is wrong, by how much, and what to type: with the name of the `result`, where it is known.
 pub(super) fn warning(alarm: &Alarm, result: Option<&Path>) -> String {
     let mark = if alarm.severity == Severity::Mistake { "mistake? " } else { "" };
-    let remedy = if alarm.what_to_do.is_empty() { String::new() } else { format!(" {}", sentence(&alarm.what_to_do)) };
-    let remedy = result.map_or_else(|| remedy.clone(), |result| remedy.replace("RESULT", &typed_path(result)));
-    let end = if alarm.what.ends_with(['.', '?', '!']) { "" } else { "." };
-    format!("{mark}{alarm}{end}{remedy}")
+    format!("{mark}{alarm}{} {}", full_stop(alarm), remedy(alarm, result)).trim_end().to_owned()
+}
+
+fn warnings(alarms: &[Alarm], result: Option<&Path>) -> Vec<String> {
+    alarms.iter().map(|alarm| warning(alarm, result)).collect()
+}
+
+/// What to type, with the name of the `result`, where it is known.
+fn remedy(alarm: &Alarm, result: Option<&Path>) -> String {
+    let words = sentence(&alarm.what_to_do);
+    result.map_or_else(|| words.clone(), |result| words.replace("RESULT", &typed_path(result)))
+}
+
+fn full_stop(alarm: &Alarm) -> &'static str {
+    if alarm.what.ends_with(['.', '?', '!']) { "" } else { "." }
 }
 
 /// Words that begin a sentence; one of the study's keys keeps its letters.

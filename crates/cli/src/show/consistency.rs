@@ -6,7 +6,7 @@ use uplift::alarms::synthetic_records;
 use uplift::consistency::{ConsistencyReport, ConsistencyRow, RepairRow};
 use uplift::text::{Table, per_cent, risk_name, risks_in_words};
 
-use super::alarms::{print_shown, warning};
+use super::alarms::{DETAILS, print_shown, warning};
 use super::{print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -103,7 +103,7 @@ fn more_warnings(report: &ConsistencyReport) -> usize {
 fn print_warnings(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     let synthetic = report.synthetic.then(|| warning(&synthetic_records(), None));
     let shown: Vec<String> = nearest(report).into_iter().chain(synthetic).collect();
-    print_shown(out, &shown, more_warnings(report))
+    print_shown(out, &shown, more_warnings(report), DETAILS)
 }
 
 /// A line a row that is not consistent, and one for all that are.

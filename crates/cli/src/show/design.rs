@@ -13,7 +13,7 @@ use uplift_structure::Rule;
 
 use super::alarms::print_warnings_and_more;
 use super::shown_path;
-use super::structure::{limit, lines, rate, risk_cells};
+use super::structure::{band_after, band_in_cell, lines, rate, risk_cells};
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -84,11 +84,7 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
     }
     let dash = || "-".to_owned();
     let risk = |risk: &EventRisk, band: Option<Bands>| {
-        let band = band.map_or_else(String::new, |band| {
-            let [lower, upper] = band.quoted().map(text::rate);
-            format!(" ({lower}–{upper})")
-        });
-        if risk.per_year > 0.0 { text::rate(risk.per_year) + &band } else { risk_cells(risk)[0].clone() }
+        if risk.per_year > 0.0 { text::rate(risk.per_year) + &band_in_cell(band) } else { risk_cells(risk)[0].clone() }
     };
     let demand = |demand_m: f64, bands: Option<&DemandBands>| {
         if demand_m.is_infinite() {
@@ -172,23 +168,17 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
             if report.wobbles { "the equivalent oscillator" } else { "the structure itself" }
         )?;
         if let Some(risk) = &exact.beyond_capacity {
-            let band = |band: Option<Bands>| {
-                band.map_or_else(String::new, |of| {
-                    let [lower, upper] = of.quoted().map(limit);
-                    format!(" ({lower} to {upper})")
-                })
-            };
             let [beyond, ..] = risk_cells(risk);
             let [overturning, ..] = risk_cells(&exact.overturning);
             writeln!(
                 out,
                 "Rate      capacity exceeded {beyond} per year{}",
-                band(bands.and_then(|of| of.beyond_capacity_per_year))
+                band_after(bands.and_then(|of| of.beyond_capacity_per_year))
             )?;
             writeln!(
                 out,
                 "          overturning {overturning} per year{}",
-                band(bands.and_then(|of| of.overturning_per_year))
+                band_after(bands.and_then(|of| of.overturning_per_year))
             )?;
         }
     } else if let Some(spectrum) = &report.spectrum {
@@ -394,8 +384,8 @@ fn print_bands(out: &mut impl Write, exact: &ExactDemand, bands: &DemandBands) -
     let told = [
         of("demand on the structure", Some(bands.demand_m), metres, " m"),
         of(&format!("capacity less demand{own_left}"), bands.capacity_less_demand_m, left, " m"),
-        of("u > capacity", bands.beyond_capacity_per_year, limit, " per year"),
-        of("overturning", bands.overturning_per_year, limit, " per year"),
+        of("u > capacity", bands.beyond_capacity_per_year, text::rate, " per year"),
+        of("overturning", bands.overturning_per_year, text::rate, " per year"),
     ];
     for line in told.into_iter().flatten() {
         writeln!(out, "{line}")?;

@@ -2,12 +2,12 @@
 
 use std::io::Write;
 
-use uplift::structure::{Banded, Bands, FrameRiskReport, ModelDemand};
+use uplift::structure::{Banded, FrameRiskReport, ModelDemand};
 use uplift::text::{self, Table, metres_with_band, risk_in_words, short};
 
 use super::alarms::print_warnings_and_more;
 use super::shown_path;
-use super::structure::{limit, lines, risk_cells};
+use super::structure::{band_after, lines, risk_cells};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -45,19 +45,11 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
         writeln!(out, "  {}: {}{of}", proxy.model, metres_with_band(proxy.demand_m.value, None))?;
     }
     let [per_year, _, return_period] = risk_cells(&report.overturning.risk);
-    let band = band_of(report.overturning.bands);
+    let band = band_after(report.overturning.bands);
     writeln!(out, "Overturning  {per_year} per year{band}, once in {return_period} years")?;
     let risk = risk_in_words(report.poe, report.years);
     writeln!(out, "At           {} by {}, {risk}; {}", report.site, report.im, report.source.record_set)?;
     Ok(())
-}
-
-/// Where the rate of all records like these is.
-fn band_of(bands: Option<Bands>) -> String {
-    bands.map_or_else(String::new, |bands| {
-        let [lower, upper] = bands.quoted().map(limit);
-        format!(" ({lower} to {upper})")
-    })
 }
 
 fn print_details(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
@@ -159,7 +151,7 @@ fn print_events(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
             "Collapse fragility: lognormal, median {theta:.4} {}, dispersion {beta:.4}; with it {} per year{}",
             report.unit,
             text::rate(per_year),
-            band_of(found.lognormal_bands)
+            band_after(found.lognormal_bands)
         )?;
     }
     Ok(())

@@ -8,7 +8,7 @@ use uplift_spectra::Noisy;
 
 use super::alarms::print_warnings_and_more;
 use super::shown_path;
-use super::structure::{limit, lines, rate, risk_cells};
+use super::structure::{band_in_cell, limits, lines, rate, risk_cells};
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -38,11 +38,7 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
     let cell = |of: &SiteRisk| {
         let [per_year, ..] = risk_cells(&of.risk);
         // a frame has twice as many rows: at many sites the bands are left to the details
-        let shown_bands = of.bands.filter(|_| !has_frame || sites.len() < 3);
-        let band = shown_bands.map_or_else(String::new, |bands| {
-            let [lower, upper] = bands.quoted().map(text::rate);
-            format!(" ({lower}–{upper})")
-        });
+        let band = band_in_cell(of.bands.filter(|_| !has_frame || sites.len() < 3));
         let per_year = if of.risk.per_year > 0.0 { of.per_year_rounding.marked(text::rate) } else { per_year };
         format!("{per_year}{band}")
     };
@@ -190,11 +186,7 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
             }
             row.extend([
                 of_site.bands.map_or_else(|| "-".to_owned(), |bands| limits(bands.quoted())),
-                or_dash(of_site.lognormal_per_year_rounding, rate)
-                    + &of_site.lognormal_bands.map_or_else(String::new, |bands| {
-                        let [lower, upper] = bands.quoted().map(limit);
-                        format!(" ({lower}–{upper})")
-                    }),
+                or_dash(of_site.lognormal_per_year_rounding, rate) + &band_in_cell(of_site.lognormal_bands),
                 percent(of_site.risk.lower_tail_share),
                 percent(of_site.risk.upper_tail_share),
             ]);
@@ -234,10 +226,6 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
         }
     }
     Ok(())
-}
-
-fn limits([lower, upper]: [f64; 2]) -> String {
-    format!("{} to {}", limit(lower), limit(upper))
 }
 
 /// What asterisks mean, and from where to where rounding moves counts and frequencies; nothing where there are none.

@@ -1,6 +1,6 @@
 //! What a design and an overturning tell alike: the structure, and how often something happens to it.
 
-use uplift::structure::{EventRisk, StructureReport};
+use uplift::structure::{Bands, EventRisk, StructureReport};
 use uplift::text::{self, per_cent, short, two_digits};
 
 use super::shown_path;
@@ -37,9 +37,19 @@ pub(super) fn rate(per_year: f64) -> String {
     if per_year == 0.0 { "none seen".to_owned() } else { text::rate(per_year) }
 }
 
-/// A limit of how often in a year; 0 where it may be as rare as one likes.
-pub(super) fn limit(per_year: f64) -> String {
-    if per_year == 0.0 { "0".to_owned() } else { text::rate(per_year) }
+/// From where to where a rate is, for a sentence.
+pub(super) fn limits(per_year: [f64; 2]) -> String {
+    per_year.map(text::rate).join(" to ")
+}
+
+/// The quoted band of a rate in brackets, after the rate in a sentence; nothing where there is none.
+pub(super) fn band_after(per_year: Option<Bands>) -> String {
+    per_year.map_or_else(String::new, |bands| format!(" ({})", limits(bands.quoted())))
+}
+
+/// The same in the cell of a table, which is narrow.
+pub(super) fn band_in_cell(per_year: Option<Bands>) -> String {
+    per_year.map_or_else(String::new, |bands| format!(" ({})", bands.quoted().map(text::rate).join("–")))
 }
 
 /// Annual rate, probability and return period, with two digits each.
