@@ -1,41 +1,40 @@
 //! How often a structure overturns, by its equivalent oscillator and by the rigid block that rotates as it does
 //! (Section 2.4.3).
 
+mod analysis;
+mod report;
+
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
 use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
-use uplift_engine::analysis::{Analysed, LabelledPlan, ResultJob, ShardReport, Work};
-use uplift_fragility::{LognormalFit, Stripes as Stripe};
+use uplift_engine::analysis::{Analysed, ResultJob, ShardReport};
+use uplift_fragility::Stripes as Stripe;
 use uplift_ida::{Shard, System};
 use uplift_inputs::RecordSet;
-use uplift_job::JobError;
-use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
 use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
-use uplift_spectra::{NUDGES, Noisy, nudges};
-use uplift_structure::UncertainQuantity;
-use uplift_study::{Structure, Uncertainty, UniformRiskStudy};
-use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, StudyOfResult, plan_stripes};
+use uplift_spectra::NUDGES;
+use uplift_study::Structure;
+use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, StudyOfResult};
 
-use super::certainty::{Bands, Scatter, rate_bands};
-use super::collapse::{Collapse, collapse};
+use super::certainty::{Scatter, rate_bands};
+use super::collapse::collapse;
 use super::hazard::Hazard;
 use super::lognormal::lognormal_bands;
-use super::models::models;
-use super::opening::{
-    ShakenRecords, check_tables, choose_measure, job_name, records_and_pairs, required, site_index,
-    study_with_common_records,
-};
-use super::own_frame::{FramePeaks, OwnFrame, STOPPED, falls, of_frame};
+use super::opening::{check_tables, job_name, site_index, study_with_common_records};
+use super::own_frame::{FramePeaks, of_frame};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{OVERTURNING_M, own_risk};
 use super::tables::{risk_path, write_tables};
 use super::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
 use super::weights::RepairedWeights;
 use crate::error::DesignError;
+use analysis::{OSCILLATOR, factors};
+pub(crate) use analysis::{OverturningAnalysis, peaks_m};
+pub use report::{CollapseReport, ModelReport, OverturningReport, SiteRisk};
+use report::{Collapses, FrameCollapses, reports};
 
 /// What is asked of the overturning of a structure.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -59,119 +58,13 @@ pub struct OverturningOptions {
     pub force: bool,
 }
 
-/// The report of the overturning of a structure.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct OverturningReport {
-    /// The structure; each model has its own restitution.
-    pub structure: StructureReport,
-    /// The result that it was examined under.
-    #[serde(flatten)]
-    pub source: ReportSource,
-    /// Years that probabilities refer to.
-    pub years: f64,
-    /// How the structure is modelled.
-    pub models: Vec<ModelReport>,
-    /// Fragility and risk, one a measure and model, in this order.
-    pub overturning: Vec<CollapseReport>,
-    /// The oscillator where its quantities are not known exactly; none where the structure file says that they are.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub uncertainty: Option<UncertaintyReport>,
-    /// Why a frame that can wobble is left out although no `--proxy` asks for that.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub without_frame: Option<String>,
-    /// How the models differ, and what could not be done.
-    pub notes: Vec<String>,
-    /// What to know before using the numbers, the worst first.
-    pub alarms: Vec<Alarm>,
-    /// What was written.
-    #[serde(skip)]
-    pub files: Vec<PathBuf>,
-}
-
-/// A model of a structure.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ModelReport {
-    /// `oscillator`, `block`, `wobbling frame` or `planar frame`.
-    pub model: &'static str,
-    /// Coefficient of restitution.
-    pub restitution: f64,
-    /// Where that comes from.
-    pub restitution_from: &'static str,
-    /// Half diagonal R of the block, m; none for the oscillator.
-    pub size_m: Option<f64>,
-    /// Slenderness α of the block, rad; none for the oscillator.
-    pub slenderness_rad: Option<f64>,
-}
-
-/// Overturning of one model by one measure.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct CollapseReport {
-    /// `PGV` or `PGA`.
-    pub im: &'static str,
-    /// Unit of the levels.
-    pub unit: &'static str,
-    /// `oscillator`, `block`, `wobbling frame` or `planar frame`.
-    pub model: &'static str,
-    /// Levels of the stripes, ascending.
-    pub levels: Vec<f64>,
-    /// Records that overturn the structure at each level.
-    pub overturned: Vec<u32>,
-    /// Fewest and most of them with all scale factors up to 4e-15 smaller and larger: another count than the one above
-    /// hangs on runs beyond double precision (docs/method.md, section 1.5).
-    pub overturned_rounding: Vec<[u32; 2]>,
-    /// Records.
-    pub records: u32,
-    /// Median of the lognormal fragility of maximum likelihood; none where there is no fit.
-    pub theta: Option<f64>,
-    /// Its dispersion.
-    pub beta: Option<f64>,
-    /// The median with its range over the same scale factors; NaN where one of them has no fit.
-    pub theta_rounding: Option<Noisy>,
-    /// The dispersion with its range.
-    pub beta_rounding: Option<Noisy>,
-    /// Its logarithmic likelihood.
-    pub log_likelihood: Option<f64>,
-    /// The risk at each site.
-    pub sites: Vec<SiteRisk>,
-    /// The fit itself.
-    #[serde(skip)]
-    pub fit: Option<LognormalFit>,
-}
-
-/// The risk of overturning at one site.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SiteRisk {
-    /// The site.
-    pub site: String,
-    /// From the counts, with no curve fitted.
-    #[serde(flatten)]
-    pub risk: EventRisk,
-    /// Its confidence band by the records; none where no run shows it, and of a single record.
-    pub bands: Option<Bands>,
-    /// From the counts with repaired weights, by which the records bring the site's hazard; none where the result has
-    /// none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub repaired: Option<EventRisk>,
-    /// How sure that is; none where there is none, and where no run shows it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub repaired_bands: Option<Bands>,
-    /// Frequency with the lognormal fragility in place of the counts, 1/yr; none without a fit.
-    pub lognormal_per_year: Option<f64>,
-    /// Its confidence band by the records; none without a fit, where that hangs on one record, and of a single one.
-    pub lognormal_bands: Option<Bands>,
-    /// The frequency from the counts with its range over scale factors up to 4e-15 smaller and larger, 1/yr.
-    pub per_year_rounding: Noisy,
-    /// That with the lognormal fragility; NaN where one of them has no fit.
-    pub lognormal_per_year_rounding: Option<Noisy>,
-}
-
 /// How often `structure` overturns under the records and the hazard of the result at `result`.
 ///
 /// # Errors
 /// A file that is missing, damaged, no result, or without sites; a site or measure that it does not have; a restitution
 /// that cannot be; records that cannot be read; tables that cannot be written or would replace something else; shards
-/// that do not belong together; [`JobError::Paused`] where `events` say so, [`JobError::Interrupted`] where no
-/// checkpoint can be written beside the result.
+/// that do not belong together; [`JobError::Paused`](uplift_job::JobError::Paused) where `events` say so,
+/// [`JobError::Interrupted`](uplift_job::JobError::Interrupted) where no checkpoint can be written beside the result.
 pub fn overturning(
     structure: &Structure,
     result: &Path,
@@ -235,7 +128,12 @@ pub fn overturning(
         hazards.push(hazard);
     }
     let asked = FrameSites { sites: &sites, repaired: &repaired, scatter: &scatter, years: study.risk.years };
-    let of_frame = analysis.frame_collapses(&mut analysed, &hazards, &asked)?;
+    let of_frame = analysis
+        .frame_peaks(&mut analysed)
+        .iter()
+        .zip(&hazards)
+        .map(|((measure, places, peaks), hazard)| asked.collapses((measure, places), hazard, peaks))
+        .collect::<Result<Vec<_>, _>>()?;
     notes.extend(notes_on(models, &found));
     notes.extend(analysis.frame.as_ref().map(|_| self::of_frame(structure)));
     let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
@@ -290,198 +188,6 @@ pub fn overturning_shard(
     Ok(ResultJob { result, name: &name }.shard(analysis.work(&name, &factors())?, shard, events)?)
 }
 
-/// Place of the equivalent oscillator among the models.
-const OSCILLATOR: usize = 0;
-
-/// The measure `wanted` of a result; all where none is.
-fn measures(source: &StudyOfResult, wanted: Option<IntensityMeasure>) -> Result<Vec<&SpectraOfResult>, DesignError> {
-    match wanted {
-        Some(measure) => Ok(vec![choose_measure(source, Some(measure))?]),
-        None => Ok(source.measures.iter().collect()),
-    }
-}
-
-/// Peaks of the only system of an analysis, m, `[record, level]`, where the scale factors of all levels have factors on
-/// them, of which this is the one at `factor`.
-pub(super) fn peaks_m(analysed: &Analysed, levels: usize, factor: usize) -> Vec<f64> {
-    let records = 0..analysed.peaks.axes().motions;
-    records.flat_map(|record| &analysed.peaks.row_m(record, 0)[factor * levels..][..levels]).copied().collect()
-}
-
-/// The models of a structure, and the records that shake them.
-pub(super) struct OverturningAnalysis<'a> {
-    /// The study of the result, with what happens after the end of a record.
-    study: UniformRiskStudy,
-    records: ShakenRecords,
-    pub(super) measures: Vec<&'a SpectraOfResult>,
-    /// Each with the origin of its restitution.
-    pub(super) models: Vec<(System, &'static str)>,
-    /// The frame itself, with the positions of its levels, `[measure]`; none of a structure that cannot wobble.
-    frame: Option<(OwnFrame, Vec<Vec<usize>>)>,
-    /// Why one that can wobble is left out.
-    without_frame: Option<String>,
-    /// The structures that it may be; none where all of it is known.
-    uncertain: Option<Uncertain<'a>>,
-}
-
-impl<'a> OverturningAnalysis<'a> {
-    /// Of `structure` under the records of a result; `notes` gets what is left out of its models.
-    pub(super) fn from_structure(
-        structure: &'a Structure,
-        source: &'a StudyOfResult,
-        options: &OverturningOptions,
-        notes: &mut Vec<String>,
-    ) -> Result<Self, DesignError> {
-        let measures = measures(source, options.measure)?;
-        let mut models = models(structure, source, options.restitution, notes)?;
-        let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
-        let stops = OwnFrame::is_described(structure) && !OwnFrame::can_be_shaken(structure) && !options.proxy;
-        let mut without_frame = stops.then(|| STOPPED.to_owned());
-        let found = records_and_pairs(source, options.manifest.as_deref(), with_pairs)?;
-        let (records, pairs) = required(found, "overturning")?;
-        let frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
-        let mut frame = frame.map(|frame| {
-            let levels = measures.iter().map(|of| frame.levels_that_uplift(&records.set, of)).collect::<Vec<_>>();
-            (frame, levels)
-        });
-        if let Some((of, places)) = &frame {
-            for (measure, places) in measures.iter().zip(places) {
-                let levels: Vec<f64> = places.iter().map(|&place| measure.plan.levels[place]).collect();
-                let falls = of.leaves_the_ground(&records.set, (measure.measure(), &levels))?;
-                without_frame = without_frame.or(falls);
-            }
-        }
-        frame = frame.filter(|_| without_frame.is_none());
-        let mut study = source.study.clone();
-        // what is lost when a record ends has overturned, whoever looks
-        study.oscillator.free_vibration = true;
-        if let Some(reason) = block_leaves_the_ground(&models, &study, &measures, &records.set)? {
-            models.truncate(OSCILLATOR + 1);
-            notes.push(format!("the block is not analysed: {reason}"));
-        }
-        let uncertain = uncertain_structures(structure, options.restitution, (&models[OSCILLATOR].0, records.count()))?;
-        Ok(Self { study, records, measures, models, frame, without_frame, uncertain })
-    }
-
-    /// The same of the structure as it is described alone, without those that it may be.
-    pub(super) fn described_alone(self) -> Self {
-        Self { uncertain: None, ..self }
-    }
-
-    /// Oscillator and block, then the models of the frame, each with the origin of its restitution.
-    pub(super) fn models(&self) -> impl Iterator<Item = (&System, &'static str)> {
-        let of_frame = self.frame.iter().flat_map(|(frame, _)| frame.models());
-        self.models.iter().map(|(model, origin)| (model, *origin)).chain(of_frame)
-    }
-
-    /// What the frame comes to by each measure: its stripes are the next of those `analysed`.
-    fn frame_collapses(
-        &self,
-        analysed: &mut impl Iterator<Item = Analysed>,
-        hazards: &[Vec<Hazard<'_>>],
-        asked: &FrameSites<'_>,
-    ) -> Result<Vec<FrameCollapses>, DesignError> {
-        let of_measures = self.frame_peaks(analysed).into_iter().zip(hazards);
-        of_measures
-            .map(|((measure, places, peaks), hazard)| asked.collapses((measure, places), hazard, &peaks))
-            .collect()
-    }
-
-    /// The peaks of the frame by each measure, with the positions of its levels; their stripes are the next of those
-    /// `analysed`. None of a structure that cannot wobble.
-    pub(super) fn frame_peaks(
-        &self,
-        analysed: &mut impl Iterator<Item = Analysed>,
-    ) -> Vec<(&'a SpectraOfResult, &[usize], FramePeaks)> {
-        let Some((frame, places)) = &self.frame else { return Vec::new() };
-        let measures = self.measures.iter().zip(places);
-        measures
-            .map_while(|(&measure, places)| {
-                let [wobbling, planar] = [analysed.next()?, analysed.next()?];
-                Some((measure, &places[..], frame.peaks(&wobbling, Some(&planar))))
-            })
-            .collect()
-    }
-
-    /// The stripes of each model by each measure, the models running fastest, with each of the `factors` on all scale
-    /// factors in turn. After all of them those of the frame, two a measure, and those of the structures
-    /// that it may be, one a measure.
-    pub(super) fn work(&self, title: &str, factors: &[f64]) -> Result<Work<'_>, DesignError> {
-        let mut plans = Vec::new();
-        let ShakenRecords { set, motions } = &self.records;
-        for measure in &self.measures {
-            for (model, _) in &self.models {
-                let plan = plan_stripes(&self.study, &measure.plan, set, std::slice::from_ref(model))?;
-                let plan = plan.multiplied(factors)?;
-                let label = format!("{}, {}", measure.measure().label(), model.kind());
-                plans.push(LabelledPlan { label, remark: None, plan, motions, known: None });
-            }
-        }
-        for (place, measure) in self.measures.iter().enumerate() {
-            let Some((frame, places)) = self.frame.as_ref().map(|(frame, places)| (frame, &places[place])) else {
-                break;
-            };
-            let levels: Vec<f64> = places.iter().map(|&place| measure.plan.levels[place]).collect();
-            plans.extend(frame.plans(&self.records, (measure.measure(), &levels))?);
-        }
-        if let Some(uncertain) = &self.uncertain {
-            for measure in &self.measures {
-                let label = measure.measure().label();
-                plans.push(uncertain.plan((label, &self.study), &measure.plan, &self.records)?);
-            }
-        }
-        Ok(Work::new(title, plans))
-    }
-}
-
-/// Factors on every scale factor: 1, then those of its neighbours some roundings away.
-fn factors() -> Vec<f64> {
-    [1.0].into_iter().chain(nudges()).collect()
-}
-
-/// Why the block among `models` cannot be shaken: its records, scaled, let it leave the ground.
-fn block_leaves_the_ground(
-    models: &[(System, &'static str)],
-    study: &UniformRiskStudy,
-    measures: &[&SpectraOfResult],
-    set: &RecordSet,
-) -> Result<Option<String>, DesignError> {
-    let verticals: Vec<_> = set.records.iter().filter_map(|record| record.vertical.as_ref()).collect();
-    let verticals: Vec<_> = verticals.iter().map(|vertical| &vertical.accelerogram).collect();
-    let Some(gravity_m_s2) = models.iter().find_map(|(model, _)| model.gravity_m_s2()) else { return Ok(None) };
-    for measure in measures.iter().filter(|_| !verticals.is_empty()) {
-        // the oscillator feels no vertical motion
-        let plan = plan_stripes(study, &measure.plan, set, std::slice::from_ref(&models[OSCILLATOR].0))?;
-        let falling = plan.multiplied(&factors())?.falling(&verticals, gravity_m_s2);
-        if let Some(reason) = falls(&falling) {
-            return Ok(Some(reason));
-        }
-    }
-    Ok(None)
-}
-
-/// The structures that `structure` may be, whose `oscillator` is that of the structure as described; none where all of
-/// it is known.
-///
-/// # Errors
-/// A structure that cannot be; one restitution for all where the file says that it is uncertain.
-fn uncertain_structures<'a>(
-    structure: &'a Structure,
-    for_both: Option<f64>,
-    (oscillator, records): (&System, usize),
-) -> Result<Option<Uncertain<'a>>, DesignError> {
-    let is_uncertain = |of: &Uncertainty| of.quantities.contains(&UncertainQuantity::Restitution);
-    if for_both.is_some() && structure.uncertainty.as_ref().is_some_and(is_uncertain) {
-        return Err(JobError::Usage(format!(
-            "--restitution: {} says that the restitution is uncertain: leave the option out, or \
-             [uncertainty.restitution]",
-            structure.file.display()
-        ))
-        .into());
-    }
-    Uncertain::from_structure(structure, oscillator.restitution(), records)
-}
-
 /// What the stripes of the structures say by each of `measures`, with the hazard of each of the sites; `described` is
 /// the frequency for the structure as described, by the positions of measure and site.
 fn uncertainty_report(
@@ -502,38 +208,6 @@ fn uncertainty_report(
         results.extend(uncertain.results(&Stripes::new(&measure.plan, set, analysed), &asked, scatter)?);
     }
     Ok(uncertain.report(analyses, results))
-}
-
-/// Overturning at the scale factors themselves, and at their neighbours some roundings away.
-struct Collapses {
-    own: Collapse,
-    /// None of a frame, whose neighbours are not analysed.
-    rounded: Vec<Collapse>,
-    /// How sure its risks are, `[site]`.
-    bands: Vec<Option<Bands>>,
-    /// The same of those with repaired weights.
-    repaired_bands: Vec<Option<Bands>>,
-    /// The same of those by the lognormal fragility.
-    lognormal_bands: Vec<Option<Bands>>,
-}
-
-/// Overturning of a frame by each of its models.
-type FrameCollapses = Vec<(&'static str, Collapses)>;
-
-/// The rows of a report: by each measure the models, those of the frame last.
-fn reports(
-    (found, of_frame): (&[(&SpectraOfResult, Vec<Collapses>)], &[FrameCollapses]),
-    models: &[(System, &'static str)],
-    records: u32,
-    sites: &[&str],
-) -> Vec<CollapseReport> {
-    let of_measure = |(place, (measure, found)): (usize, &(&SpectraOfResult, Vec<Collapses>))| {
-        let own = found.iter().zip(models).map(|(found, (model, _))| (found, model.kind()));
-        let of_frame = of_frame.get(place).into_iter().flatten().map(|(model, found)| (found, *model));
-        let report = |(found, model)| CollapseReport::from_collapse(found, measure.measure(), model, records, sites);
-        own.chain(of_frame).map(report).collect::<Vec<_>>()
-    };
-    found.iter().enumerate().flat_map(of_measure).collect()
 }
 
 /// By what the peaks of a frame are weighed.
@@ -619,71 +293,4 @@ fn own_risks(
         }
     }
     risks
-}
-
-impl ModelReport {
-    fn from_model(model: &System, restitution_from: &'static str) -> Self {
-        let block = match model {
-            System::Oscillator(_) | System::Frame(_) => None,
-            System::Block(block) => Some(block),
-        };
-        Self {
-            model: model.kind(),
-            restitution: model.restitution(),
-            restitution_from,
-            size_m: block.map(uplift_block::RockingBlock::size_m),
-            slenderness_rad: block.map(uplift_block::RockingBlock::slenderness_rad),
-        }
-    }
-}
-
-impl CollapseReport {
-    fn from_collapse(
-        Collapses { own, rounded, bands, repaired_bands, lognormal_bands }: &Collapses,
-        measure: IntensityMeasure,
-        model: &'static str,
-        records: u32,
-        sites: &[&str],
-    ) -> Self {
-        let around = |value: &dyn Fn(&Collapse) -> f64| Noisy::around(value(own), rounded.iter().map(value));
-        let fit = own.fit.as_ref().ok();
-        let of_fit = |value: &dyn Fn(&LognormalFit) -> f64| {
-            fit.map(|_| around(&|found| found.fit.as_ref().map_or(f64::NAN, value)))
-        };
-        let site = |(index, site): (usize, &&str)| SiteRisk {
-            site: (*site).to_owned(),
-            risk: own.risks[index],
-            bands: bands[index],
-            repaired: own.repaired[index],
-            repaired_bands: repaired_bands[index],
-            lognormal_per_year: own.fitted.as_ref().map(|fitted| fitted[index].per_year),
-            lognormal_bands: lognormal_bands[index],
-            per_year_rounding: around(&|found| found.risks[index].per_year),
-            lognormal_per_year_rounding: own
-                .fitted
-                .as_ref()
-                .map(|_| around(&|found| found.fitted.as_ref().map_or(f64::NAN, |fitted| fitted[index].per_year))),
-        };
-        let count = |found: &Collapse, level: usize| found.counts[level].exceedances;
-        let counts_at = |level: usize| {
-            let counts = rounded.iter().map(move |found| count(found, level));
-            counts.fold([count(own, level); 2], |[fewest, most], other| [fewest.min(other), most.max(other)])
-        };
-        Self {
-            im: measure.label(),
-            unit: measure.unit(),
-            model,
-            levels: own.counts.iter().map(|count| count.level).collect(),
-            overturned: own.counts.iter().map(|count| count.exceedances).collect(),
-            overturned_rounding: (0..own.counts.len()).map(counts_at).collect(),
-            records,
-            theta: fit.map(|fit| fit.fragility.median()),
-            beta: fit.map(|fit| fit.fragility.dispersion()),
-            theta_rounding: of_fit(&|fit| fit.fragility.median()),
-            beta_rounding: of_fit(&|fit| fit.fragility.dispersion()),
-            log_likelihood: fit.map(|fit| fit.log_likelihood),
-            sites: sites.iter().enumerate().map(site).collect(),
-            fit: fit.copied(),
-        }
-    }
 }

@@ -1,0 +1,197 @@
+//! The models of a structure, and the analyses that show whether they overturn.
+
+use uplift_engine::analysis::{Analysed, LabelledPlan, Work};
+use uplift_ida::System;
+use uplift_inputs::RecordSet;
+use uplift_job::JobError;
+use uplift_motion::IntensityMeasure;
+use uplift_spectra::nudges;
+use uplift_structure::UncertainQuantity;
+use uplift_study::{Structure, Uncertainty, UniformRiskStudy};
+use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_stripes};
+
+use super::OverturningOptions;
+use crate::error::DesignError;
+use crate::models::models;
+use crate::opening::{ShakenRecords, choose_measure, records_and_pairs, required};
+use crate::own_frame::{FramePeaks, OwnFrame, STOPPED, falls};
+use crate::uncertain::Uncertain;
+
+/// Place of the equivalent oscillator among the models.
+pub(super) const OSCILLATOR: usize = 0;
+
+/// The measure `wanted` of a result; all where none is.
+fn measures(source: &StudyOfResult, wanted: Option<IntensityMeasure>) -> Result<Vec<&SpectraOfResult>, DesignError> {
+    match wanted {
+        Some(measure) => Ok(vec![choose_measure(source, Some(measure))?]),
+        None => Ok(source.measures.iter().collect()),
+    }
+}
+
+/// Peaks of the only system of an analysis, m, `[record, level]`, where the scale factors of all levels have factors on
+/// them, of which this is the one at `factor`.
+pub(crate) fn peaks_m(analysed: &Analysed, levels: usize, factor: usize) -> Vec<f64> {
+    let records = 0..analysed.peaks.axes().motions;
+    records.flat_map(|record| &analysed.peaks.row_m(record, 0)[factor * levels..][..levels]).copied().collect()
+}
+
+/// The models of a structure, and the records that shake them.
+pub(crate) struct OverturningAnalysis<'a> {
+    /// The study of the result, with what happens after the end of a record.
+    pub(super) study: UniformRiskStudy,
+    pub(super) records: ShakenRecords,
+    pub(crate) measures: Vec<&'a SpectraOfResult>,
+    /// Each with the origin of its restitution.
+    pub(crate) models: Vec<(System, &'static str)>,
+    /// The frame itself, with the positions of its levels, `[measure]`; none of a structure that cannot wobble.
+    pub(super) frame: Option<(OwnFrame, Vec<Vec<usize>>)>,
+    /// Why one that can wobble is left out.
+    pub(super) without_frame: Option<String>,
+    /// The structures that it may be; none where all of it is known.
+    pub(super) uncertain: Option<Uncertain<'a>>,
+}
+
+impl<'a> OverturningAnalysis<'a> {
+    /// Of `structure` under the records of a result; `notes` gets what is left out of its models.
+    pub(crate) fn from_structure(
+        structure: &'a Structure,
+        source: &'a StudyOfResult,
+        options: &OverturningOptions,
+        notes: &mut Vec<String>,
+    ) -> Result<Self, DesignError> {
+        let measures = measures(source, options.measure)?;
+        let mut models = models(structure, source, options.restitution, notes)?;
+        let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
+        let stops = OwnFrame::is_described(structure) && !OwnFrame::can_be_shaken(structure) && !options.proxy;
+        let mut without_frame = stops.then(|| STOPPED.to_owned());
+        let found = records_and_pairs(source, options.manifest.as_deref(), with_pairs)?;
+        let (records, pairs) = required(found, "overturning")?;
+        let frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
+        let mut frame = frame.map(|frame| {
+            let levels = measures.iter().map(|of| frame.levels_that_uplift(&records.set, of)).collect::<Vec<_>>();
+            (frame, levels)
+        });
+        if let Some((of, places)) = &frame {
+            for (measure, places) in measures.iter().zip(places) {
+                let levels: Vec<f64> = places.iter().map(|&place| measure.plan.levels[place]).collect();
+                let falls = of.leaves_the_ground(&records.set, (measure.measure(), &levels))?;
+                without_frame = without_frame.or(falls);
+            }
+        }
+        frame = frame.filter(|_| without_frame.is_none());
+        let mut study = source.study.clone();
+        // what is lost when a record ends has overturned, whoever looks
+        study.oscillator.free_vibration = true;
+        if let Some(reason) = block_leaves_the_ground(&models, &study, &measures, &records.set)? {
+            models.truncate(OSCILLATOR + 1);
+            notes.push(format!("the block is not analysed: {reason}"));
+        }
+        let uncertain = uncertain_structures(structure, options.restitution, (&models[OSCILLATOR].0, records.count()))?;
+        Ok(Self { study, records, measures, models, frame, without_frame, uncertain })
+    }
+
+    /// The same of the structure as it is described alone, without those that it may be.
+    pub(crate) fn described_alone(self) -> Self {
+        Self { uncertain: None, ..self }
+    }
+
+    /// Oscillator and block, then the models of the frame, each with the origin of its restitution.
+    pub(crate) fn models(&self) -> impl Iterator<Item = (&System, &'static str)> {
+        let of_frame = self.frame.iter().flat_map(|(frame, _)| frame.models());
+        self.models.iter().map(|(model, origin)| (model, *origin)).chain(of_frame)
+    }
+
+    /// The peaks of the frame by each measure, with the positions of its levels; their stripes are the next of those
+    /// `analysed`. None of a structure that cannot wobble.
+    pub(crate) fn frame_peaks(
+        &self,
+        analysed: &mut impl Iterator<Item = Analysed>,
+    ) -> Vec<(&'a SpectraOfResult, &[usize], FramePeaks)> {
+        let Some((frame, places)) = &self.frame else { return Vec::new() };
+        let measures = self.measures.iter().zip(places);
+        measures
+            .map_while(|(&measure, places)| {
+                let [wobbling, planar] = [analysed.next()?, analysed.next()?];
+                Some((measure, &places[..], frame.peaks(&wobbling, Some(&planar))))
+            })
+            .collect()
+    }
+
+    /// The stripes of each model by each measure, the models running fastest, with each of the `factors` on all scale
+    /// factors in turn. After all of them those of the frame, two a measure, and those of the structures
+    /// that it may be, one a measure.
+    pub(crate) fn work(&self, title: &str, factors: &[f64]) -> Result<Work<'_>, DesignError> {
+        let mut plans = Vec::new();
+        let ShakenRecords { set, motions } = &self.records;
+        for measure in &self.measures {
+            for (model, _) in &self.models {
+                let plan = plan_stripes(&self.study, &measure.plan, set, std::slice::from_ref(model))?;
+                let plan = plan.multiplied(factors)?;
+                let label = format!("{}, {}", measure.measure().label(), model.kind());
+                plans.push(LabelledPlan { label, remark: None, plan, motions, known: None });
+            }
+        }
+        for (place, measure) in self.measures.iter().enumerate() {
+            let Some((frame, places)) = self.frame.as_ref().map(|(frame, places)| (frame, &places[place])) else {
+                break;
+            };
+            let levels: Vec<f64> = places.iter().map(|&place| measure.plan.levels[place]).collect();
+            plans.extend(frame.plans(&self.records, (measure.measure(), &levels))?);
+        }
+        if let Some(uncertain) = &self.uncertain {
+            for measure in &self.measures {
+                let label = measure.measure().label();
+                plans.push(uncertain.plan((label, &self.study), &measure.plan, &self.records)?);
+            }
+        }
+        Ok(Work::new(title, plans))
+    }
+}
+
+/// Factors on every scale factor: 1, then those of its neighbours some roundings away.
+pub(super) fn factors() -> Vec<f64> {
+    [1.0].into_iter().chain(nudges()).collect()
+}
+
+/// Why the block among `models` cannot be shaken: its records, scaled, let it leave the ground.
+fn block_leaves_the_ground(
+    models: &[(System, &'static str)],
+    study: &UniformRiskStudy,
+    measures: &[&SpectraOfResult],
+    set: &RecordSet,
+) -> Result<Option<String>, DesignError> {
+    let verticals: Vec<_> = set.records.iter().filter_map(|record| record.vertical.as_ref()).collect();
+    let verticals: Vec<_> = verticals.iter().map(|vertical| &vertical.accelerogram).collect();
+    let Some(gravity_m_s2) = models.iter().find_map(|(model, _)| model.gravity_m_s2()) else { return Ok(None) };
+    for measure in measures.iter().filter(|_| !verticals.is_empty()) {
+        // the oscillator feels no vertical motion
+        let plan = plan_stripes(study, &measure.plan, set, std::slice::from_ref(&models[OSCILLATOR].0))?;
+        let falling = plan.multiplied(&factors())?.falling(&verticals, gravity_m_s2);
+        if let Some(reason) = falls(&falling) {
+            return Ok(Some(reason));
+        }
+    }
+    Ok(None)
+}
+
+/// The structures that `structure` may be, whose `oscillator` is that of the structure as described; none where all of
+/// it is known.
+///
+/// # Errors
+/// A structure that cannot be; one restitution for all where the file says that it is uncertain.
+fn uncertain_structures<'a>(
+    structure: &'a Structure,
+    for_both: Option<f64>,
+    (oscillator, records): (&System, usize),
+) -> Result<Option<Uncertain<'a>>, DesignError> {
+    let is_uncertain = |of: &Uncertainty| of.quantities.contains(&UncertainQuantity::Restitution);
+    if for_both.is_some() && structure.uncertainty.as_ref().is_some_and(is_uncertain) {
+        return Err(JobError::Usage(format!(
+            "--restitution: {} says that the restitution is uncertain: leave the option out, or \
+             [uncertainty.restitution]",
+            structure.file.display()
+        ))
+        .into());
+    }
+    Uncertain::from_structure(structure, oscillator.restitution(), records)
+}
