@@ -187,8 +187,7 @@ impl Mixture {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use rand_chacha::ChaCha8Rng;
-    use rand_chacha::rand_core::{Rng, SeedableRng};
+    use uplift_random::{Rng, stream};
 
     use super::*;
     use crate::skewed_mean::tests::of;
@@ -263,7 +262,7 @@ mod tests {
         let factors = [0.6, 1.0, 1.6];
         let weights = [0.25, 0.5, 0.25];
         let mixture = mixture(&weights, UNITS);
-        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let mut random = stream(b"uplift bootstrap  a test", 7, 0);
         let mut uniform = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         let (mut held, mut beyond) = (0, [0, 0]);
         for _ in 0..RUNS {

@@ -1,7 +1,6 @@
 //! Which records each replicate draws.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use uplift_random::{ChaCha8Rng, below, stream};
 use uplift_risk::RecordSample;
 
 use crate::unit::{units, units_in_sample};
@@ -284,37 +283,18 @@ struct Stream(ChaCha8Rng);
 
 impl Stream {
     fn new(domain: &[u8; 24], seed: u64, size: u32, replicate: usize) -> Self {
-        let mut bytes = [0; 32];
-        bytes[..8].copy_from_slice(&seed.to_le_bytes());
-        bytes[8..].copy_from_slice(domain);
-        let mut generator = ChaCha8Rng::from_seed(bytes);
-        generator.set_stream((u64::from(size) << 32) | replicate as u64);
-        Self(generator)
+        Self(stream(domain, seed, (u64::from(size) << 32) | replicate as u64))
     }
 
     /// How often each record is drawn with so many of the `count` units.
     fn sample(&mut self, units: &[Vec<usize>], (count, drawn): (u32, u32), record_count: usize) -> Vec<u32> {
         let mut multiplicities = vec![0; record_count];
         for _ in 0..drawn {
-            for &record in &units[self.below(count) as usize] {
+            for &record in &units[below(&mut self.0, count) as usize] {
                 multiplicities[record] += 1;
             }
         }
         multiplicities
-    }
-
-    /// Uniform on `0..bound`, without bias: the high half of a product, where its low half does not fall into the
-    /// uneven rest (D. Lemire, ACM Trans. Model. Comput. Simul. 29, 2019).
-    fn below(&mut self, bound: u32) -> u32 {
-        let uneven = bound.wrapping_neg() % bound;
-        loop {
-            let product = u64::from(self.0.next_u32()) * u64::from(bound);
-            #[expect(clippy::cast_possible_truncation, reason = "the halves of the product")]
-            let (high, low) = ((product >> 32) as u32, product as u32);
-            if low >= uneven {
-                return high;
-            }
-        }
     }
 }
 

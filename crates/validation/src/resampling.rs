@@ -4,8 +4,7 @@
 //! itself. It has its own stream of the counter-based generator `ChaCha8`, numbered by the replicate, and so depends on
 //! the seed and its number alone.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use uplift_random::{ChaCha8Rng, Rng, stream};
 
 use crate::error::ValidationError;
 use crate::kolmogorov_smirnov::KolmogorovSmirnov;
@@ -192,12 +191,7 @@ pub(crate) struct Stream(ChaCha8Rng);
 
 impl Stream {
     pub(crate) fn new(domain: &[u8; 24], seed: u64, replicate: u32) -> Self {
-        let mut bytes = [0; 32];
-        bytes[..8].copy_from_slice(&seed.to_le_bytes());
-        bytes[8..].copy_from_slice(domain);
-        let mut generator = ChaCha8Rng::from_seed(bytes);
-        generator.set_stream(u64::from(replicate));
-        Self(generator)
+        Self(stream(domain, seed, u64::from(replicate)))
     }
 
     /// Uniform on `0..bound`: the high half of a product, uneven by less than 2⁻⁴⁰ for samples of any size.
