@@ -323,6 +323,7 @@ fn mistakes_in_the_study() {
         ("site_table.strengths=\"0.2:0.1\"", &["strengths"]),
         ("site_table.within=3", &["unknown key `within`", "within_km"]),
         ("site_table=3", &["a section"]),
+        ("site_table.bands=3", &["bands", "true or false"]),
     ] {
         study.uplift(&["check", "study.toml", "--set", set]).fails(3, words);
     }

@@ -20,7 +20,7 @@ fn every_site_is_repaired_as_one_of_the_sites_is() {
          [pgv]\nlevels_cm_s = [0.5, 1, 2, 4, 8, 15, 30, 60, 120]\n\
          [pga]\nlevels_g = [0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.6, 1.2]\n\
          [risk]\npoe = [0.1, 0.5]\nmaf_surface = false\n[regression]\nstrength_above = 0\n\
-         [site_table]\npgv = \"pgv-export.csv\"\npga = \"pga-export.csv\"\n{}[consistency]\nrepair = \"weights\"\n",
+         [site_table]\npgv = \"pgv-export.csv\"\npga = \"pga-export.csv\"\nbands = true\n{}[consistency]\nrepair = \"weights\"\n",
         both.concat()
     ));
     // of PGA such that the records come near it at some sites, and nowhere near at one
@@ -67,6 +67,39 @@ fn every_site_is_repaired_as_one_of_the_sites_is() {
     let alpha = map["features"].as_array().unwrap().iter().find(|site| site["properties"]["name"] == "alpha").unwrap();
     let on_map = alpha["properties"]["pgv_10pct_50yr_consistent_u_m_at_0.2"].as_f64().unwrap();
     assert_eq!(on_map.to_bits(), spectra["alpha PGV 0.1"][2][1].parse::<f64>().unwrap().to_bits());
+    bands_are_those_of_sites(&study, &alpha["properties"]);
+}
+
+/// The bands of the table are to the bit those that the sites of the study have.
+fn bands_are_those_of_sites(study: &SmallStudy, on_map: &Value) {
+    let table = read(study.path(), "r.sites.csv");
+    let plain = rows(&table, &["u_m", "lower_m", "upper_m"]);
+    let repaired = rows(&table, &["u_consistent_m", "lower_consistent_m", "upper_consistent_m"]);
+    let all = ["spectrum", "r.h5", "--strength", "0.05,0.1,0.2,0.4", "--poe", "0.1,0.5", "--csv", "--measure"];
+    for measure in ["pgv", "pga"] {
+        for (more, ours) in [(&[][..], &plain), (&["--repaired"], &repaired)] {
+            let csv = study.uplift(&[&all[..], &[measure], more].concat()).ok().stdout;
+            let expected = rows(&csv, &["u_m", "lower_m", "upper_m"]);
+            assert_eq!(expected.len(), 2 * 2);
+            for (key, expected) in &expected {
+                let numbers = |rows: &[Vec<String>]| -> Vec<f64> {
+                    rows.iter().flatten().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect()
+                };
+                let (ours, expected) = (numbers(&ours[key]), numbers(expected));
+                assert!(ours.len() == 4 * 3 && ours.iter().all(|value| value.is_finite()), "{key} {ours:?}");
+                assert_eq!(ours, expected, "{key}");
+                assert!(ours.chunks(3).all(|row| row[1] < row[0] && row[0] < row[2]), "{key} {ours:?}");
+            }
+        }
+    }
+    let [lower_m, upper_m] = ["lower_m", "upper_m"].map(|limit| {
+        [format!("pgv_10pct_50yr_{limit}_at_0.2"), format!("pgv_10pct_50yr_consistent_{limit}_at_0.2")]
+            .map(|key| on_map[&key].as_f64().unwrap())
+    });
+    for (at, of) in [&plain, &repaired].into_iter().enumerate() {
+        let row = &of["alpha PGV 0.1"][2];
+        assert_eq!([&row[1], &row[2]].map(|cell| cell.parse::<f64>().unwrap()), [lower_m[at], upper_m[at]]);
+    }
 }
 
 /// A study by PGV alone, of the records that `more` says; the exports of both measures are at hand, and two sites of

@@ -5,6 +5,7 @@ use uplift_bootstrap::{is_too_narrow, units};
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
 
+use crate::Precision;
 use crate::consistency::Question;
 use crate::error::UniformRiskError;
 
@@ -54,6 +55,16 @@ impl QuotedUnits {
     pub fn read(file: &ResultFile, measure: IntensityMeasure, question: &Question) -> Self {
         let is_by_earthquake =
             file.half_widths(measure).is_some_and(|[by_record, by_event]| is_too_narrow(by_record, by_event));
+        Self::new(is_by_earthquake, question)
+    }
+
+    /// Those of bands by the `precision` of their measure; none of a single record.
+    pub fn from_precision(precision: Option<&Precision>, question: &Question) -> Self {
+        let widths = precision.and_then(|of| Some((of.half_width[0], of.half_width_by_event?)));
+        Self::new(widths.is_some_and(|(by_record, by_event)| is_too_narrow(by_record, by_event)), question)
+    }
+
+    fn new(is_by_earthquake: bool, question: &Question) -> Self {
         if is_by_earthquake {
             Self { of: BandOf::Earthquakes, records: units(&question.event_of()) }
         } else {

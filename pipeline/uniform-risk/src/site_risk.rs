@@ -1,11 +1,13 @@
 //! Spectra and coefficients of many sites, one after the other: what they share is made once.
 
 use rayon::prelude::*;
+use uplift_bootstrap::{InferredLimits, inferred_limits, repaired_limits};
 use uplift_regression::ExponentialFit;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, RunWeights, StripeWeights};
 use uplift_study::UniformRiskStudy;
 
 use crate::coefficients::fit_spectrum;
+use crate::displacement::CONFIDENCE;
 use crate::error::UniformRiskError;
 use crate::spectra::{Reading, pooled_demand};
 use crate::stripes::Stripes;
@@ -16,6 +18,15 @@ pub struct SiteRisk<'a> {
     reading: Reading,
     /// One a strength.
     demands: Vec<PooledDemand>,
+    bands: Option<Bands>,
+}
+
+/// Which bands are asked for.
+struct Bands {
+    /// Positions of the records that count as one.
+    units: Vec<Vec<usize>>,
+    /// Positions of the strengths.
+    strengths: Vec<usize>,
 }
 
 /// The spectra of one site and measure.
@@ -25,6 +36,18 @@ pub struct SiteSpectra {
     pub ordinates: Vec<Ordinate>,
     /// A fit of Eq. 4.11, or why there is none, over `[poe]`.
     pub fits: Vec<Result<ExponentialFit, String>>,
+    /// 90 % bands, lower limit first, m, over `[poe, strength]` of the strengths of
+    /// [`SiteRisk::with_bands`]; empty without.
+    pub bands_m: Vec<[f64; 2]>,
+}
+
+impl SiteSpectra {
+    /// The ordinates and the bands at the position of a probability.
+    pub fn at_poe(&self, poe: usize) -> (&[Ordinate], &[[f64; 2]]) {
+        let poes = self.fits.len();
+        let [ordinates, bands] = [self.ordinates.len() / poes, self.bands_m.len() / poes];
+        (&self.ordinates[poe * ordinates..][..ordinates], &self.bands_m[poe * bands..][..bands])
+    }
 }
 
 impl<'a> SiteRisk<'a> {
@@ -43,7 +66,16 @@ impl<'a> SiteRisk<'a> {
         demand: impl Fn(usize) -> Result<PooledDemand, UniformRiskError> + Sync + Send,
     ) -> Result<Self, UniformRiskError> {
         let demands = (0..strengths).into_par_iter().map(demand).collect::<Result<_, _>>()?;
-        Ok(Self { study, reading: Reading::from_study(study)?, demands })
+        Ok(Self { study, reading: Reading::from_study(study)?, demands, bands: None })
+    }
+
+    /// The same with the band of each ordinate at the strengths of these positions: [`inferred_limits`], or
+    /// [`repaired_limits`] of weighted runs.
+    ///
+    /// - `units`: positions of the records that count as one, as [`QuotedUnits`](crate::QuotedUnits) has them.
+    #[must_use]
+    pub fn with_bands(self, units: Vec<Vec<usize>>, strengths: Vec<usize>) -> Self {
+        Self { bands: Some(Bands { units, strengths }), ..self }
     }
 
     /// The spectra of the site whose hazard gives the stripes these weights: to the bit those of
@@ -53,7 +85,10 @@ impl<'a> SiteRisk<'a> {
     /// # Errors
     /// Weights of another number of levels.
     pub fn spectra(&self, weights: &StripeWeights) -> Result<SiteSpectra, String> {
-        self.of_curves(|demand| RiskCurve::new(demand, weights))
+        let limits = |demand: &PooledDemand, units: &[Vec<usize>]| {
+            inferred_limits(demand, weights, units, &self.reading.targets, (&[units.len()], CONFIDENCE))
+        };
+        self.of_curves(|demand| RiskCurve::new(demand, weights), limits)
     }
 
     /// The spectra of runs that weigh `weights`, those of a repair.
@@ -61,12 +96,16 @@ impl<'a> SiteRisk<'a> {
     /// # Errors
     /// Weights of another number of runs.
     pub fn weighted_spectra(&self, weights: &RunWeights) -> Result<SiteSpectra, String> {
-        self.of_curves(|demand| RiskCurve::weighted(demand, weights))
+        let limits = |demand: &PooledDemand, units: &[Vec<usize>]| {
+            repaired_limits(demand, weights, units, &self.reading.targets, (&[units.len()], CONFIDENCE))
+        };
+        self.of_curves(|demand| RiskCurve::weighted(demand, weights), limits)
     }
 
     fn of_curves<'d>(
         &'d self,
         curve: impl Fn(&'d PooledDemand) -> Result<RiskCurve<'d>, RiskError>,
+        limits: impl Fn(&PooledDemand, &[Vec<usize>]) -> Result<Vec<InferredLimits>, RiskError>,
     ) -> Result<SiteSpectra, String> {
         let mut by_strength = Vec::with_capacity(self.demands.len());
         for demand in &self.demands {
@@ -77,6 +116,13 @@ impl<'a> SiteRisk<'a> {
         let ordinates: Vec<Ordinate> =
             (0..poes).flat_map(|poe| by_strength.iter().map(move |ordinates| ordinates[poe])).collect();
         let fits = ordinates.chunks(self.demands.len()).map(|spectrum| fit_spectrum(self.study, spectrum)).collect();
-        Ok(SiteSpectra { ordinates, fits })
+        let mut limits_by_strength = Vec::new();
+        if let Some(Bands { units, strengths }) = &self.bands {
+            let of = |&strength: &usize| limits(&self.demands[strength], units).map_err(|error| error.to_string());
+            limits_by_strength = strengths.iter().map(of).collect::<Result<_, _>>()?;
+        }
+        let of_poe = |poe: usize| limits_by_strength.iter().map(move |limits| limits[poe].truth_m);
+        let bands_m = (0..poes).flat_map(of_poe).collect();
+        Ok(SiteSpectra { ordinates, fits, bands_m })
     }
 }

@@ -8,11 +8,11 @@ use uplift_plausible::DISTANCE;
 
 use super::measures;
 use crate::grid::{Grid, GridRule};
-use crate::keys::{File, Key, Number, SectionKeys, file, grid, number};
+use crate::keys::{Boolean, File, Key, Number, SectionKeys, boolean, file, grid, number};
 use crate::reading::{Field, Paths, Rule, Section, optional, quantity};
 use crate::sections::strengths;
 
-pub(super) const KEYS: SectionKeys = SectionKeys::new("site_table", &[&SITES, &EXPORT, &WITHIN_KM, &STRENGTHS]);
+pub(super) const KEYS: SectionKeys = SectionKeys::new("site_table", &[&SITES, &EXPORT, &WITHIN_KM, &STRENGTHS, &BANDS]);
 const SITES: Key<File> = file("sites")
     .without_default("every site of the first export")
     .meaning(
@@ -36,6 +36,9 @@ const STRENGTHS: Key<GridRule> = grid("strengths", strengths::RULE)
     .without_default("all in the table; on the map those nearest to 0.1, 0.2 and 0.4")
     .meaning("strengths whose ordinates are written, a grid")
     .note("each one of `strengths.values`");
+const BANDS: Key<Boolean> = boolean("bands")
+    .with_default(false)
+    .meaning("whether each ordinate that is written has its 90 % band; at 20 strengths some five times the time");
 
 /// Many sites with the exports that hold their hazard curves.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -52,6 +55,9 @@ pub struct SiteTable {
     /// into the map.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub strengths: Option<Grid>,
+    /// Whether each ordinate that is written has its 90 % band.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub bands: bool,
 }
 
 impl SiteTable {
@@ -119,8 +125,9 @@ fn section(
     let within_km = section.read(&WITHIN_KM);
     let strengths_field = section.given(&STRENGTHS);
     let strengths = optional(strengths_field.as_ref(), |field| strengths_of(field, known));
+    let bands = section.read(&BANDS);
     section.finish();
-    Some(SiteTable { sites: sites?, exports: exports?, within_km: within_km?, strengths: strengths? })
+    Some(SiteTable { sites: sites?, exports: exports?, within_km: within_km?, strengths: strengths?, bands: bands? })
 }
 
 /// A grid of strengths that are all `known`; where the study's own are wrong, only the notation is checked.

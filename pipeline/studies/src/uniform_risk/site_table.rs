@@ -16,10 +16,10 @@ use uplift_inputs::{BatchSite, SharedCurve, SiteCurves, SiteExport, SiteList, re
 use uplift_job::JobError;
 use uplift_job::events::{Events, Progress};
 use uplift_job::text::{risk_name, thousands};
-use uplift_risk::OrdinateFlag;
+use uplift_risk::{OrdinateFlag, StripeWeights};
 use uplift_study::{Repair, UniformRiskStudy};
 use uplift_uniform_risk::consistency::Question;
-use uplift_uniform_risk::{SiteRisk, SiteSpectra, Stripes};
+use uplift_uniform_risk::{BandOf, QuotedUnits, SiteRisk, SiteSpectra, Stripes, pooled_demand, precision};
 
 use crate::error::StudiesError;
 
@@ -27,6 +27,8 @@ use crate::error::StudiesError;
 const BATCH_BYTES: usize = 16 << 20;
 /// Bytes that an ordinate takes as text, about.
 const ORDINATE_BYTES: usize = 80;
+/// Sites by which it is decided whether bands are by record or by earthquake.
+const JUDGED_SITES: usize = 8;
 
 /// What many sites leave behind: nothing where the study has no table of sites.
 #[derive(Default)]
@@ -59,8 +61,8 @@ pub fn read(study: &UniformRiskStudy, events: &dyn Events) -> Result<Option<Site
 }
 
 /// Spectra and coefficients of every site of the list, written site by site; `line` says where the numbers come from.
-pub(crate) fn compute(
-    study: &UniformRiskStudy,
+pub(crate) fn compute<'a>(
+    study: &'a UniformRiskStudy,
     list: Option<&SiteList>,
     (stripes, question): (&[Stripes], &Question),
     path: &Path,
@@ -69,8 +71,10 @@ pub(crate) fn compute(
 ) -> Result<SiteOutput, StudiesError> {
     let Some(list) = list else { return Ok(SiteOutput::default()) };
     // both are in the order of the study's measures
-    let listed = stripes.iter().filter(|own| list.exports.iter().any(|export| export.measure == own.measure));
-    let risks: Vec<SiteRisk<'_>> = listed.map(|stripes| SiteRisk::new(study, stripes)).collect::<Result<_, _>>()?;
+    let is_listed = |own: &&Stripes| list.exports.iter().any(|export| export.measure == own.measure);
+    let listed: Vec<&Stripes> = stripes.iter().filter(is_listed).collect();
+    let mut risks: Vec<SiteRisk<'_>> =
+        listed.iter().map(|stripes| SiteRisk::new(study, stripes)).collect::<Result<_, _>>()?;
     let is_repaired = study.consistency.repair == Repair::Weights;
     let repair = is_repaired.then(|| SiteRepair::new(question, list)).transpose()?;
     let mut files = SiteTableFiles::create(path, study, list, line)?;
@@ -81,6 +85,16 @@ pub(crate) fn compute(
     let progress = Progress::begin(events, "sites", "sites", list.sites.len() as u64);
 
     let mut batch = curves.next_batch(most)?;
+    if study.site_table.as_ref().is_some_and(|table| table.bands) {
+        let with_bands = |(export, risk): (usize, SiteRisk<'a>)| {
+            let units = quoted_units(study, list, (export, listed[export]), (&batch, question))?;
+            if units.of == BandOf::Earthquakes {
+                events.remark("sites", &format!("bands by {} are by earthquake", listed[export].measure.label()));
+            }
+            Ok::<_, StudiesError>(risk.with_bands(units.records, files.layout().in_table().to_vec()))
+        };
+        risks = risks.into_iter().enumerate().map(with_bands).collect::<Result<_, _>>()?;
+    }
     while !batch.is_empty() {
         if events.cancelled() {
             return Err(JobError::Interrupted.into());
@@ -98,6 +112,23 @@ pub(crate) fn compute(
     }
     drop(progress);
     Ok(SiteOutput { warnings: tally.warnings(study, list), files: Some(files) })
+}
+
+/// The units of all bands by the measure of `export`, as the first sites of the table tell them.
+fn quoted_units(
+    study: &UniformRiskStudy,
+    list: &SiteList,
+    (export, stripes): (usize, &Stripes),
+    (first, question): (&[BatchSite], &Question),
+) -> Result<QuotedUnits, StudiesError> {
+    let weights = |site: &BatchSite| {
+        let (own, exported) = (&list.exports[export], site.curves[export].as_ref().as_ref().ok()?);
+        own.weights(study, &own.curve(study, exported).ok()?).ok()
+    };
+    let weights: Vec<StripeWeights> = first.iter().filter_map(weights).take(JUDGED_SITES).collect();
+    let demand = |strength| pooled_demand(stripes, strength);
+    let found = precision(study, stripes.measure, demand, &weights.iter().collect::<Vec<_>>(), question)?;
+    Ok(QuotedUnits::from_precision(found.as_ref(), question))
 }
 
 /// What deserves a warning, for each export and probability.

@@ -1,14 +1,14 @@
-//! What the repair adds to the tables and the map of many sites.
+//! What the repair adds to the tables of many sites.
 
 use std::fmt::Write as _;
 
 use uplift_regression::ExponentialFit;
-use uplift_risk::Ordinate;
 
 use super::SiteConsistency;
-use super::files::{cell, json_number, number};
+use super::files::{cell, number};
 
-pub(super) const SPECTRA: &str = "u_consistent_m";
+/// Columns of the spectra, the last two where they have bands.
+pub(super) const SPECTRA: [&str; 3] = ["u_consistent_m", "lower_consistent_m", "upper_consistent_m"];
 pub(super) const COEFFICIENTS: [&str; 9] = [
     "bias",
     "max",
@@ -20,11 +20,6 @@ pub(super) const COEFFICIENTS: [&str; 9] = [
     "rmse_consistent_m",
     "no_repair",
 ];
-
-/// The repaired ordinates of the probability at `poe`, of so many `strengths`; none without a repair.
-pub(super) fn spectrum(consistency: &SiteConsistency, poe: usize, strengths: usize) -> Option<&[Ordinate]> {
-    consistency.spectra.as_ref().ok().and_then(|spectra| spectra.ordinates.chunks(strengths).nth(poe))
-}
 
 pub(super) fn coefficient_cells(consistency: &SiteConsistency, poe: usize) -> String {
     let fit = consistency.spectra.as_ref().ok().map(|spectra| spectra.fits[poe].as_ref());
@@ -50,18 +45,4 @@ pub(super) fn coefficient_cells(consistency: &SiteConsistency, poe: usize) -> St
         let _ = write!(cells, ",{text}");
     }
     cells
-}
-
-/// The properties of the map: an ordinate for each of `shown`, with its name, of the probability named `key`.
-pub(super) fn properties<'a>(
-    spectrum: Option<&[Ordinate]>,
-    key: &str,
-    shown: impl Iterator<Item = (usize, &'a str)>,
-) -> String {
-    let mut properties = String::new();
-    for (strength, ending) in shown {
-        let u_m = spectrum.and_then(|spectrum| spectrum.get(strength)).map(|ordinate| ordinate.displacement_m);
-        let _ = write!(properties, ",\"{key}_consistent{ending}\":{}", json_number(u_m));
-    }
-    properties
 }

@@ -23,6 +23,7 @@ use crate::error::StudiesError;
 
 /// Strengths of which the map shows ordinates, unless the study names some.
 const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
+/// Columns of the spectra, before their bands.
 const SPECTRA: [&str; 9] = ["site", "longitude", "latitude", "im", "poe", "years", "strength", "u_m", "flag"];
 /// Columns of the coefficients, before those of the study's own table.
 const COEFFICIENTS: [&str; 12] =
@@ -53,14 +54,17 @@ pub struct SiteTableLayout {
     strengths: Vec<f64>,
     /// Positions of the strengths in the table of spectra.
     in_table: Vec<usize>,
-    /// Positions of the strengths on the map.
+    /// Positions of the strengths on the map, all of them in the table.
     on_map: Vec<usize>,
+    /// Their names.
+    map_labels: Vec<String>,
     /// `[export]`.
     measures: Vec<MeasureNames>,
     /// Names of the cells carried along, as keys of JSON.
     carried: Vec<String>,
     /// Whether there are repaired spectra beside the plain ones.
     is_repaired: bool,
+    has_bands: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -75,9 +79,10 @@ struct PoeNames {
     poe: f64,
     /// Such as `pgv_2pct_50yr`.
     key: String,
-    /// Such as `_u_m_at_0.2`, one for each strength on the map.
-    ordinates: Vec<String>,
 }
+
+/// Ordinates of one probability, and their bands at the strengths in the table.
+type Spectrum<'a> = (&'a [Ordinate], &'a [[f64; 2]]);
 
 /// A site as it stands in the three files.
 #[derive(Debug, Clone, PartialEq)]
@@ -153,16 +158,12 @@ impl SiteTableLayout {
         });
         let in_table = chosen.clone().unwrap_or_else(|| (0..study.strengths.len()).collect());
         let on_map = chosen.unwrap_or_else(|| nearest(&study.strengths, &SHOWN_ON_MAP));
-        let labels = strength_labels(on_map.iter().map(|&index| study.strengths[index]));
+        let map_labels = strength_labels(on_map.iter().map(|&index| study.strengths[index]));
         let years = study.risk.years;
         let measure_names = |key: &str, label| MeasureNames {
             label,
             poes: (study.risk.poe.iter())
-                .map(|&poe| PoeNames {
-                    poe,
-                    key: format!("{key}_{}pct_{years}yr", (poe * 1e10).round() / 1e8),
-                    ordinates: labels.iter().map(|label| format!("_u_m_at_{label}")).collect(),
-                })
+                .map(|&poe| PoeNames { poe, key: format!("{key}_{}pct_{years}yr", (poe * 1e10).round() / 1e8) })
                 .collect(),
         };
         let mut layout = Self {
@@ -170,19 +171,33 @@ impl SiteTableLayout {
             strengths: study.strengths.to_vec(),
             in_table,
             on_map,
+            map_labels,
             measures: (list.exports.iter())
                 .map(|export| measure_names(export.measure.key(), export.measure.label()))
                 .collect(),
             carried: Vec::new(),
             is_repaired: study.consistency.repair == Repair::Weights,
+            has_bands: study.site_table.as_ref().is_some_and(|table| table.bands),
         };
         let mut taken = layout.property_names();
         layout.carried = distinct(&list.carried, &mut taken).iter().map(|name| json_text(name)).collect();
         layout
     }
 
+    /// Positions of the strengths in the table of spectra.
+    pub(super) fn in_table(&self) -> &[usize] {
+        &self.in_table
+    }
+
     fn spectra_columns(&self) -> Vec<String> {
-        SPECTRA.into_iter().chain(self.is_repaired.then_some(consistent::SPECTRA)).map(str::to_owned).collect()
+        let mut columns = SPECTRA.to_vec();
+        if self.has_bands {
+            columns.extend(["lower_m", "upper_m"]);
+        }
+        if self.is_repaired {
+            columns.extend(&consistent::SPECTRA[..if self.has_bands { 3 } else { 1 }]);
+        }
+        columns.into_iter().map(str::to_owned).collect()
     }
 
     fn coefficient_columns(&self, carried: &[String]) -> Vec<String> {
@@ -196,10 +211,12 @@ impl SiteTableLayout {
     fn property_names(&self) -> BTreeSet<String> {
         let mut names: BTreeSet<String> = ["name", "problem"].map(str::to_owned).into();
         for names_of_poe in self.measures.iter().flat_map(|measure| &measure.poes) {
-            let endings = names_of_poe.ordinates.iter().map(String::as_str).chain(["_c0_m", "_c1", "_c2_m", "_rmse_m"]);
-            names.extend(endings.map(|ending| format!("{}{ending}", names_of_poe.key)));
-            let repaired = names_of_poe.ordinates.iter().filter(|_| self.is_repaired);
-            names.extend(repaired.map(|ending| format!("{}_consistent{ending}", names_of_poe.key)));
+            names.extend(COEFFICIENTS_ON_MAP.map(|(ending, _)| format!("{}{ending}", names_of_poe.key)));
+            for infix in ["", "_consistent"].into_iter().take(1 + usize::from(self.is_repaired)) {
+                let of_strength = |place| self.map_values((place, None)).map(move |(quantity, _)| (quantity, place));
+                let own = (0..self.on_map.len()).flat_map(of_strength);
+                names.extend(own.map(|(quantity, place)| self.property((names_of_poe, infix), quantity, place)));
+            }
         }
         names
     }
@@ -229,11 +246,11 @@ impl SiteTableLayout {
             }
             for (row, poe) in names.poes.iter().enumerate() {
                 let spectra = spectra.as_ref();
-                let spectrum = spectra.ok().and_then(|spectra| spectra.ordinates.chunks(self.strengths.len()).nth(row));
+                let spectrum = spectra.ok().map(|spectra| spectra.at_poe(row));
                 let fit = spectra.map(|spectra| spectra.fits[row].as_ref());
                 let head = format!("{place},{},{:?},{:?}", names.label, poe.poe, self.years);
-                let repaired = consistency.and_then(|own| consistent::spectrum(own, row, self.strengths.len()));
-                self.spectrum_rows(&mut text.spectra, &head, spectrum.unwrap_or_default(), repaired);
+                let repaired = consistency.and_then(|own| own.spectra.as_ref().ok()).map(|own| own.at_poe(row));
+                self.spectrum_rows(&mut text.spectra, &head, spectrum, repaired);
                 let (fit, problem) = match fit {
                     Err(reason) => (None, reason.clone()),
                     Ok(Err(reason)) => (None, format!("no fit: {reason}")),
@@ -246,14 +263,9 @@ impl SiteTableLayout {
                 let own = coefficient_cells(fit);
                 let of_repair = consistency.map(|own| consistent::coefficient_cells(own, row)).unwrap_or_default();
                 let _ = writeln!(text.coefficients, "{head},{own},{}{of_repair}{tail}", cell(&problem));
-                for (&strength, ending) in self.on_map.iter().zip(&poe.ordinates) {
-                    let u_m =
-                        spectrum.and_then(|spectrum| spectrum.get(strength)).map(|ordinate| ordinate.displacement_m);
-                    let _ = write!(properties, ",\"{}{ending}\":{}", poe.key, json_number(u_m));
-                }
+                properties += &self.map_properties((poe, ""), spectrum);
                 if self.is_repaired {
-                    let shown = self.on_map.iter().copied().zip(poe.ordinates.iter().map(String::as_str));
-                    properties += &consistent::properties(repaired, &poe.key, shown);
+                    properties += &self.map_properties((poe, "_consistent"), repaired);
                 }
                 for (ending, value) in COEFFICIENTS_ON_MAP {
                     let _ = write!(properties, ",\"{}{ending}\":{}", poe.key, json_number(fit.map(value)));
@@ -272,16 +284,64 @@ impl SiteTableLayout {
         text
     }
 
-    fn spectrum_rows(&self, rows: &mut String, head: &str, spectrum: &[Ordinate], repaired: Option<&[Ordinate]>) {
-        for &index in self.in_table.iter().filter(|&&index| index < spectrum.len()) {
-            let Ordinate { displacement_m, flag, .. } = spectrum[index];
+    fn spectrum_rows(
+        &self,
+        rows: &mut String,
+        head: &str,
+        spectrum: Option<Spectrum<'_>>,
+        repaired: Option<Spectrum<'_>>,
+    ) {
+        let Some((ordinates, bands_m)) = spectrum else { return };
+        for (place, &index) in self.in_table.iter().enumerate() {
+            let Ordinate { displacement_m, flag, .. } = ordinates[index];
             let _ = write!(rows, "{head},{:?},{displacement_m:?},{}", self.strengths[index], flag_word(flag));
+            for limit_m in bands_m.get(place).into_iter().flatten() {
+                let _ = write!(rows, ",{}", number(*limit_m));
+            }
             if self.is_repaired {
-                let u_m = repaired.map_or(f64::NAN, |repaired| repaired[index].displacement_m);
+                let u_m = repaired.map_or(f64::NAN, |(ordinates, _)| ordinates[index].displacement_m);
                 let _ = write!(rows, ",{}", number(u_m));
+            }
+            if self.is_repaired && self.has_bands {
+                let [lower_m, upper_m] = repaired.map_or([f64::NAN; 2], |(_, bands_m)| bands_m[place]);
+                let _ = write!(rows, ",{},{}", number(lower_m), number(upper_m));
             }
             rows.push('\n');
         }
+    }
+
+    /// The properties of a spectrum at the strengths of the map, null where there is none.
+    fn map_properties(&self, (poe, infix): (&PoeNames, &str), spectrum: Option<Spectrum<'_>>) -> String {
+        let mut properties = String::new();
+        for place in 0..self.on_map.len() {
+            for (quantity, value_m) in self.map_values((place, spectrum)) {
+                let _ = write!(
+                    properties,
+                    ",\"{}\":{}",
+                    self.property((poe, infix), quantity, place),
+                    json_number(value_m)
+                );
+            }
+        }
+        properties
+    }
+
+    /// What the map shows at one of its strengths: the ordinate, and the limits of its band.
+    fn map_values(
+        &self,
+        (place, spectrum): (usize, Option<Spectrum<'_>>),
+    ) -> impl Iterator<Item = (&'static str, Option<f64>)> {
+        let strength = self.on_map[place];
+        let in_table = self.in_table.iter().position(|own| *own == strength);
+        let band_m = spectrum.zip(in_table).and_then(|((_, bands_m), place)| bands_m.get(place).copied());
+        let limits = [("lower_m", band_m.map(|of| of[0])), ("upper_m", band_m.map(|of| of[1]))];
+        let ordinate_m = spectrum.map(|(ordinates, _)| ordinates[strength].displacement_m);
+        [("u_m", ordinate_m)].into_iter().chain(limits.into_iter().filter(move |_| self.has_bands))
+    }
+
+    /// The name of a quantity at one of the strengths of the map, such as `pgv_2pct_50yr_u_m_at_0.2`.
+    fn property(&self, (poe, infix): (&PoeNames, &str), quantity: &str, place: usize) -> String {
+        format!("{}{infix}_{quantity}_at_{}", poe.key, self.map_labels[place])
     }
 }
 
