@@ -20,7 +20,8 @@ fn every_site_is_repaired_as_one_of_the_sites_is() {
          [pgv]\nlevels_cm_s = [0.5, 1, 2, 4, 8, 15, 30, 60, 120]\n\
          [pga]\nlevels_g = [0.01, 0.02, 0.04, 0.08, 0.15, 0.3, 0.6, 1.2]\n\
          [risk]\npoe = [0.1, 0.5]\nmaf_surface = false\n[regression]\nstrength_above = 0\n\
-         [site_table]\npgv = \"pgv-export.csv\"\npga = \"pga-export.csv\"\nbands = true\n{}[consistency]\nrepair = \"weights\"\n",
+         [site_table]\npgv = \"pgv-export.csv\"\npga = \"pga-export.csv\"\nbands = true\n\
+         {}[consistency]\nrepair = \"weights\"\n",
         both.concat()
     ));
     // of PGA such that the records come near it at some sites, and nowhere near at one

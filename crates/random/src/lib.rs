@@ -1,8 +1,8 @@
 //! Random numbers that are the same on every machine and independent of threads.
 //!
-//! Every use has streams of its own of the counter-based generator `ChaCha8`: the numbers of a stream depend on its use,
-//! on the user's seed and on its number alone. They are integers, given by the algorithm; each crate makes its variates
-//! of them.
+//! Every use has streams of its own of the counter-based generator `ChaCha8`: the numbers of a stream depend on its
+//! use, on the user's seed and on its number alone. They are integers, given by the algorithm; each crate makes its
+//! variates of them.
 //!
 //! ```
 //! use uplift_random::{Rng, below, stream};
@@ -28,8 +28,8 @@ pub fn stream(domain: &[u8; 24], seed: u64, number: u64) -> ChaCha8Rng {
     generator
 }
 
-/// Uniform on `0..bound` without bias, for a `bound` above 0: the high half of a product, drawn again where the low half
-/// falls into the uneven rest.
+/// Uniform on `0..bound` without bias, for a `bound` above 0: the high half of a product, drawn again where the low
+/// half falls into the uneven rest.
 ///
 /// # Source
 /// D. Lemire, ACM Transactions on Modeling and Computer Simulation 29 (2019).
