@@ -3,7 +3,7 @@
 use crate::common::{SmallStudy, repository};
 
 /// Six European sites, 30 records as files, few strengths.
-fn six_sites() -> SmallStudy {
+pub(crate) fn six_sites() -> SmallStudy {
     let hazard = |file: &str| repository().join("hazard").join(file).display().to_string();
     let site = |name: &str| {
         let [pgv, pga] = ["pgv", "pga"].map(|measure| hazard(&format!("{}/{measure}.csv", name.to_lowercase())));

@@ -15,6 +15,8 @@ mod structures;
 
 use std::path::Path;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use minijinja::{Environment, Value, context};
 use serde::Serialize;
 
@@ -135,6 +137,7 @@ pub fn page(options: &ReportOptions, events: &dyn Events) -> Result<String, Upli
     let sections = results.into_iter().zip(&names).enumerate().map(|(index, (result, name))| {
         let title = if several { name } else { result.title() };
         let Read { head, content, .. } = &result;
+        let checksums = head.input_checksums.iter().map(|(name, sum)| format!("{sum}  {name}\n"));
         context! {
             key => format!("r{}", index + 1),
             title,
@@ -145,8 +148,8 @@ pub fn page(options: &ReportOptions, events: &dyn Events) -> Result<String, Upli
             program => format!("uplift {} ({})", head.version, head.commit),
             created => head.created,
             command => head.command,
-            study_toml => head.study_toml,
-            checksums => head.input_checksums,
+            study => STANDARD.encode(&head.study_toml),
+            checksums => STANDARD.encode(checksums.collect::<String>()),
             ..Value::from_serialize(content)
         }
     });

@@ -2,8 +2,8 @@
 
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
 use uplift::hazard_curves::NamedCurve;
-use uplift::result::StoredHazard;
-use uplift::text::{per_cent, risk_in_words};
+use uplift::result::{StoredHazard, StoredSpectra};
+use uplift::text::{kind_of_risks, per_cent, risk_in_words, risk_name, spectrum_words};
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
@@ -13,7 +13,7 @@ const MOST_BRANCHES: usize = 32;
 /// What the caption says of them.
 const BRANCHES: &str = " Thin: weighted curves of the site; thick: their mean.";
 /// What the caption says of repaired spectra.
-const THIN: &str = " Thin: repaired, from records weighted to match the site's hazard.";
+const THIN: &str = " Thin: repaired.";
 
 pub(super) fn hazard(source: &FigureSource) -> Figure {
     let panel = |hazard: &StoredHazard| {
@@ -86,7 +86,7 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
             let label = of_measure.measure.label();
             let panel = |site: usize| {
                 let line = |(poe, probability): (usize, &f64)| {
-                    let name = risk_in_words(*probability, spectra.years);
+                    let name = risk_name(*probability, spectra.years);
                     source.over_strengths(name, of_measure.u_m.block([site, poe]), Tone::Distinct(poe))
                 };
                 let mut series: Vec<Series> = spectra.poes.iter().enumerate().map(line).collect();
@@ -111,12 +111,17 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
             let is_thin = |panel: &Panel| panel.series.iter().any(|line| matches!(line.tone, Tone::Thin(_)));
             let panels: Vec<Panel> = source.sites().map(panel).collect();
             let thin = if panels.iter().any(is_thin) { THIN } else { "" };
-            let caption = format!("As Fig. 4.6 and 4.7.{banded}{thin}");
+            let caption = format!("As Fig. 4.6 and 4.7{}.{banded}{thin}", kind(spectra));
             let id = format!("urs-{}", of_measure.measure.key());
             let title = format!("Uniform risk spectra by {label}");
             source.figure(id, title, caption, panels)
         })
         .collect()
+}
+
+/// What a caption says of the risks that a legend names.
+fn kind(spectra: &StoredSpectra) -> String {
+    kind_of_risks(&spectra.poes, spectra.years).map_or_else(String::new, |kind| format!("; {kind}"))
 }
 
 /// Spectra of weighted records at a site whose hazard the records do not have without weights.
@@ -125,7 +130,7 @@ fn repaired(source: &FigureSource, measure: IntensityMeasure, site: usize) -> Ve
     let spectra = &source.spectra;
     let line = |(poe, &probability): (usize, &f64)| {
         let points = spectra.strengths.iter().copied().zip(u_m.block([site, poe]).iter().copied()).collect();
-        Series::line(format!("{}, repaired", risk_in_words(probability, spectra.years)), points, Tone::Thin(poe))
+        Series::line(spectrum_words(&risk_name(probability, spectra.years), true), points, Tone::Thin(poe))
     };
     spectra.poes.iter().enumerate().map(line).collect()
 }
@@ -146,7 +151,7 @@ pub(super) fn fits(source: &FigureSource) -> Option<Figure> {
             series.push(points);
             if let Some(curve) = by_first.fits[[site, poe]].curve() {
                 let fitted = spectra.strengths.iter().filter(|&&strength| strength > 0.05);
-                let name = format!("fit of {}", risk_in_words(probability, spectra.years));
+                let name = format!("fit, {}", risk_name(probability, spectra.years));
                 let points = fitted.map(|&strength| (strength, curve.at(strength))).collect();
                 series.push(Series::line(name, points, tone));
             }
@@ -155,8 +160,9 @@ pub(super) fn fits(source: &FigureSource) -> Option<Figure> {
         Panel::lines(title, Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series)
     };
     let caption = format!(
-        "Spectra by {} (dots) and their fits u = c_{{0}} exp(c_{{1}} η) + c_{{2}} (lines; Eq. 4.11, Fig. 4.11).",
-        by_first.measure.label()
+        "Spectra by {} (dots) and their fits u = c_{{0}} exp(c_{{1}} η) + c_{{2}} (lines; Eq. 4.11, Fig. 4.11){}.",
+        by_first.measure.label(),
+        kind(spectra)
     );
     Some(source.figure("fits", "Fitted spectra", caption, source.sites().map(panel).collect()))
 }

@@ -1,16 +1,14 @@
 //! What the report shows of uniform risk spectra.
 
-use std::collections::BTreeMap;
-
 use super::consistency::consistency;
 use super::displacements::{Row, rows};
 use super::{Content, Part, TitledTable, drawn};
 use crate::figures::{Extent, FigureSource};
 use uplift::UpliftError;
 use uplift::influence::{level_of_share, rank_records};
-use uplift::result::{MeasureBands, ResultFile, StoredSpectra, StoredSpectraBands};
+use uplift::result::{ResultFile, StoredSpectra};
 use uplift::text::{
-    Table, TableOf, kind_of_risks, metres, nearest, per_cent, risk_in_words, risk_name, spectrum_words, two_digits,
+    Table, TableOf, kind_of_risks, metres, nearest, risk_in_words, risk_name, spectrum_words, two_digits,
 };
 
 /// Strengths in the tables of displacements.
@@ -23,8 +21,6 @@ const FIRST_SITES: usize = 9;
 const UPLIFTS_AT: &str = "at uplift strength η";
 /// In place of what is of other probabilities than those of the page.
 const INFLUENCE_LEFT_OUT: &str = "Influence is left out: uplift influence found it for the probabilities of the study.";
-/// What rows of Table 4.1 are of where a site's weighted hazard curves are drawn too.
-const WITH_CURVES: &str = "with hazard curves";
 /// What tables say of repaired spectra.
 const REPAIRED: &str = "Repaired: from records weighted to match the site's hazard.";
 
@@ -42,10 +38,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
             title: "Confidence",
             note: "",
             figures: spectra,
-            tables: [Some(all(&source, &rows)), consistency(&source), bootstrap(&source), spread(&source)]
-                .into_iter()
-                .flatten()
-                .collect(),
+            tables: [Some(all(&source, &rows)), consistency(&source), spread(&source)].into_iter().flatten().collect(),
         },
         Part {
             key: "causes",
@@ -103,16 +96,26 @@ fn first(source: &FigureSource, rows: &[Row]) -> Option<TitledTable> {
     Some(of_strengths(source, ("summary", title, &note), table))
 }
 
-/// The displacements by every measure and probability.
+/// The displacements by every measure and probability, a row a spectrum.
 fn all(source: &FigureSource, rows: &[Row]) -> TitledTable {
     let spectra = &source.spectra;
-    let table = Table::of(rows)
+    let table = Table::of(rows.iter().filter(|row| row.poe == 0))
         .left("site", |row| &spectra.sites[row.site])
-        .left("measure", |row| spectrum_words(row.measure.label(), row.repaired))
-        .left("probability", |row| risk_name(spectra.poes[row.poe], spectra.years));
+        .left("measure", |row| spectrum_words(row.measure.label(), row.repaired));
+    let table = spectra.poes.iter().enumerate().fold(table, |table, (poe, &probability)| {
+        let risk = risk_name(probability, spectra.years);
+        table.each(shown_strengths(source).into_iter().enumerate(), |table, (place, eta)| {
+            table.right(format!("{risk}: {}", strength(spectra, eta)), move |row: &Row| {
+                let is_same = |of: &&Row| {
+                    (of.measure, of.site, of.poe, of.repaired) == (row.measure, row.site, poe, row.repaired)
+                };
+                rows.iter().find(is_same).map_or_else(String::new, |of| of.cells[place].clone())
+            })
+        })
+    });
     let kind = kind_of_risks(&spectra.poes, spectra.years).map_or_else(String::new, |kind| format!(", {kind}"));
     let title = format!("All displacements, m (90 % confidence band{kind})");
-    of_strengths(source, ("displacements", title, ""), table)
+    TitledTable { group: UPLIFTS_AT, ..TitledTable::new("displacements", title, "", table) }
 }
 
 /// A table of displacements: a column for each strength shown.
@@ -159,22 +162,18 @@ fn spread(source: &FigureSource) -> Option<TitledTable> {
 fn intensities(source: &FigureSource) -> Option<TitledTable> {
     let (stored, poe) = (&source.stored, source.rarest());
     let strength = *nearest(&stored.strengths, &[TAKEN_APART]).first()?;
-    let per_cent = |share: Option<&f64>| share.map_or(f64::NAN, |share| 100.0 * share);
-    let number = |value: f64| if value.is_finite() { format!("{value:.1}") } else { "–".to_owned() };
     let mut rows = Vec::new();
     for (influence, measure) in source.influences() {
         for (site, name) in stored.sites.iter().enumerate() {
             let shares = influence.shares.block([site, poe, strength]);
             let levels = [0.05, 0.5, 0.95].map(|share| two_digits(level_of_share(&measure.levels, shares, share)));
-            let outside = [shares.first(), shares.last()].map(|share| number(per_cent(share)));
             let measure = format!("{}, {}", influence.measure.label(), influence.measure.unit());
-            rows.push([name.clone(), measure].into_iter().chain(levels).chain(outside).collect());
+            rows.push([name.clone(), measure].into_iter().chain(levels).collect());
         }
     }
-    let header = ["site", "measure", "5 % below", "half below", "95 % below", "below all, %", "above all, %"];
+    let header = ["site", "measure", "5 % below", "half below", "95 % below"];
     let note = format!(
-        "Levels below which 5 %, half and 95 % of the risk at {} lie, at strength {:.2}; shares from below and above \
-         all levels.",
+        "Levels below which 5 %, half and 95 % of the risk at {} lie, at strength {:.2}.",
         risk_in_words(stored.poes[poe], stored.years),
         stored.strengths[strength]
     );
@@ -224,65 +223,4 @@ fn coefficients(spectra: &StoredSpectra) -> TitledTable {
         kind_of_risks(&spectra.poes, spectra.years).map_or_else(String::new, |kind| format!("; {kind}"))
     );
     TitledTable::new("table-4-2", "Coefficients (Table 4.2)", note, table)
-}
-
-/// A row of Table 4.1: a site, a probability, and which of its bands: `repaired`, `with hazard curves`.
-type BootstrapRow = ([usize; 2], String);
-
-/// Errors and widths of the bands of all records, the measures side by side; none before `uplift bootstrap`.
-fn bootstrap(source: &FigureSource) -> Option<TitledTable> {
-    let (stored, bands) = (&source.spectra, source.bands.as_ref()?);
-    let size = bands.of_set(source.stored.records.len());
-    let number =
-        |value: f64, digits: usize| if value.is_nan() { "–".to_owned() } else { format!("{value:.digits$}") };
-    // of another set, less the ordinate, where the band of all records is widest
-    let another = |of: &MeasureBands, at @ [site, poe, _]: [usize; 3]| {
-        let own = stored.measures.iter().find(|own| own.measure == of.measure)?;
-        let spectrum = (stored.strengths.as_slice(), own.u_m.block([site, poe]));
-        let [lower, upper] = of.inferred.as_ref()?.widest(spectrum, at)?.prediction;
-        Some(format!("{lower:+.0}/{upper:+.0}"))
-    };
-    let none = || "–".to_owned();
-    let mut rows: BTreeMap<BootstrapRow, Vec<[String; 3]>> = BTreeMap::new();
-    for (place, of) in bands.measures.iter().enumerate() {
-        let mut add = |place_of: [usize; 2], kind: String, cells: [String; 3]| {
-            let row =
-                rows.entry((place_of, kind)).or_insert_with(|| vec![[none(), none(), none()]; bands.measures.len()]);
-            row[place] = cells;
-        };
-        for (place_of @ [site, poe], _) in of.plain.error_of_median.blocks::<2>() {
-            let at = [site, poe, size];
-            let mut add_bands = |kind: &str, own: &StoredSpectraBands, another: Option<String>| {
-                let (error, range) = (own.error_of_median[at], own.range_of_interval[at]);
-                add(place_of, kind.to_owned(), [number(error, 1), number(range, 0), another.unwrap_or_else(none)]);
-                let joint = own.joint.as_ref().filter(|joint| !joint.limits_m[1].block(at)[0].is_nan());
-                if let Some(joint) = joint {
-                    let kind = [kind, WITH_CURVES].into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>();
-                    add(place_of, kind.join(", "), [none(), number(joint.range_of_interval[at], 0), none()]);
-                }
-            };
-            add_bands("", &of.plain, another(of, at));
-            if let Some(own) = of.repaired.as_ref().filter(|own| !own.failed[[site, size]].is_nan()) {
-                add_bands("repaired", &own.bands, None);
-            }
-        }
-    }
-    let note = format!(
-        "Error of the median and width of the {0} interval over {1} (Eq. 4.9, 4.10), each where it is largest; {0} \
-         band of another set of {2} records, over the ordinate.",
-        per_cent(bands.confidence),
-        bands.drawn_words(),
-        bands.sizes[size]
-    );
-    let has_kinds = rows.keys().any(|(_, kind)| !kind.is_empty());
-    let table = Table::of(&rows)
-        .left("site", |(([site, _], _), _)| &stored.sites[*site])
-        .left("probability", |(([_, poe], _), _)| risk_name(stored.poes[*poe], stored.years))
-        .when(has_kinds, |table| table.left("spectrum", |((_, kind), _)| if kind.is_empty() { "plain" } else { kind }))
-        .each(bands.measures.iter().enumerate(), |table, (place, of)| {
-            ["e_{median}, %", "r, %", "another set, %"].into_iter().enumerate().fold(table, |table, (at, heading)| {
-                table.right(format!("{}: {heading}", of.measure.label()), move |(_, cells)| cells[place][at].clone())
-            })
-        });
-    Some(TitledTable::new("table-4-1", "Bootstrap (Table 4.1)", note, table))
 }
