@@ -130,6 +130,23 @@ pub enum FragilityError {
         /// Number of units given.
         units: usize,
     },
+    /// An intensity of a surface is not positive and finite.
+    #[error("fragility surface: an intensity of trial {index} is {value}: intensities must be positive and finite")]
+    Intensity {
+        /// Position of the trial, counted from 0.
+        index: usize,
+        /// The offending intensity.
+        value: f64,
+    },
+    /// The two intensities of a surface cannot be told apart.
+    #[error("fragility surface: both intensities rise and fall together, or one has a single value: use one of them")]
+    Collinear,
+    /// The likelihood of a surface has no maximum.
+    #[error(
+        "fragility surface: no fit: a line separates exceedances from survivals, or nearly so; use more records, or \
+         levels closer together"
+    )]
+    NoSurface,
     /// The iteration came to no end.
     #[error("lognormal fit: no convergence after {iterations} iterations: use the empirical fragility")]
     NoConvergence {

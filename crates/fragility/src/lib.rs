@@ -11,7 +11,7 @@
 //!
 //! Beside it, never instead of it, [`fit_lognormal`] gives the maximum-likelihood lognormal fragility, and
 //! [`fit_zero_inflated`] one for demands of which many are zero; [`Goodness`] has their agreement with the counts,
-//! [`lognormal_spread`] the uncertainty of the parameters.
+//! [`lognormal_spread`] the uncertainty of the parameters. [`fit_surface`] takes two intensity measures together.
 //!
 //! ```
 //! use uplift_fragility::{Stripes, exceedance_probabilities};
@@ -36,6 +36,7 @@ mod normal;
 mod quantile;
 mod spread;
 mod stripes;
+mod surface;
 mod zero_inflated;
 
 pub use dispersion::{Dispersion, mean_residuals, standard_deviation, uplift_levels};
@@ -47,4 +48,5 @@ pub use normal::{ln_normal_cdf, normal_cdf, normal_quantile};
 pub use quantile::{quantile, weighted_quantile};
 pub use spread::{FitSpread, lognormal_spread};
 pub use stripes::Stripes;
+pub use surface::{FragilitySurface, SurfaceFit, SurfaceTrial, fit_surface};
 pub use zero_inflated::{ZeroInflatedFragility, fit_zero_inflated};
