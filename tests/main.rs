@@ -32,6 +32,7 @@ mod hazard;
 mod instructions;
 mod joint_bands;
 mod levels;
+mod library;
 mod limits;
 mod measures;
 mod mistakes;

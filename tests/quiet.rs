@@ -4,7 +4,7 @@ use crate::common::{Finished, SmallStudy, repository};
 use crate::hazard::{SITES, openquake};
 
 /// Commands whose answer is printed, and those that are told to write files; by their first words.
-const ANSWER: [&str; 31] = [
+const ANSWER: [&str; 32] = [
     "run",
     "merge",
     "spectrum",
@@ -14,6 +14,7 @@ const ANSWER: [&str; 31] = [
     "check",
     "response",
     "pulse",
+    "library",
     "schema",
     "bootstrap",
     "consistency",
@@ -71,6 +72,7 @@ fn nothing_but_what_was_asked_for() {
         std::fs::copy(repository().join("configs/structures").join(name), study.path().join(name)).unwrap();
     }
     std::fs::write(study.path().join("one.txt"), "0\n0.1\n0.4\n-0.3\n0\n").unwrap();
+    study.write("library.toml", "[records.synthetic]\npairs = 2\n[block]\nsize_m = 1\nslenderness_rad = 0.1\n");
     study.write("one.csv", "u_m\n0.1\n0.2\n0.4\n");
     study.write("selected.txt", "num source recID scale_factor\n1 - SYN001 1.50\n");
     study.write("export.csv", &openquake("mean", 1.0, &SITES));
@@ -99,6 +101,7 @@ fn nothing_but_what_was_asked_for() {
         "response one.txt --block --size-m 2 --slenderness 0.2 --unit g --dt-s 0.01 --history b.csv",
         "response --structure block.toml --h1 one.txt --unit g --dt-s 0.01 --history f.csv",
         "pulse -o pulses --frequencies 1:1:3 --accelerations 1:1:3 --half-widths 1:1:3 --sizes-m 1,2 --shape symmetric",
+        "library library.toml -o library",
         "bootstrap s.h5",
         "consistency s.h5",
         "influence s.h5",

@@ -20,11 +20,15 @@ fn validate(python: &Path, schema: &Path, files: &[PathBuf]) -> Output {
     Command::new(python).args(arguments).arg(schema).args(files).output().unwrap()
 }
 
+/// The file of a library among the studies.
+const LIBRARY: &str = "rocking-library.toml";
+
 /// The TOML files of a folder of `configs`.
 fn toml_files(folder: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(repository().join(folder)).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path());
-    paths.filter(|path| path.extension().is_some_and(|extension| extension == "toml")).collect()
+    let is_study = |path: &PathBuf| !path.ends_with(LIBRARY) && path.extension().is_some_and(|own| own == "toml");
+    paths.filter(is_study).collect()
 }
 
 #[test]
@@ -40,7 +44,11 @@ fn every_config_satisfies_the_schema_and_a_mistake_does_not() {
         let output = validate(&python, schema, &files);
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
     }
+    let library = schema(folder, "library");
+    let output = validate(&python, &library, &[repository().join("configs").join(LIBRARY)]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
     let cases = [
+        (&library, "[block]\nsize_m = -1\n", false),
         (&study, "[oscillator]\nrestitution = 0.95\n[strengths]\nvalues = \"0:1/100:1\"\n", true),
         (&study, "[oscillator]\nrestitutoin = 0.95\n", false),
         (&study, "[oscillator]\nrestitution = 1.5\n", false),

@@ -127,6 +127,16 @@ impl RockingBlock {
         (4.0 * self.size_m * half.sin() * (self.slenderness_rad - half).cos()).copysign(rotation_rad)
     }
 
+    /// Rotation at which the top has moved by `displacement_m` ≥ 0 \[rad\], the inverse of Eq. 2.10; infinite of an
+    /// infinite displacement.
+    pub fn rotation_rad(&self, displacement_m: f64) -> f64 {
+        if displacement_m == 0.0 || displacement_m.is_infinite() {
+            return displacement_m;
+        }
+        let sine = self.slenderness_rad.sin() - 0.5 * displacement_m / self.size_m;
+        self.slenderness_rad - sine.clamp(-1.0, 1.0).asin()
+    }
+
     /// Whether a block tilted by `tilt_rad` ≥ 0 and moving outward with `rate_rad_s` (inward if negative) never comes
     /// back without further shaking: θ̇ ≥ 2p sin((α − θ)/2).
     ///
@@ -175,6 +185,10 @@ mod tests {
             let printed = 6.0 * (alpha.sin() - (alpha - rotation).sin());
             assert!((block.top_displacement_m(rotation) - printed).abs() < 1e-14, "{rotation}");
         }
+        for rotation in [0.0_f64, 1e-3, 0.05, 0.4, 1.5] {
+            assert!((block.rotation_rad(block.top_displacement_m(rotation)) - rotation).abs() < 1e-14, "{rotation}");
+        }
+        assert!(block.rotation_rad(f64::INFINITY).is_infinite());
         // all digits of a rotation of which the printed form keeps none
         assert!((block.top_displacement_m(1e-18) / (6.0 * 1e-18 * 0.2_f64.cos()) - 1.0).abs() < 1e-15);
     }

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod hazard;
+mod library;
 mod manual;
 mod protocol;
 mod pulse;
@@ -112,6 +113,8 @@ enum Command {
     Pushover(pushover::PushoverArguments),
     /// Shake a structure with one record
     Response(response::ResponseArguments),
+    /// Compute a library of rocking response
+    Library(library::LibraryArguments),
     /// Write a page with figures and tables
     Report(report::ReportArguments),
     /// Draw figures
@@ -136,7 +139,7 @@ const GROUPS: [(&str, &[&str]); 6] = [
     ("Study", &["init", "run", "check", "status", "sweep", "merge", "verify", "schema"]),
     ("Data", &["records", "hazard"]),
     ("Spectrum", &["spectrum", "bootstrap", "consistency", "influence", "measures", "warnings"]),
-    ("Structure", &["design", "overturning", "risk", "target", "restrainer", "pushover", "response"]),
+    ("Structure", &["design", "overturning", "risk", "target", "restrainer", "pushover", "response", "library"]),
     ("Output", &["report", "plot", "export", "table"]),
     ("Dissertation", &["pulse", "protocol", "validate"]),
 ];
@@ -177,6 +180,7 @@ pub(crate) fn execute(arguments: &Arguments, terminal: &Terminal) -> Result<(), 
         Command::Check(arguments) => check::check(arguments, terminal),
         Command::Sweep(arguments) => sweep::sweep(arguments, terminal),
         Command::Response(arguments) => response::response(arguments, terminal),
+        Command::Library(arguments) => library::library(arguments, terminal),
         Command::Pulse(arguments) => pulse::pulse(arguments, terminal),
         Command::Spectrum(arguments) => spectrum::spectrum(arguments, terminal),
         Command::Warnings(arguments) => warnings::warnings(arguments),

@@ -23,18 +23,18 @@ mod structures;
 mod warnings;
 
 use serde::Serialize;
-use uplift_oscillator::PostUplift;
 
 use crate::grid::Grid;
 use crate::keys::SectionKeys;
 use crate::reading::{Paths, Section};
 use crate::sections::output::{self, Output};
-use crate::sections::{record_source, selection, stiffness, strengths, top};
+use crate::sections::{record_source, selection, strengths, top};
 use crate::warning::Warning;
 
 pub use blocks::BlockFamily;
 pub use design::{DesignPlan, Designed};
 pub use oscillators::OscillatorFamily;
+pub(crate) use oscillators::{KEYS as OSCILLATOR_KEYS, check_stiffness, read as read_oscillators};
 pub use record_sets::SetPlan;
 pub use records::SetRecords;
 pub(crate) use records::{KEYS as RECORDS_KEYS, read as read_records};
@@ -115,15 +115,8 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<DisplacementS
     let design = design::read(root.section("design"), of_blocks, structures.as_ref());
     let manifest = records.as_ref().and_then(|records| records.source.manifest());
     let output = output::read(root.section("output"), paths, manifest.into_iter());
-    if let (Some(Structures::Oscillators(family)), Some(gravity)) = (&structures, gravity)
-        && let (Some(strength), Some(stiffest), Some(next)) =
-            (family.strengths.last(), family.uplift_displacement_m.first(), family.uplift_displacement_m.last())
-    {
-        stiffness::check(&root, (*strength, gravity, *stiffest, family.restitution), PostUplift::Zero);
-        if let Some(&capacity_m) = family.capacity_m.first().filter(|capacity_m| capacity_m.is_finite()) {
-            let steepest = PostUplift::Negative { capacity_m };
-            stiffness::check(&root, (*strength, gravity, *next, family.restitution), steepest);
-        }
+    if let (Some(Structures::Oscillators(family)), Some(gravity)) = (&structures, gravity) {
+        oscillators::check_stiffness(&root, family, gravity);
     }
     if let (Some(Structures::Oscillators(_)), Some(true)) = (&structures, records.as_ref().map(|found| found.vertical))
     {

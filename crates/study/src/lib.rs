@@ -21,8 +21,9 @@
 //! | take text that is in no file | [`Study::parse`], then [`Study::resolve`] or [`Study::resolve_any`] |
 //! | write a resolved study, complete | [`AnyStudy::to_toml`] |
 //! | read that again, when its files may be gone | [`Study::stored`] |
-//! | have editors complete and check keys | [`study_schema`], [`structure_schema`] |
+//! | have editors complete and check keys | [`study_schema`], [`structure_schema`], [`library_schema`] |
 //! | load a structure file | [`Structure::load`] |
+//! | load the file of a library of rocking response | [`LibraryStudy::load`] |
 //! | load a file of a restrainer alone | [`RestrainerFile::load`] |
 //!
 //! # Where things are
@@ -53,6 +54,7 @@ mod error;
 mod grid;
 mod keys;
 mod kind;
+mod library;
 mod reading;
 mod schema;
 mod sections;
@@ -72,8 +74,9 @@ pub use displacement::{
 pub use error::{Place, StudyError, StudyMistake, Unreadable};
 pub use grid::{Grid, GridError, MOST_GRID_VALUES};
 pub use kind::{AnyStudy, Kind};
+pub use library::{BlockGrid, LibraryStudy};
 pub use reading::did_you_mean;
-pub use schema::{structure_schema, study_schema};
+pub use schema::{library_schema, structure_schema, study_schema};
 pub use sections::output::Output;
 pub use sections::record_source::{DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, Duplicates, RecordSource};
 pub use sections::selection::{CRITERIA, Criterion, Range, RecordSelection};

@@ -1,4 +1,4 @@
-//! The JSON Schemas (draft-07) of study and structure files, by which editors complete and check keys.
+//! The JSON Schemas (draft-07) of study, structure and library files, by which editors complete and check keys.
 //!
 //! They follow from the declared keys. What takes several keys to judge is left to the reader: what passes the schema
 //! may still be refused, and what the reader takes passes.
@@ -10,7 +10,7 @@ use uplift_structure::UncertainQuantity;
 use crate::grid::MOST_GRID_VALUES;
 use crate::keys::{Declared, SectionKeys, Shape, one_or_several};
 use crate::kind::Kind;
-use crate::structure;
+use crate::{library, structure};
 
 /// The measure whose keys are declared in place of those of every measure that is not named beside it.
 const ANY_MEASURE: &str = "sa_1s";
@@ -39,6 +39,11 @@ pub fn study_schema() -> Value {
 /// The schema of structure files.
 pub fn structure_schema() -> Value {
     schema("Structure file of uplift", [], &table("", &structure::KEYS))
+}
+
+/// The schema of files of a library of rocking response.
+pub fn library_schema() -> Value {
+    schema("Library file of uplift", [], &table("", &library::KEYS))
 }
 
 fn name(kind: Kind) -> String {

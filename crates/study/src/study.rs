@@ -109,8 +109,17 @@ impl Study {
     ///
     /// [`StudyError`] with every mistake.
     pub fn resolve_any(self, overrides: &[String]) -> Result<AnyStudy, StudyError> {
+        self.resolve_by(overrides, AnyStudy::read)
+    }
+
+    /// As [`resolve`](Self::resolve), for a file whose sections `read` reads.
+    pub(crate) fn resolve_by<T>(
+        self,
+        overrides: &[String],
+        read: impl FnOnce(Section<'_>, &Paths) -> Option<T>,
+    ) -> Result<T, StudyError> {
         let paths = self.checked_paths()?;
-        self.checked(overrides, &paths, AnyStudy::read)
+        self.checked(overrides, &paths, read)
     }
 
     fn checked_paths(&self) -> Result<Paths, StudyError> {

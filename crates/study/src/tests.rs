@@ -5,6 +5,7 @@ mod configs;
 mod directions;
 mod displacement;
 mod grids;
+mod library;
 mod mistakes;
 mod overriding;
 mod reference;

@@ -3,6 +3,7 @@
 use thiserror::Error;
 use uplift_block::BlockError;
 use uplift_design::DesignError;
+use uplift_fragility::FragilityError;
 use uplift_frame::FrameError;
 use uplift_ida::IdaError;
 use uplift_inputs::InputsError;
@@ -29,6 +30,8 @@ pub enum LaboratoryError {
     Structure(#[from] StructureError),
     /// Columns, a restrainer or a protocol that cannot be, or a displacement beyond their reach.
     Statics(#[from] StaticsError),
+    /// Responses of which no fragility can be made.
+    Fragility(#[from] FragilityError),
     /// A frame that cannot be shaken so.
     Frame(#[from] FrameError),
     /// An oscillator or its excitation that cannot be.

@@ -65,6 +65,7 @@
 //! | [`mod@alarms`] | what to know before the numbers of a result are used |
 //! | [`table`](mod@table), [`export`], [`fragility`] | a result beside a reference, and for other programs |
 //! | [`response`], [`pulses`] | one record through one oscillator, block or frame; rocking spectra under wavelets |
+//! | [`library`](mod@library) | response of blocks and oscillators over normalised intensities |
 //! | [`pushover`](mod@pushover), [`restrainer`] | columns under a static force; restrainers, stacks of a catalogue |
 //! | [`validate`](mod@validate) | whether computed peaks are distributed as measured ones |
 //! | [`outputs`] | files that a job is asked to write, and what they may overwrite |
@@ -94,7 +95,7 @@ pub use uplift_job::{
     Array, COMMIT, JobError, ShapeError, VERSION, VERSION_AND_COMMIT, cause, events, lock, machine, outputs, study_run,
     text,
 };
-pub use uplift_laboratory::{pulses, pushover, response, restrainer, validate};
+pub use uplift_laboratory::{library, pulses, pushover, response, restrainer, validate};
 pub use uplift_questions::{bootstrap, efficiency, influence};
 pub use uplift_studies::{displacement, shake_table};
 pub use uplift_study as study;

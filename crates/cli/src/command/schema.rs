@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use clap::{Args, ValueEnum};
-use uplift_study::{structure_schema, study_schema};
+use uplift_study::{library_schema, structure_schema, study_schema};
 
 use crate::error::CommandError;
 use crate::terminal::output;
@@ -24,6 +24,8 @@ enum Files {
     Study,
     /// Structures
     Structure,
+    /// Libraries of rocking response
+    Library,
 }
 
 /// Prints the schema.
@@ -31,6 +33,7 @@ pub(crate) fn schema(arguments: &SchemaArguments) -> Result<(), CommandError> {
     let schema = match arguments.of {
         Files::Study => study_schema(),
         Files::Structure => structure_schema(),
+        Files::Library => library_schema(),
     };
     writeln!(output(), "{schema:#}")?;
     Ok(())

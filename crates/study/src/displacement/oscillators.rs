@@ -2,15 +2,16 @@
 
 use serde::Serialize;
 use serde_json::json;
+use uplift_oscillator::PostUplift;
 use uplift_plausible::{CAPACITY, UPLIFT_DISPLACEMENT};
 
 use crate::grid::{Grid, GridRule};
 use crate::keys::{Key, SectionKeys, Special, grid, one_or_several, special};
 use crate::reading::{Field, Node, Rule, Section, Value, quantity};
-use crate::sections::strengths;
+use crate::sections::stiffness;
 use crate::uniform_risk::{FREE_VIBRATION, RESTITUTION};
 
-pub(super) const KEYS: SectionKeys =
+pub(crate) const KEYS: SectionKeys =
     SectionKeys::new("oscillator", &[&UPLIFT_DISPLACEMENT_M, &CAPACITY_M, &RESTITUTION, &FREE_VIBRATION]);
 const UPLIFT_DISPLACEMENT_M: Key<GridRule> =
     grid("uplift_displacement_m", GridRule { unit: "m", each: Rule::Within(UPLIFT_DISPLACEMENT), least_count: 1 })
@@ -45,22 +46,35 @@ pub struct OscillatorFamily {
     pub strengths: Grid,
 }
 
-/// Reads the section with `[strengths]`.
-pub(super) fn read(mut section: Section<'_>, strengths: Section<'_>) -> Option<OscillatorFamily> {
+/// Reads the section of oscillators that have these strengths.
+pub(crate) fn read(mut section: Section<'_>, strengths: Option<Grid>) -> Option<OscillatorFamily> {
     let uplift = section.read(&UPLIFT_DISPLACEMENT_M);
     let largest = uplift.as_ref().and_then(|grid| grid.last().copied());
     let capacity = section.given(&CAPACITY_M).map_or(Some(vec![f64::INFINITY]), |field| capacities(&field, largest));
     let restitution = section.read(&RESTITUTION);
     let free_vibration = section.read(&FREE_VIBRATION);
     section.finish();
-    let values = strengths::read(strengths);
     Some(OscillatorFamily {
         uplift_displacement_m: uplift?,
         capacity_m: capacity?,
         restitution: restitution?,
         free_vibration: free_vibration?,
-        strengths: values?,
+        strengths: strengths?,
     })
+}
+
+/// Finds the oscillators of `family` that are too stiff to be followed among the mistakes.
+pub(crate) fn check_stiffness(root: &Section<'_>, family: &OscillatorFamily, gravity_m_s2: f64) {
+    let (Some(&strength), Some(&stiffest_m), Some(&next_m)) =
+        (family.strengths.last(), family.uplift_displacement_m.first(), family.uplift_displacement_m.last())
+    else {
+        return;
+    };
+    stiffness::check(root, (strength, gravity_m_s2, stiffest_m, family.restitution), PostUplift::Zero);
+    if let Some(&capacity_m) = family.capacity_m.first().filter(|capacity_m| capacity_m.is_finite()) {
+        let steepest = PostUplift::Negative { capacity_m };
+        stiffness::check(root, (strength, gravity_m_s2, next_m, family.restitution), steepest);
+    }
 }
 
 /// Increasing capacities \[m\], each above `above_m`; the last may be infinite.

@@ -80,7 +80,7 @@ pub(super) fn read(root: &mut Section<'_>) -> Option<Structures> {
             if slenderness.is_present() {
                 slenderness.mistake("", "oscillators have no slenderness", "their abscissa is [strengths]");
             }
-            Structures::Oscillators(oscillators::read(oscillator, strengths)?)
+            Structures::Oscillators(oscillators::read(oscillator, strengths::read(strengths))?)
         }
         (false, true) => {
             if strengths.is_present() {

@@ -9,16 +9,17 @@ use uplift_structure::UncertainQuantity;
 
 use super::super::keys::{Declared, SectionKeys};
 use super::super::reading::{Findings, Paths, Section, Table};
-use super::super::{AnyStudy, Kind, structure, structure_schema, study_schema};
+use super::super::{AnyStudy, Kind, library, library_schema, structure, structure_schema, study_schema};
 use super::{displacement, resolving, shake_table};
 
 /// The pages with the keys of each kind of study, and of structures.
-fn pages() -> [(&'static str, &'static [SectionKeys]); 4] {
+fn pages() -> [(&'static str, &'static [SectionKeys]); 5] {
     [
         ("study-file.md", Kind::UniformRisk.keys()),
         ("displacement-study.md", Kind::Displacement.keys()),
         ("shake-table-study.md", Kind::ShakeTable.keys()),
         ("structure-file.md", &structure::KEYS),
+        ("rocking-library.md", &library::KEYS),
     ]
 }
 
@@ -104,9 +105,11 @@ fn the_documentation_has_every_key() {
 #[test]
 fn the_schemas_are_those_of_the_keys() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs");
-    for (name, schema) in
-        [("study.schema.json", study_schema()), ("structures/structure.schema.json", structure_schema())]
-    {
+    for (name, schema) in [
+        ("study.schema.json", study_schema()),
+        ("structures/structure.schema.json", structure_schema()),
+        ("library.schema.json", library_schema()),
+    ] {
         let made = format!("{schema:#}\n");
         if env::var_os("UPDATE_DOCS").is_some() {
             fs::write(folder.join(name), &made).unwrap();

@@ -46,7 +46,7 @@ fn load(folder: &Folder) -> Result<ShakeTableStudy, StudyError> {
     }
 }
 
-fn texts(error: &StudyError) -> String {
+pub(super) fn texts(error: &StudyError) -> String {
     error.mistakes().iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 

@@ -1,0 +1,39 @@
+//! `uplift library`: how blocks and oscillators respond to a record set, over normalised intensities.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use uplift::library::{LibraryOptions, library as compute};
+use uplift_study::LibraryStudy;
+
+use super::arguments::{ForceArgument, require_folder};
+use crate::error::CommandError;
+use crate::show::{print_json, print_library};
+use crate::terminal::Terminal;
+
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  uplift library configs/rocking-library.toml -o results/library\n\n\
+                  Keys and tables: docs/rocking-library.md")]
+pub(super) struct LibraryArguments {
+    /// Library file
+    library: PathBuf,
+    /// Set a key of the file, e.g. records.first=20
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<String>,
+    /// Folder for the tables
+    #[arg(short, long, value_name = "FOLDER", default_value = "results/library")]
+    output: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    overwriting: ForceArgument,
+}
+
+pub(super) fn library(arguments: &LibraryArguments, terminal: &Terminal) -> Result<(), CommandError> {
+    require_folder(&arguments.output, "tables")?;
+    let study = LibraryStudy::load(&arguments.library, &arguments.overrides)?;
+    let options = LibraryOptions { folder: Some(arguments.output.clone()), force: arguments.overwriting.force };
+    let report = compute(&study, &options, terminal)?;
+    if arguments.json { print_json(&report) } else { print_library(&report, terminal) }
+}
