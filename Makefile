@@ -94,8 +94,7 @@ dist:
 	.ci/build-distribution target/$(HOST)/release/uplift
 endif
 
-# The engines of docs/cluster for real: Slurm, MPI, HyperQueue, as far as they can be had here. Apart from `test`: the
-# first build with MPI takes as long as that of the whole program.
+# The engines of docs/cluster for real: Slurm and HyperQueue, as far as they can be had here.
 test-cluster: build
 	tests/cluster/run.sh
 

@@ -2,17 +2,17 @@
 # Runs a small study through the engines of docs/cluster for real, stops it on the way, and compares what comes out with
 # an undisturbed run, bit by bit:
 #
-#     tests/cluster/run.sh [slurm] [mpi] [hyperqueue]        all of them unless some are named; `make test-cluster`
+#     tests/cluster/run.sh [slurm] [hyperqueue]        all of them unless some are named; `make test-cluster`
 #
-# As root on Debian it installs what is missing (Slurm, Open MPI, libclang) and starts a Slurm cluster of this one node;
+# As root on Debian it installs what is missing (Slurm) and starts a Slurm cluster of this one node;
 # HyperQueue comes from PyPI. What cannot be had is skipped, and said so; only wrong results fail. UPLIFT names another
 # built program than that of `make build`.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 repository=$PWD
-parts=${*:-slurm mpi hyperqueue}
+parts=${*:-slurm hyperqueue}
 uplift=$(realpath "${UPLIFT:-target/release/uplift}")
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 NO_COLOR=1
+export NO_COLOR=1
 # the folders of a cluster's daemons are opened by others
 folder=$(mktemp -d /tmp/uplift-cluster.XXXXXX)
 . tests/cluster/one-node-slurm.sh
@@ -102,50 +102,6 @@ in_slurm() {
     until_true 300 queue_is_empty || fail "$version: the jobs do not end"
     grep -qh "^known " results/logs/*.log || fail "$version: nothing was taken over of the $written bytes written"
     compare "$version, an array of 3, cancelled and submitted again"
-}
-
-in_mpi() {
-    provide mpicc openmpi-bin libopenmpi-dev || { skip "mpi: no Open MPI"; return; }
-    local built=$folder/uplift-mpi version=${MPI_VERSION:-}
-    version=$(mpirun --version | head -n 1)
-    if [ -n "${UPLIFT_MPI:-}" ]; then
-        cp "$UPLIFT_MPI" "$built"
-    else
-        # the bindings are made by libclang from the headers of the MPI library that is here
-        provide clang clang libclang-dev || { skip "mpi: no libclang"; return; }
-        (cd "$repository" && cargo build --release --locked --package uplift-cli --features mpi) ||
-            fail "mpi: the build"
-        cp "$repository/target/release/uplift" "$built"
-        # the program that is left there is that of `make build`
-        (cd "$repository" && cargo build --release --locked --package uplift-cli)
-    fi
-    local ranks=(mpirun --oversubscribe -n 2 "$built" run study.toml --threads 1) started code=0
-    "${ranks[@]}" >mpi.log 2>&1 &
-    started=$!
-    until_true 60 begun || { cat mpi.log; stuck "mpi: no rank is started" mpi.log; return; }
-    kill -INT "$started"
-    wait "$started" || code=$?
-    # what the ranks say at their end mpirun may or may not pass on
-    [ "$code" != 0 ] && [ ! -e results/study.h5 ] || { cat mpi.log; fail "mpi: Ctrl-C ends with $code"; }
-    # a rank that dies takes the other with it
-    code=0
-    "${ranks[@]}" >mpi.log 2>&1 &
-    started=$!
-    until_true 60 grep -q "^known " mpi.log || { cat mpi.log; fail "mpi: nothing was taken over"; }
-    local rank
-    rank=$(ps -o pid= --ppid "$started" | tail -n 1)
-    kill -KILL $rank
-    wait "$started" || code=$?
-    [ "$code" != 0 ] && ! ps -o pid= --ppid "$started" >/dev/null ||
-        { cat mpi.log; fail "mpi: a dead rank leaves $code"; }
-    "${ranks[@]}" >mpi.log 2>&1 || { cat mpi.log; fail "mpi: the run ends badly"; }
-    # where the result is there, nothing is computed again
-    [ "$("${ranks[@]}" --json 2>/dev/null | grep -c '"analyses_computed": 0,')" = 2 ] ||
-        fail "mpi: finished analyses are computed again"
-    # one rank, and none
-    mpirun --oversubscribe -n 1 "$built" run study.toml --quiet --set risk.poe=[0.1] || fail "mpi: one rank"
-    "$built" run study.toml --quiet || fail "mpi: without mpirun"
-    compare "mpi ($version), 2 ranks, interrupted, one killed, and gone on with"
 }
 
 in_hyperqueue() {

@@ -96,19 +96,6 @@ impl Terminal {
         self.details
     }
 
-    /// The same terminal for a process that must not speak.
-    #[cfg(feature = "mpi")]
-    pub(crate) fn with_quiet(&self, quiet: bool) -> Self {
-        Self {
-            quiet: self.quiet || quiet,
-            details: self.details,
-            form: self.form,
-            stop: self.stop.clone(),
-            interruption_message: self.interruption_message.clone(),
-            progress: RwLock::new(None),
-        }
-    }
-
     /// From now on, this is what an interruption leaves.
     pub(crate) fn set_interruption_message(&self, words: String) {
         *self.interruption_message.lock().unwrap_or_else(PoisonError::into_inner) = words;

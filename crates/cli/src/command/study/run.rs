@@ -1,8 +1,5 @@
 //! `uplift run`: the main job, end to end.
 
-#[cfg(feature = "mpi")]
-mod mpi;
-
 use std::path::PathBuf;
 
 use clap::Args;
@@ -42,10 +39,6 @@ pub(crate) struct RunArguments {
 }
 
 pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    #[cfg(feature = "mpi")]
-    if let Some(outcome) = mpi::run(arguments, terminal) {
-        return outcome;
-    }
     let study = arguments.study.load_any()?;
     if let Some(shard) = arguments.shard {
         let path = arguments.output.clone().unwrap_or_else(|| shard_path(&study.output().file, shard));
