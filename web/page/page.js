@@ -70,30 +70,44 @@ const FIELDS = {
   uplift_displacement_m: "Displacement at uplift, m",
   restitution: "Restitution; empty: that of the study",
 };
-const state = { site: null, measure: null, period: 2475, strength: 0.1, kind: "pier", safety: 2.5, own: {} };
+// without a strength of their own, spectrum and fragility are read at that of the structure; without a level, the motion
+// is scaled to that of the site
+const state = { site: null, measure: null, period: 2475, strength: null, kind: "pier", safety: 2.5, own: {},
+  extrapolate: false, level: null, record: null };
 for (const [kind, fields] of Object.entries(KINDS)) state.own[kind] = { ...fields };
 let about = null;
 let motions = null;
 
+// a number as it is typed; undefined where there is none
+function parsed(said, text) {
+  const value = text.trim() === "" ? undefined : Number(text);
+  if (Number.isNaN(value)) throw new Error(`${said}: ${/^\s*-?\d+,\d+\s*$/.test(text) ? `use a point: ${text.trim().replace(",", ".")}` : "give a number"}.`);
+  if (value < 0) throw new Error(`${said}: give a positive number.`);
+  return value;
+}
+// the link into the state; what of it cannot be read
 function readLink() {
   const link = new URLSearchParams(location.hash.slice(1));
-  const number = (key, fallback) => (link.has(key) && Number.isFinite(Number(link.get(key))) ? Number(link.get(key)) : fallback);
-  state.site = link.get("site");
-  state.measure = link.get("measure");
-  state.period = Math.min(1e5, Math.max(20, number("period", state.period)));
-  state.strength = number("strength", state.strength);
-  state.safety = number("safety", state.safety);
+  const wrong = [];
+  const number = (key, fallback) => {
+    try { return parsed(key, link.get(key) ?? "") ?? fallback; } catch (error) { wrong.push(error.message); return fallback; }
+  };
+  for (const key of ["site", "measure", "record"]) state[key] = link.get(key);
+  for (const key of ["period", "safety"]) state[key] = number(key, state[key]);
+  for (const key of ["strength", "level"]) state[key] = number(key, null);
+  state.extrapolate = link.get("extrapolate") === "loglog";
   if (KINDS[link.get("kind")]) state.kind = link.get("kind");
   for (const key of Object.keys({ ...FIELDS, width_m: 0, height_m: 0 })) {
-    if (link.has(key) && key in KINDS[state.kind] || (key === "restitution" && link.has(key))) {
-      state.own[state.kind][key] = link.get(key) === "" ? undefined : number(key, undefined);
-    }
+    if (link.has(key) && (key in KINDS[state.kind] || key === "restitution")) state.own[state.kind][key] = number(key, undefined);
   }
+  return wrong.length ? `The link: ${wrong.join(" ")}` : "";
 }
 function link() {
-  const { site, measure, period, strength, safety, kind } = state;
-  const all = { site, measure, period, strength, safety, kind };
-  for (const [key, value] of Object.entries(state.own[kind])) if (key !== "kind" && value !== undefined) all[key] = value;
+  const { site, measure, period, safety, kind, strength, level, record } = state;
+  const all = { site, measure, period, safety, kind };
+  for (const [key, value] of Object.entries({ strength, level, record })) if (value !== null) all[key] = value;
+  if (state.extrapolate) all.extrapolate = "loglog";
+  for (const [key, value] of Object.entries(state.own[kind])) if (key !== "kind") all[key] = value ?? "";
   return `#${new URLSearchParams(all)}`;
 }
 // a page inside a report has no address of its own
@@ -126,7 +140,7 @@ function ticks(scale) {
   return all;
 }
 const label = (value) => (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5)
-  ? `1e${Math.round(Math.log10(Math.abs(value)))}` : String(Number(value.toPrecision(3))));
+  ? String(Number(value.toPrecision(3)).toExponential()).replace("e+", "e") : String(Number(value.toPrecision(3))));
 // a figure: series are lines {x, y, colour}, bands {x, low, high} and points {x, y}; null breaks a line
 function svgOf(figure, colours) {
   const [wide, high, left, right, top, bottom] = [460, figure.high ?? 320, 62, 14, 14, 48];
@@ -213,29 +227,46 @@ const span = (values, log) => {
 // ---- the spectrum ---------------------------------------------------------------------------------------------------
 const measureOf = () => about.measures.find((own) => own.key === state.measure);
 const whereWords = () => `${state.site}, ${state.period} years, by ${measureOf().label}`;
+let siteLevel = null;
 const drawSpectrum = latest(async () => {
+  const strength = state.strength ?? window.design?.read_at_strength;
+  const asked = JSON.stringify(at());
   let spectrum;
-  let point;
+  let point = null;
+  let refusal = "";
   try {
-    [spectrum, point] = await Promise.all([ask({ ask: "spectrum", ...at() }), ask({ ask: "point", at: at(), strength: state.strength })]);
+    if (mistyped.has("period")) throw new Error(mistyped.get("period"));
+    spectrum = await ask({ ask: "spectrum", ...at() });
   } catch (error) {
     $("answer").textContent = error.message;
+    $("figures").hidden = true;
+    $("alarms").replaceChildren();
     return;
   }
+  try {
+    if (strength === undefined) throw new Error("The structure has no strength: correct it, or choose one.");
+    point = await ask({ ask: "point", at: at(), strength });
+  } catch (error) { refusal = error.message; }
+  // what was asked since is drawn next
+  if (JSON.stringify(at()) !== asked) return;
   window.shown = { spectrum, point };
+  showStrength(strength);
+  $("figures").hidden = false;
+  $("f-fragility").hidden = !point;
   const { unit, label: name } = measureOf();
   const probability = digits(100 * spectrum.risk.poe);
-  const value = point.u_m === null ? "No displacement has this risk: it is exceeded more often" : metres(point.u_m) + band(point.band_m);
-  $("answer").replaceChildren(value, element("small", {}, `${state.site}, strength ${state.strength}, ${state.period} years (${probability} % in ${spectrum.risk.years} years), by ${name}`));
+  const value = !point ? refusal : point.u_m === null ? "No displacement has this risk: it is exceeded more often" : metres(point.u_m) + band(point.band_m);
+  const ofStrength = `strength ${digits(strength, 3)}${state.strength === null ? ` (${state.kind})` : ""}`;
+  $("answer").replaceChildren(value, element("small", {}, `${state.site}, ${point ? `${ofStrength}, ` : ""}${state.period} years (${probability} % in ${spectrum.risk.years} years), by ${name}`));
   const head = `${about.provenance}; ${whereWords()}`;
   const [low, high] = span([...spectrum.u_m, ...spectrum.upper_m], true);
   show("f-spectrum", {
-    name: "spectrum", head, said: `Displacement over uplift strength, ${whereWords()}: ${value} at strength ${state.strength}`,
+    name: "spectrum", head, said: `Displacement over uplift strength, ${whereWords()}: ${value}${point ? ` at ${ofStrength}` : ""}`,
     caption: `Uniform risk spectrum${spectrum.lower_m.some((own) => own !== null) ? ` with its ${Math.round(100 * spectrum.confidence)} % band` : ""}, ${about.records} ${about.synthetic ? "synthetic " : ""}${about.records === 1 ? "record" : "records"}.`,
     x: { name: "Uplift strength η", from: spectrum.strengths.find((own) => own > 0), to: spectrum.strengths.at(-1), log: true },
     y: { name: "Displacement, m", from: Math.max(low * 0.8, high * 1e-4), to: high * 1.25, log: true },
     bands: [{ x: spectrum.strengths, low: spectrum.lower_m, high: spectrum.upper_m }],
-    lines: [{ x: spectrum.strengths, y: spectrum.u_m }], points: [{ x: state.strength, y: point.u_m }],
+    lines: [{ x: spectrum.strengths, y: spectrum.u_m }], points: point ? [{ x: strength, y: point.u_m }] : [],
     columns: { strength: spectrum.strengths, u_m: spectrum.u_m, lower_m: spectrum.lower_m, upper_m: spectrum.upper_m, flag: spectrum.flag },
   });
   const { levels, maf_per_year: rates, level } = spectrum.hazard;
@@ -247,21 +278,19 @@ const drawSpectrum = latest(async () => {
     lines: [{ x: levels, y: rates }], points: [{ x: level, y: 1 / state.period }],
     columns: { [`${state.measure}_${unit.replace("/", "_")}`]: levels, maf_per_year: rates },
   });
-  show("f-fragility", {
+  if (point) show("f-fragility", {
     name: "fragility", head, said: `Share of the records that exceed ${metres(point.u_m)} over ${name}`,
-    caption: point.fragility ? `Fragility: share of the records that exceed ${metres(point.u_m)} at strength ${state.strength}.` : "No fragility: the ordinate is not finite.",
+    caption: point.fragility ? `Fragility: share of the records that exceed ${metres(point.u_m)} at strength ${point.fragility_of_strength}.` : "No fragility: the ordinate is not finite.",
     x: { name: `${name}, ${unit}`, from: point.levels[0], to: point.levels.at(-1), log: true },
     y: { name: "Share of the records", from: 0, to: 1 }, lines: [{ x: point.levels, y: point.fragility ?? [] }],
     columns: { [`${state.measure}_${unit.replace("/", "_")}`]: point.levels, share: point.fragility ?? point.levels.map(() => 0) },
   });
-  const place = spectrum.strengths.indexOf(state.strength);
-  const told = spectrum.alarms.map((own) => element("li", {}, element("span", { class: "kind" }, `${own.severity === "mistake" ? "mistake?" : own.severity}: `),
+  siteLevel = level ?? (1 / state.period < Math.min(...rates) ? levels.at(-1) : levels[0]);
+  if (state.level === null) drawMotion();
+  const told = [...(point?.alarms ?? []), ...spectrum.alarms].map((own) => element("li", {}, element("span", { class: "kind" }, `${own.severity === "mistake" ? "mistake?" : own.severity}: `),
     `${own.subject}${own.also.length ? ` (${own.also.length} more)` : ""}: ${own.what}.`));
-  for (const [end, share] of [["above the last level", spectrum.upper_tail_share[place]], ["below the first level", spectrum.lower_tail_share[place]]]) {
-    if (share > 0.01) told.push(element("li", {}, element("span", { class: "kind" }, share > 0.1 ? "caution: " : "note: "), `${digits(100 * share)} % of the risk at this point comes from ${end} of the analysis.`));
-  }
   if (spectrum.alarms.length) told.push(element("li", { class: "note" }, `Warnings of the analysis concern ${about.poes.map((own) => digits(100 * own)).join(", ")} % in ${about.years} years.`));
-  $("alarms").replaceChildren(...(told.length ? told : [element("li", {}, about.synthetic ? "None." : "The program checks records and curves in more detail: uplift warnings.")]));
+  $("alarms").replaceChildren(...(told.length ? told : [element("li", {}, about.synthetic ? "None." : "None. The program checks records and curves in more detail.")]));
 });
 
 // ---- the structure --------------------------------------------------------------------------------------------------
@@ -331,12 +360,13 @@ function drawing() {
 // what is typed wrong, by field
 const mistyped = new Map();
 function typed(key, said, text) {
-  const value = text.trim() === "" ? undefined : Number(text);
   mistyped.delete(key);
-  if (Number.isNaN(value)) mistyped.set(key, `${said}: ${/^\s*-?\d+,\d+\s*$/.test(text) ? `use a point: ${text.trim().replace(",", ".")}` : "give a number"}.`);
-  else if (value === undefined && key !== "restitution") mistyped.set(key, `${said}: give a number.`);
-  else if (value < 0) mistyped.set(key, `${said}: give a positive number.`);
-  return value;
+  try {
+    const value = parsed(said, text);
+    if (value !== undefined || key === "restitution") return value;
+    mistyped.set(key, `${said}: give a number.`);
+  } catch (error) { mistyped.set(key, error.message); }
+  return undefined;
 }
 function input(key, said) {
   const box = element("input", { id: `field-${key}`, type: "text", inputmode: "decimal", autocomplete: "off", "aria-label": said });
@@ -371,7 +401,8 @@ const rows = (...all) => element("div", { class: "table" }, element("table", {},
 const worst = (rules) => [...rules].sort((a, b) => (a.required_capacity_m ?? Infinity) - (b.required_capacity_m ?? Infinity)).slice(-1);
 // a verdict that holds for the best estimate alone
 const atUpperEnd = ({ required_capacity_band_m: limits }, { capacity_m: capacity }) =>
-  (limits && capacity !== null && (limits[1] === null || limits[1] > capacity) ? " (not at the upper limit of the band)" : "");
+  (limits && capacity !== null && (limits[1] === null || limits[1] > capacity)
+    ? ` (not at the upper limit of the band, which ${limits[1] === null ? "no capacity meets" : `requires ${metres(limits[1])}`})` : "");
 // the demand read off the spectrum is of the oscillator that the spectrum was computed for
 function otherOscillator() {
   const differing = [["uplift_displacement_m", "uplift displacement", 1000, " mm"], ["restitution", "restitution", 1, ""]]
@@ -379,9 +410,11 @@ function otherOscillator() {
     .map(([key, said, times, unit]) => `${said} ${digits(times * about[key], 3)}${unit} (structure: ${digits(times * own()[key], 3)}${unit})`);
   return differing.length ? [element("p", { class: "note" }, `The spectrum was computed for ${differing.join(" and ")}: analyse the structure itself for its own demand.`)] : [];
 }
+const inputs = () => toml() + JSON.stringify(at());
 const drawDesign = latest(async () => {
   $("toml").textContent = toml();
   let told;
+  const asked = inputs();
   try {
     if (mistyped.size) throw new Error([...mistyped.values()].join("\n"));
     told = await ask({ ask: "structure", text: toml(), at: at(), safety_factor: state.safety });
@@ -389,23 +422,26 @@ const drawDesign = latest(async () => {
     $("mistake").hidden = false;
     $("mistake").textContent = error.message;
     $("design").replaceChildren();
+    window.design = null;
+    if (state.strength === null) drawSpectrum();
     return;
   }
+  if (inputs() !== asked) return;
   window.design = told;
+  if (state.strength === null) drawSpectrum();
   $("mistake").hidden = true;
-  const limits = (values) => band(values);
   $("design").replaceChildren(
     ...worst(told.rules ?? []).map((rule) => element("p", { class: "answer" },
-      `${rule.overturns ? "It overturns" : `${metres(rule.demand_m)}${limits(rule.demand_band_m)}`}: ${rule.satisfied ? "satisfied" : "not satisfied"}`,
-      element("small", {}, `Demand of the ${state.kind} by ${rule.rule.replace("-", " ")}, ${whereWords()}`))),
+      `${rule.overturns ? "It overturns" : `${metres(rule.demand_m)}${band(rule.demand_band_m)}`}: ${rule.satisfied ? "satisfied" : "not satisfied"}`,
+      element("small", {}, `Demand of the ${state.kind} by ${rule.rule.replace("-", " ")}, ${whereWords()}. ${rule.required_capacity_m === null ? "No capacity is enough." : `Required capacity ${metres(rule.required_capacity_m)}${band(rule.required_capacity_band_m)}${told.capacity_m === null ? "" : `, available ${metres(told.capacity_m)}`}.`}`))),
     rows(
       ["Uplift strength", `${digits(told.spectral_strength, 3)} (displacements are ${digits(told.participation, 4)} times the spectrum's)`],
       ["Displacement capacity", told.capacity_m === null ? "none: the force does not fall after uplift" : metres(told.capacity_m)],
-      told.ordinate_m !== undefined && ["Displacement by the spectrum", `${metres(told.ordinate_m)}${limits(told.ordinate_band_m)}`],
+      told.ordinate_m !== undefined && ["Displacement by the spectrum", `${metres(told.ordinate_m)}${band(told.ordinate_band_m)}`],
       told.without_demand && ["Demand", told.without_demand, true],
       ...(told.rules ?? []).flatMap((rule) => [
-        [`Demand, rule of ${rule.rule.replace("-", " ")}`, rule.overturns ? "overturns" : `${metres(rule.demand_m)}${limits(rule.demand_band_m)}`, rule.overturns],
-        [`Required capacity, ${rule.rule.replace("-", " ")}`, rule.required_capacity_m === null ? "no finite one" : `${metres(rule.required_capacity_m)}${limits(rule.required_capacity_band_m)}`],
+        [`Demand, rule of ${rule.rule.replace("-", " ")}`, rule.overturns ? "overturns" : `${metres(rule.demand_m)}${band(rule.demand_band_m)}`, rule.overturns],
+        [`Required capacity, ${rule.rule.replace("-", " ")}`, rule.required_capacity_m === null ? "no finite one" : `${metres(rule.required_capacity_m)}${band(rule.required_capacity_band_m)}`],
         [`Verdict, ${rule.rule.replace("-", " ")}`, rule.satisfied ? `satisfied: safety factor ${digits(rule.safety_factor, 3)}${atUpperEnd(rule, told)}` : `not satisfied: safety factor ${digits(rule.safety_factor, 3)}, ${digits(state.safety, 3)} required`, !rule.satisfied],
       ]),
     ),
@@ -422,7 +458,8 @@ function changed() {
   $("own-demand").replaceChildren();
   $("command").textContent = `uplift run study.toml && uplift design structure.toml --urs results/study.h5 --return-period ${state.period} --measure ${state.measure}`;
 }
-const everything = () => { drawSpectrum(); changed(); };
+// the spectrum at the structure's strength is drawn when that is known
+const everything = () => { if (state.strength !== null) drawSpectrum(); changed(); };
 
 async function analyse(question, done) {
   const [bar, stop] = [$("progress"), $("stop")];
@@ -453,7 +490,6 @@ const often = (event) => {
 };
 $("analyse").onclick = () => {
   if (mistyped.size) return say([...mistyped.values()].join(" "));
-  const inputs = () => toml() + JSON.stringify(at());
   const asked = inputs();
   return analyse({ ask: "analyse-structure", text: toml(), at: at(), block: $("with-block").checked }, (found) => {
     if (inputs() !== asked) return "The inputs changed during the analysis: analyse again.";
@@ -474,10 +510,13 @@ $("stop").onclick = () => worker.postMessage({ kind: "stop" });
 // ---- the motion -----------------------------------------------------------------------------------------------------
 let moving = null;
 const drawMotion = latest(async () => {
-  if (!motions?.length) return;
-  const level = Number($("level").value);
-  const { unit, label: name } = measureOf();
-  $("level-number").textContent = `${name} ${digits(level)} ${unit}`;
+  const level = state.level ?? siteLevel;
+  if (!motions?.length || level === null) return;
+  const { unit, label: name, levels } = measureOf();
+  $("level").max = Math.max(levels.at(-1), level);
+  $("level").value = level;
+  $("level-site").hidden = state.level === null;
+  $("level-number").textContent = `${name} ${digits(level)} ${unit}${state.level === null ? `, exceeded at ${state.site} once in ${state.period} years` : ""}`;
   let motion;
   try {
     motion = await ask({ ask: "motion", text: toml(), motion: Number($("motion").value), measure: state.measure, level });
@@ -490,7 +529,7 @@ const drawMotion = latest(async () => {
   }
   moving = motion;
   window.moving = motion;
-  $("peak").textContent = motion.overturned ? "It overturns." : `Largest displacement ${metres(motion.peak_m)}.`;
+  $("peak").textContent = motion.overturned ? "It overturns." : motion.peak_m === 0 ? "It does not uplift." : `Largest displacement ${metres(motion.peak_m)}.`;
   const [low, high] = span(motion.displacement_m);
   const reach = Math.max(Math.abs(low), Math.abs(high), 1e-3) * 1.1;
   show("f-trace", {
@@ -536,7 +575,9 @@ $("play").onclick = () => {
 async function listMotions() {
   try {
     motions = await ask({ ask: "motions" });
+    if (!motions.some((own) => own.id === state.record)) state.record = null;
     $("motion").replaceChildren(...motions.map((own, place) => element("option", { value: place }, `${own.id}: PGV ${digits(own.pgv_cm_s)} cm/s, PGA ${digits(own.pga_g)} g, ${digits(own.duration_s)} s`)));
+    $("motion").value = Math.max(0, motions.findIndex((own) => own.id === state.record));
   } catch (error) {
     motions = [];
     $("peak").textContent = error.message;
@@ -546,71 +587,99 @@ async function listMotions() {
 
 // ---- files ----------------------------------------------------------------------------------------------------------
 const say = (text) => { $("state").textContent = text; };
+// larger files are no curves and no records
+const LARGEST = 64e6;
+const bytes = async (file) => new Uint8Array(await file.arrayBuffer());
+// reads files one after another and shows what is wrong with each
+async function each(files, work) {
+  const wrong = [];
+  for (const file of files) {
+    try {
+      if (file.size === 0) throw new Error("the file is empty");
+      if (file.size > LARGEST) throw new Error(`${digits(file.size / 1e6, 3)} MB; the page reads files up to ${LARGEST / 1e6} MB`);
+      await work(file);
+    } catch (error) { wrong.push(error.message.includes(file.name) ? error.message : `${file.name}: ${error.message}`); }
+  }
+  complain("own-mistake", wrong.join("\n"));
+}
+function complain(id, text) {
+  $(id).hidden = !text;
+  $(id).textContent = text;
+}
 let curves = [];
-function offer(found) {
-  curves.push(...found.filter((curve) => about.measures.some((own) => own.key === curve.measure)));
-  const refusedCurves = found.filter((curve) => !curves.includes(curve));
-  if (refusedCurves.length) say(`There are no stripes by the measure of ${refusedCurves.map((curve) => curve.label).join(", ")}.`);
-  $("found").hidden = !curves.length;
-  const chosen = new Set();
-  $("found-list").replaceChildren(...curves.map((curve) => {
-    const box = element("input", { type: "checkbox", value: curve.place });
-    box.checked = !chosen.has(curve.measure);
-    chosen.add(curve.measure);
-    return element("div", {}, element("label", {}, box, ` ${curve.label}, ${curve.points} points, ${curve.unit}`));
+let open = [];
+// a table that does not say its unit is read when the unit is chosen
+async function takeCurves(file, choice) {
+  const found = await ask({ ask: "curves", name: file.name, choice }, await bytes(file));
+  if (found.open) open.push({ file, choices: found.open });
+  const [usable, others] = [true, false].map((known) => found.curves.filter((curve) => about.measures.some((own) => own.key === curve.measure) === known));
+  curves.push(...usable);
+  offer();
+  if (others.length) throw new Error(`the page has no spectra by the measure of ${others.map((curve) => curve.label).join(", ")}`);
+}
+function offer() {
+  $("found").hidden = !curves.length && !open.length;
+  $("take-found").disabled = !curves.length;
+  $("extrapolate").checked = state.extrapolate;
+  const asked = open.map((of) => {
+    const select = element("select", {}, element("option", { value: "" }, "Choose …"), ...of.choices.map((own, place) => element("option", { value: place }, own.label)));
+    select.onchange = () => {
+      open = open.filter((own) => own !== of);
+      each([of.file], (file) => takeCurves(file, of.choices[Number(select.value)].choice)).then(offer);
+    };
+    return element("div", {}, element("label", {}, `${of.file.name} does not say what it holds: `, select));
+  });
+  const keys = [...new Set(curves.map((curve) => curve.measure))];
+  const radio = (key, value, said, checked) => {
+    const box = element("input", { type: "radio", name: `curve-${key}`, value });
+    box.checked = checked;
+    return element("div", {}, element("label", {}, box, ` ${said}`));
+  };
+  $("found-list").replaceChildren(...asked, ...keys.flatMap((key) => {
+    const own = curves.filter((curve) => curve.measure === key);
+    const name = about.measures.find((known) => known.key === key).label;
+    const boxes = own.map((curve) => radio(key, curve.place, `${curve.label}, ${curve.points} points, ${curve.unit}`, curve === own.at(-1)));
+    return [element("div", { role: "radiogroup", "aria-label": name }, ...boxes, ...(keys.length > 1 ? [radio(key, "", `no curve of ${name}`, false)] : []))];
   }));
 }
-const bytes = async (file) => new Uint8Array(await file.arrayBuffer());
-async function takeCurves(files) {
-  for (const file of files) {
-    try {
-      const content = await bytes(file);
-      const name = /(pgv|pga)/i.exec(file.name)?.[0].toLowerCase();
-      offer(await ask({ ask: "curves", name: file.name, measure: name ?? state.measure }, content));
-    } catch (error) { say(error.message); }
-  }
+async function takeRecord(file) {
+  const { format, records } = await ask({ ask: "record", name: file.name }, await bytes(file));
+  $("dropped").hidden = false;
+  $("dropped-count").textContent = `${records} ${records === 1 ? "record" : "records"} (${format}).`;
 }
-async function takeRecords(files) {
-  for (const file of files) {
-    try {
-      const { format, records } = await ask({ ask: "record", name: file.name }, await bytes(file));
-      $("dropped").hidden = false;
-      $("dropped-count").textContent = `${records} ${records === 1 ? "record" : "records"} (${format}).`;
-    } catch (error) { say(error.message); }
-  }
-  await listMotions();
-}
-async function takeStripes([file]) {
-  if (!file) return;
-  try {
-    const content = await bytes(file);
-    await settle(await ask({ ask: "stripes" }, content));
-    say(`${file.name} is shown.`);
-  } catch (error) { say(error.message); }
+async function takeStripes(file) {
+  await settle(await ask({ ask: "stripes" }, await bytes(file)));
+  say(`${file.name} is shown.`);
 }
 // what a dropped file is: an exported result, a hazard curve, else a record
 async function take(files) {
   $("own").open = true;
-  for (const file of files) {
-    const head = new TextDecoder().decode((await bytes(file)).slice(0, 4000));
-    if (/^\s*\{\s*"format":\s*"uplift-web/.test(head)) await takeStripes([file]);
-    else if (/hazard|\bpoe|\bmaf\b|iml|imtls|xvalues/i.test(head) || /\.(nrml|xml|json)$/i.test(file.name)) await takeCurves([file]);
-    else await takeRecords([file]);
-  }
+  let records = 0;
+  await each(files, async (file) => {
+    const head = new TextDecoder().decode(await file.slice(0, 4000).arrayBuffer());
+    if (/^\s*\{\s*"format":\s*"uplift-web/.test(head)) return takeStripes(file);
+    if (/hazard|\bpoe|\bmaf\b|iml|imtls|xvalues/i.test(head) || /\.(nrml|xml|json)$/i.test(file.name)) return takeCurves(file);
+    await takeRecord(file);
+    records += 1;
+  });
+  if (records) await listMotions();
 }
-$("files-hazard").onchange = (event) => takeCurves(event.target.files);
-$("files-records").onchange = (event) => takeRecords(event.target.files);
-$("files-stripes").onchange = (event) => takeStripes(event.target.files);
-$("take-paste").onclick = () => takeCurves([new File([$("paste").value], "pasted curve")]);
-$("take-found").onclick = async () => {
-  const places = [...$("found-list").querySelectorAll("input:checked")].map((box) => Number(box.value));
+$("files-hazard").onchange = (event) => each(event.target.files, (file) => takeCurves(file));
+$("files-records").onchange = (event) => each(event.target.files, takeRecord).then(listMotions);
+$("files-stripes").onchange = (event) => each(event.target.files, takeStripes);
+$("take-paste").onclick = () => each([new File([$("paste").value], "pasted curve")], (file) => takeCurves(file));
+async function useFound() {
+  const places = [...$("found-list").querySelectorAll("input:checked")].map((box) => box.value).filter(Boolean).map(Number);
   try {
-    const { notes, about: now } = await ask({ ask: "site", name: "Your site", curves: places });
+    const { notes, about: now } = await ask({ ask: "site", name: "Your site", curves: places, extrapolate: state.extrapolate });
     state.site = "Your site";
     await settle(now);
-    say(notes.join(" "));
-  } catch (error) { say(error.message); }
-};
+    complain("found-mistake", "");
+    say(notes.join(". "));
+  } catch (error) { complain("found-mistake", error.message); }
+}
+$("take-found").onclick = useFound;
+$("extrapolate").onchange = () => { state.extrapolate = $("extrapolate").checked; writeLink(); if (curves.length) useFound(); };
 $("analyse-records").onclick = () => analyse({ ask: "analyse-records" }, settle);
 $("forget-records").onclick = async () => {
   await ask({ ask: "no-records" });
@@ -627,7 +696,7 @@ for (const kind of ["dragover", "dragleave", "drop"]) addEventListener(kind, (ev
 $("save-study").onclick = async () => {
   const { files, runs_as_it_is: runs } = await ask({ ask: "study", ...at() });
   for (const [name, text] of Object.entries(files)) save(name, text);
-  if (!runs) say("The study reads its records from where they were: correct records.manifest.");
+  if (!runs) say("The study names the record files where the result had them. Put them there, or drop them here and analyse them first.");
 };
 $("save-structure").onclick = () => save("structure.toml", toml());
 $("save-link").hidden = embedded;
@@ -646,11 +715,7 @@ async function settle(now) {
   $("site").value = state.site;
   measures();
   const { strengths } = about;
-  const nearest = strengths.reduce((best, own, place) => (Math.abs(own - state.strength) < Math.abs(strengths[best] - state.strength) ? place : best), 0);
-  state.strength = strengths[nearest];
   $("strength").max = strengths.length - 1;
-  $("strength").value = nearest;
-  $("strength-number").textContent = state.strength;
   $("synthetic").hidden = !about.synthetic;
   $("provenance").textContent = about.provenance;
   everything();
@@ -659,51 +724,73 @@ async function settle(now) {
 }
 function measures() {
   const there = about.sites.find((own) => own.name === state.site)?.measures ?? [];
+  const before = state.measure;
   const known = about.measures.filter((own) => there.includes(own.key));
   if (!known.some((own) => own.key === state.measure)) state.measure = known[0]?.key;
   $("measure").replaceChildren(...known.map((own) => element("option", { value: own.key }, own.label)));
   $("measure").value = state.measure;
-  const { levels } = measureOf();
-  const reach = span(levels);
-  $("level").min = reach[0];
-  $("level").max = reach[1];
-  $("level").value = reach[1] * 0.15;
+  // a level of another measure has another unit
+  if (before && before !== state.measure) state.level = null;
+  siteLevel = null;
+  $("level").min = measureOf().levels.find((own) => own > 0);
+}
+// strengths of the spectrum are steps of the slider
+function showStrength(strength) {
+  const { strengths } = about;
+  const apart = strengths.map((own) => Math.abs(own - strength));
+  if (strength !== undefined) $("strength").value = apart.indexOf(Math.min(...apart));
+  const text = strength === undefined ? "none" : digits(strength, 3);
+  $("strength").setAttribute("aria-valuetext", text);
+  $("strength-number").textContent = text;
+  $("strength-own").checked = state.strength === null;
 }
 $("site").onchange = () => { state.site = $("site").value; measures(); everything(); };
-$("measure").onchange = () => { state.measure = $("measure").value; measures(); everything(); };
-const setPeriod = (value, from) => {
-  state.period = Number(Math.min(1e5, Math.max(20, value)).toPrecision(4));
-  if (from !== "range") $("period").value = Math.log10(state.period);
-  if (from !== "number") $("period-number").value = state.period;
+$("measure").onchange = () => { state.measure = $("measure").value; state.level = null; measures(); everything(); };
+$("period").oninput = () => {
+  state.period = Number((10 ** Number($("period").value)).toPrecision(4));
+  mistyped.delete("period");
+  $("period-number").value = state.period;
+  everything();
 };
-$("period").oninput = () => { setPeriod(10 ** Number($("period").value), "range"); everything(); };
-$("period-number").onchange = () => { setPeriod(Number($("period-number").value) || 475); everything(); };
-$("strength").oninput = () => {
-  state.strength = about.strengths[Number($("strength").value)];
-  $("strength").setAttribute("aria-valuetext", String(state.strength));
-  $("strength-number").textContent = state.strength;
+$("period-number").oninput = () => {
+  const value = typed("period", "Return period, years", $("period-number").value);
+  if (!mistyped.has("period")) $("period").value = Math.log10(state.period = value);
+  everything();
+};
+$("strength").oninput = () => { state.strength = about.strengths[Number($("strength").value)]; writeLink(); drawSpectrum(); };
+$("strength-own").onchange = () => {
+  state.strength = $("strength-own").checked ? null : about.strengths[Number($("strength").value)];
   writeLink();
   drawSpectrum();
 };
-$("level").oninput = drawMotion;
-$("motion").onchange = drawMotion;
-for (const box of document.querySelectorAll("[name=kind]")) box.onchange = () => { state.kind = box.value; mistyped.clear(); fields(); changed(); };
+$("level").oninput = () => { state.level = Number($("level").value); writeLink(); drawMotion(); };
+$("level-site").onclick = () => { state.level = null; writeLink(); drawMotion(); };
+$("motion").onchange = () => { state.record = motions[Number($("motion").value)].id; writeLink(); drawMotion(); };
+for (const box of document.querySelectorAll("[name=kind]")) box.onchange = () => {
+  state.kind = box.value;
+  for (const key of mistyped.keys()) if (key !== "period") mistyped.delete(key);
+  fields();
+  changed();
+};
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", everything);
 // another link is another state
-addEventListener("hashchange", () => { readLink(); begin(); settle(about); });
+addEventListener("hashchange", async () => { say([begin(), await settle(about)].join(" ").trim()); });
 function begin() {
+  const wrong = readLink();
+  mistyped.clear();
   document.querySelector(`[name=kind][value=${state.kind}]`).checked = true;
-  setPeriod(state.period);
+  $("period").value = Math.log10(state.period);
+  $("period-number").value = state.period;
   fields();
+  return wrong;
 }
 (async () => {
   const started = performance.now();
-  readLink();
-  begin();
+  const wrong = begin();
   try {
     const now = await send({ kind: "start", module: bytesOf("module"), stripes: bytesOf("stripes") });
     document.querySelector("main").hidden = false;
-    say(await settle(now));
+    say([wrong, await settle(now)].join(" ").trim());
     window.ready = performance.now() - started;
   } catch (error) {
     say(`The page could not start: ${error.message}`);

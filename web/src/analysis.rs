@@ -1,20 +1,18 @@
 //! Many runs, a record at a time, so that the page can show how far they are and stop them.
 
 use serde_json::{Value, json};
-use uplift_block::RockingBlock;
 use uplift_bootstrap::{inferred_limits, inferred_rate};
 use uplift_fragility::Stripes as Stripe;
 use uplift_ida::{Plan, StripeRecord, System, Unwatched, analyse};
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::{Oscillator, PostUplift};
 use uplift_risk::{EventRisk, PooledDemand, RiskCurve, StripeWeights, at_most_per_year};
-use uplift_structure::PostUpliftForce;
 use uplift_study::{Structure, UniformRiskStudy};
 
 use crate::calculator::{Answer, At, refused};
 use crate::motions::{Motion, Motions};
 use crate::stripes::{CONFIDENCE, Measure, Stripes};
-use crate::structure::parse;
+use crate::structure::{capacity_m, parse, rocking_block};
 
 /// A threshold that nothing but overturning exceeds.
 const OVERTURNING_M: f64 = f64::MAX;
@@ -64,17 +62,11 @@ impl Analysis {
     ) -> Answer<Self> {
         let structure = parse(text)?;
         let of = stripes.place(at)?.of;
-        let own = structure.description.restitution;
-        let restitution = own.unwrap_or(stripes.study.oscillator.restitution);
+        let restitution = structure.description.restitution.unwrap_or(stripes.study.oscillator.restitution);
         let oscillator = structure.system.spectral_oscillator(restitution).map_err(refused)?;
         let mut systems = vec![System::Oscillator(oscillator)];
-        if let Some(block) = structure.block.filter(|_| with_block)
-            && let Ok(rocking) = RockingBlock::new(block.size_m, block.slenderness_rad)
-        {
-            let rocking = rocking
-                .with_gravity(structure.system.conditions().gravity_m_s2())
-                .and_then(|rocking| rocking.with_restitution(own.unwrap_or(block.restitution)));
-            systems.push(System::Block(rocking.map_err(refused)?));
+        if with_block && let Some(block) = rocking_block(&structure) {
+            systems.push(System::Block(block?));
         }
         let measures = vec![(of.measure, of.levels.clone())];
         let records = motions.all()?.len();
@@ -151,10 +143,7 @@ impl Analysis {
             PooledDemand::new(&stripe).map_err(refused)
         };
         let own = demand(0)?;
-        let capacity_m = match structure.system.post_uplift() {
-            PostUpliftForce::Negative { capacity_m } => Some(capacity_m),
-            PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
-        };
+        let capacity_m = capacity_m(&structure.system);
         let ordinate = RiskCurve::new(&own, weights).and_then(|curve| curve.exact_ordinate(risk.per_year));
         let ordinate = ordinate.map_err(refused)?;
         let asked = (&[units.len()][..], CONFIDENCE);

@@ -6,7 +6,7 @@ use uplift_hazard::{probability_from_rate, rate_from_probability};
 use uplift_plausible::RETURN_PERIOD;
 
 use crate::analysis::Analysis;
-use crate::curves::DroppedCurve;
+use crate::curves::{Choice, DroppedCurve, Found};
 use crate::motions::Motions;
 use crate::stripes::Stripes;
 
@@ -31,10 +31,10 @@ enum Question {
     Spectrum(At),
     /// An ordinate and the fragility there.
     Point { at: At, strength: f64 },
-    /// Reads hazard curves out of the file.
-    Curves { name: String, measure: Option<String> },
-    /// Adds a site with the curves of these numbers.
-    Site { name: String, curves: Vec<usize> },
+    /// Reads hazard curves out of the file; `choice` says what a table does not say.
+    Curves { name: String, choice: Option<Choice> },
+    /// Adds a site with the curves of these numbers, which go on beyond their ends where `extrapolate` says so.
+    Site { name: String, curves: Vec<usize>, extrapolate: bool },
     /// Reads a record file.
     Record { name: String },
     /// Forgets the record files.
@@ -135,18 +135,19 @@ impl Calculator {
             Question::About => Ok(self.stripes()?.about()),
             Question::Spectrum(at) => self.stripes()?.spectrum(&at),
             Question::Point { at, strength } => self.stripes()?.point(&at, strength),
-            Question::Curves { name, measure } => {
-                let found = DroppedCurve::read(file, &name, measure.as_deref())?;
-                let first = self.curves.len();
-                let told = found.iter().enumerate().map(|(place, curve)| curve.about(first + place)).collect();
-                self.curves.extend(found);
+            Question::Curves { name, choice } => {
+                let found = Found::read(file, &name, choice.as_ref())?;
+                let told = found.about(self.curves.len());
+                if let Found::Curves(curves) = found {
+                    self.curves.extend(curves);
+                }
                 Ok(told)
             }
-            Question::Site { name, curves } => {
+            Question::Site { name, curves, extrapolate } => {
                 let chosen: Option<Vec<_>> = curves.iter().map(|&place| self.curves.get(place)).collect();
                 let chosen = chosen.ok_or("there is no such curve")?;
                 let chosen = chosen.into_iter().map(|own| own.curve.clone()).collect();
-                self.stripes.as_mut().ok_or(NO_STRIPES)?.add_site(&name, chosen)
+                self.stripes.as_mut().ok_or(NO_STRIPES)?.add_site(&name, chosen, extrapolate)
             }
             Question::Record { name } => self.motions.add(file, &name),
             Question::NoRecords => {

@@ -115,7 +115,7 @@ impl Motions {
             return Err(format!("{}: a record of this name was dropped before", again.id()));
         }
         if self.dropped.len() + added.len() > MOST_DROPPED {
-            return Err(format!("more than {MOST_DROPPED} records: run them with `uplift run`"));
+            return Err(format!("{name}: the page takes {MOST_DROPPED} records at most: run the saved study"));
         }
         self.dropped.extend(added);
         Ok(json!({ "format": read.format.key(), "records": self.dropped.len() }))

@@ -5,17 +5,18 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use uplift_bootstrap::inferred_limits;
 use uplift_fragility::Stripes as Stripe;
-use uplift_hazard::{ComponentDefinition, HazardCurve};
+use uplift_hazard::{ComponentDefinition, Extrapolation, HazardCurve};
 use uplift_motion::IntensityMeasure;
-use uplift_risk::{Ordinate, OrdinateFlag, PooledDemand, RiskCurve, StrengthPlace, StripeWeights};
+use uplift_risk::{
+    BEYOND_LIMIT, DECISIVE_SHARE, FEW_RECORDS, Ordinate, OrdinateFlag, PooledDemand, RiskCurve, StrengthPlace,
+    StripeWeights, TAIL_SHARE_LIMIT,
+};
 use uplift_study::{AnyStudy, Study, UniformRiskStudy};
 
 use crate::calculator::{Answer, At, Risk, refused};
 
 /// What `uplift export --web` calls its files.
 const FORMAT: &str = "uplift-web-1";
-/// Fewer records are a warning (Section 4.5.1).
-const FEW_RECORDS: usize = 40;
 /// How often a band is to hold the displacement of all records like those at hand, as `uplift spectrum` has it.
 pub(crate) const CONFIDENCE: f64 = 0.9;
 
@@ -105,6 +106,8 @@ impl Measure {
 pub(crate) struct Site {
     name: String,
     pub(crate) curves: Vec<SiteCurve>,
+    /// What to do with levels outside the curves.
+    pub(crate) extrapolate: Extrapolation,
 }
 
 /// The hazard curve of one measure at a site.
@@ -176,21 +179,27 @@ impl Stripes {
             sites: Vec::new(),
             manifest: None,
         };
+        let extrapolate = stripes.study.risk.extrapolate;
         for site in read.sites {
             let mut curves = Vec::new();
             for own in site.curves {
                 let measure: IntensityMeasure = own.im.parse().map_err(refused)?;
                 let curve = HazardCurve::new(measure.label(), own.unit, own.source, own.levels, own.maf_per_year);
-                curves.push(stripes.site_curve(measure, curve.map_err(refused)?, own.alarms)?);
+                curves.push(stripes.site_curve(measure, curve.map_err(refused)?, (own.alarms, extrapolate))?);
             }
-            stripes.sites.push(Site { name: site.name, curves });
+            stripes.sites.push(Site { name: site.name, curves, extrapolate });
         }
         Ok(stripes)
     }
 
-    fn site_curve(&self, measure: IntensityMeasure, curve: HazardCurve, alarms: Value) -> Answer<SiteCurve> {
+    fn site_curve(
+        &self,
+        measure: IntensityMeasure,
+        curve: HazardCurve,
+        (alarms, extrapolate): (Value, Extrapolation),
+    ) -> Answer<SiteCurve> {
         let of = self.measure(measure)?;
-        let weights = StripeWeights::from_hazard(&curve, &of.levels, self.study.risk.extrapolate).map_err(refused)?;
+        let weights = StripeWeights::from_hazard(&curve, &of.levels, extrapolate).map_err(refused)?;
         Ok(SiteCurve { measure, curve, weights, alarms })
     }
 
@@ -200,7 +209,8 @@ impl Stripes {
     }
 
     /// Adds a site, or replaces the one of its name, with curves in their own units.
-    pub(crate) fn add_site(&mut self, name: &str, curves: Vec<HazardCurve>) -> Answer<Value> {
+    pub(crate) fn add_site(&mut self, name: &str, curves: Vec<HazardCurve>, extrapolate: bool) -> Answer<Value> {
+        let extrapolate = if extrapolate { Extrapolation::LogLog } else { Extrapolation::Refuse };
         let mut own = Vec::new();
         let mut notes = Vec::new();
         for curve in curves {
@@ -217,8 +227,8 @@ impl Stripes {
                 }
                 Some(other) => {
                     return Err(format!(
-                        "{}: the curve is of the {}, and the records are measured by the {}: multiply its levels, \
-                         and name the definition in the file",
+                        "{}: the curve is of the {}, and the records are measured by the {}: drop a file with \
+                         levels of that definition, named in the file",
                         measure.label(),
                         other.key(),
                         wanted.key()
@@ -229,13 +239,19 @@ impl Stripes {
                 return Err(format!("two curves of {} for one site: choose one", measure.label()));
             }
             let alarms = if self.synthetic { self.synthetic_alarms() } else { json!([]) };
-            own.push(self.site_curve(measure, curve, alarms)?);
+            let (first, last) = (curve.first().im, curve.last().im);
+            let levels = &self.measure(measure)?.levels;
+            if extrapolate == Extrapolation::LogLog && levels.iter().any(|level| !(first..=last).contains(level)) {
+                let unit = measure.unit();
+                notes.push(format!("{}: extrapolated below {first} and above {last} {unit}", measure.label()));
+            }
+            own.push(self.site_curve(measure, curve, (alarms, extrapolate))?);
         }
         if own.is_empty() {
             return Err("no curve was chosen".to_owned());
         }
         self.sites.retain(|site| site.name != name);
-        self.sites.push(Site { name: name.to_owned(), curves: own });
+        self.sites.push(Site { name: name.to_owned(), curves: own, extrapolate });
         Ok(json!({ "notes": notes, "about": self.about() }))
     }
 
@@ -340,7 +356,7 @@ impl Stripes {
     /// that exceed it at each level; the stripes are those of the strength at the left.
     pub(crate) fn point(&self, at: &At, strength: f64) -> Answer<Value> {
         let (place, risk) = (self.place(at)?, self.risk(at)?);
-        let (read, between) = self.ordinate_at(place, risk, strength)?;
+        let (read, between, tail_shares) = self.ordinate_at(place, risk, strength)?;
         let curve = RiskCurve::new(&place.of.demands[between.left], place.weights).map_err(refused)?;
         let fragility = if read[0].is_finite() { curve.exceedance_probabilities(read[0]).ok() } else { None };
         Ok(json!({
@@ -351,11 +367,18 @@ impl Stripes {
             "levels": place.of.levels,
             "fragility": fragility,
             "fragility_of_strength": self.study.strengths[between.left],
+            "alarms": place.alarms_of(risk, tail_shares),
         }))
     }
 
-    /// The ordinate at a strength and the limits of its band, m, and between which strengths they are read.
-    pub(crate) fn ordinate_at(&self, place: Place<'_>, risk: Risk, strength: f64) -> Answer<([f64; 3], StrengthPlace)> {
+    /// The ordinate at a strength and the limits of its band, m, between which strengths they are read, and the larger
+    /// shares of their risk that come from below and above the levels.
+    pub(crate) fn ordinate_at(
+        &self,
+        place: Place<'_>,
+        risk: Risk,
+        strength: f64,
+    ) -> Answer<([f64; 3], StrengthPlace, [f64; 2])> {
         let strengths = &self.study.strengths;
         let between = StrengthPlace::among(strengths, strength).ok_or_else(|| {
             let [first, last] = [strengths.first(), strengths.last()].map(|value| value.copied().unwrap_or(f64::NAN));
@@ -365,11 +388,53 @@ impl Stripes {
             [between.left, between.right].map(|at| place.ordinate(&place.of.demands[at], risk.per_year));
         let (left, right) = (left?, right?);
         let read = |value: fn(&Banded) -> f64| between.between(value(&left), value(&right));
-        Ok(([read(|own| own.ordinate.displacement_m), read(|own| own.band_m[0]), read(|own| own.band_m[1])], between))
+        let ordinates = [read(|own| own.ordinate.displacement_m), read(|own| own.band_m[0]), read(|own| own.band_m[1])];
+        let most = |share: fn(&Ordinate) -> f64| share(&left.ordinate).max(share(&right.ordinate));
+        Ok((ordinates, between, [most(|own| own.lower_tail_share), most(|own| own.upper_tail_share)]))
     }
 }
 
 impl Place<'_> {
+    /// What is to be raised about an ordinate, whatever the study asked for: how much of it rests on motions that were
+    /// not analysed, by the limits of `uplift warnings`.
+    fn alarms_of(&self, risk: Risk, [lower, upper]: [f64; 2]) -> Vec<Value> {
+        let levels = &self.of.levels;
+        let ends = [levels[0], levels[levels.len() - 1]];
+        let unit = self.of.measure.unit();
+        // what is known of the hazard ends with the curve, though levels go on
+        let end = self.curve.last();
+        let (known_to, per_year) = if end.im < ends[1] {
+            (format!("the curve's end, {}", end.im), end.maf)
+        } else {
+            (format!("the last level, {}", ends[1]), self.weights.upper_tail_per_year())
+        };
+        let beyond = per_year / risk.per_year;
+        let per_cent = |share: f64| format!("{} %", (1e3 * share).round() / 10.0);
+        let cases = [
+            (
+                upper,
+                TAIL_SHARE_LIMIT,
+                format!("{} of the risk lies above {} {unit}: it may be too small", per_cent(upper), ends[1]),
+            ),
+            (
+                lower,
+                TAIL_SHARE_LIMIT,
+                format!("{} of the risk lies below {} {unit}: it is too large", per_cent(lower), ends[0]),
+            ),
+            (
+                beyond,
+                BEYOND_LIMIT,
+                format!("{known_to} {unit}, has {} of the target rate: it may be too small", per_cent(beyond)),
+            ),
+        ];
+        let raised = cases.into_iter().filter(|(share, limit, _)| share > limit);
+        let alarm = |(share, _, what)| {
+            let severity = if share > DECISIVE_SHARE { "caution" } else { "note" };
+            json!({ "severity": severity, "subject": "This displacement", "also": [], "what": what })
+        };
+        raised.map(alarm).collect()
+    }
+
     fn ordinate(&self, demand: &PooledDemand, per_year: f64) -> Answer<Banded> {
         let ordinate = RiskCurve::new(demand, self.weights).and_then(|curve| curve.exact_ordinate(per_year));
         let (sizes, targets) = ([self.of.units.len()], [per_year]);

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use uplift_block::{FreeRocking, RockingBlock};
 use uplift_frame::{GroundMotion, Model, Options};
 use uplift_motion::Accelerogram;
-use uplift_structure::{Check, PostUpliftForce, Rule};
+use uplift_structure::{Check, EquivalentSystem, PostUpliftForce, Rule};
 use uplift_study::Structure;
 
 use crate::calculator::{Answer, At, refused};
@@ -25,14 +25,28 @@ pub(crate) fn parse(text: &str) -> Answer<Structure> {
     Structure::parse(Path::new("structure.toml"), text.to_owned()).map_err(told)
 }
 
+/// The displacement at which the force after uplift is gone, m; none where it does not fall.
+pub(crate) fn capacity_m(system: &EquivalentSystem) -> Option<f64> {
+    match system.post_uplift() {
+        PostUpliftForce::Negative { capacity_m } => Some(capacity_m),
+        PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
+    }
+}
+
+/// The block that rotates as the structure does, where there is one.
+pub(crate) fn rocking_block(structure: &Structure) -> Option<Answer<RockingBlock>> {
+    let of = structure.block?;
+    let block = RockingBlock::new(of.size_m, of.slenderness_rad)
+        .and_then(|block| block.with_gravity(structure.system.conditions().gravity_m_s2()))
+        .and_then(|block| block.with_restitution(structure.description.restitution.unwrap_or(of.restitution)));
+    Some(block.map_err(refused))
+}
+
 /// The structure, and where a spectrum is given what it asks of it: as `uplift design --spectrum-only`.
 pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>, safety_factor: f64) -> Answer<Value> {
     let structure = parse(text)?;
     let system = &structure.system;
-    let capacity_m = match system.post_uplift() {
-        PostUpliftForce::Negative { capacity_m } => Some(capacity_m),
-        PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
-    };
+    let capacity_m = capacity_m(system);
     let mut told = json!({
         "kind": structure.description.kind.name(),
         "mass_kg": system.mass_kg(),
@@ -51,8 +65,9 @@ pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>,
     let (place, risk) = (stripes.place(at)?, stripes.risk(at)?);
     told["risk"] = rarity(risk);
     let strength = system.spectral_strength_at(stripes.study.gravity_m_s2);
+    told["read_at_strength"] = strength.into();
     let ordinates = match stripes.ordinate_at(place, risk, strength) {
-        Ok((ordinates, _)) => ordinates,
+        Ok((ordinates, ..)) => ordinates,
         Err(reason) => {
             told["without_demand"] = reason.into();
             return Ok(told);
@@ -100,13 +115,9 @@ pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>,
 /// The motion of a structure under a record: the block that rotates as it does, or the frame in its plane.
 pub(crate) fn motion(text: &str, ground: &Accelerogram) -> Answer<Value> {
     let structure = parse(text)?;
-    let own = structure.description.restitution;
     // time, rotation, displacement of the top or the deck, its rise
-    let (rows, overturned, model): (Vec<[f64; 4]>, bool, &str) = if let Some(of) = structure.block {
-        let block = RockingBlock::new(of.size_m, of.slenderness_rad)
-            .and_then(|block| block.with_gravity(structure.system.conditions().gravity_m_s2()))
-            .and_then(|block| block.with_restitution(own.unwrap_or(of.restitution)))
-            .map_err(refused)?;
+    let (rows, overturned, model): (Vec<[f64; 4]>, bool, &str) = if let Some(block) = rocking_block(&structure) {
+        let block = block?;
         let free = FreeRocking::Lasting { duration_s: 2.0 };
         let (response, history) = uplift_block::respond_with_history(&block, ground, free).map_err(refused)?;
         let row = |row: &uplift_block::HistoryRow| {
@@ -115,7 +126,7 @@ pub(crate) fn motion(text: &str, ground: &Accelerogram) -> Answer<Value> {
         (history.rows.iter().map(row).collect(), response.is_overturned(), "block")
     } else if let Some(frame) = structure.rocking_frame() {
         let frame = frame.map_err(refused)?;
-        let options = Options { restitution: own, ..Options::default() };
+        let options = Options { restitution: structure.description.restitution, ..Options::default() };
         let shaking = GroundMotion::along_x(ground);
         let (response, history) =
             uplift_frame::respond_with_history(&frame, &shaking, Model::Planar, &options).map_err(refused)?;

@@ -33,6 +33,7 @@ pub(crate) fn files(stripes: &Stripes, at: &At) -> Answer<Value> {
     if let Some(Toml::Table(of)) = study.get_mut("risk") {
         of.insert("poe".to_owned(), Toml::Array(vec![risk.poe.into()]));
         of.insert("years".to_owned(), risk.years.into());
+        of.insert("extrapolate".to_owned(), site.extrapolate.key().into());
     }
     let is_made = matches!(stripes.study.records.source, RecordSource::Synthetic { .. });
     if let Some(rows) = &stripes.manifest {

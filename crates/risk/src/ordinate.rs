@@ -2,6 +2,13 @@
 
 /// From this share of the risk on, a tail of the hazard is worth a warning.
 pub const TAIL_SHARE_LIMIT: f64 = 0.01;
+/// From this share of the risk on, it is decided by what was not analysed.
+pub const DECISIVE_SHARE: f64 = 0.1;
+/// From this share of the target rate on, motions above the last level may matter though few records exceed the
+/// ordinate there: the risk integral goes on with the share of the last level (Eq. 4.4), and the truth may be all.
+pub const BEYOND_LIMIT: f64 = 0.1;
+/// With fewer records than this a spectrum changes with each of them (Section 4.5.1: 40 are a robust lower limit).
+pub const FEW_RECORDS: usize = 40;
 
 /// What kind of ordinate it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -2,10 +2,10 @@
 
 use uplift_inputs::at_level::{far_factors, relative_factors};
 use uplift_job::alarm::{Alarm, Severity};
-use uplift_job::study_run::FEW_RECORDS;
 use uplift_job::text::records_in_words;
 use uplift_motion::IntensityMeasure;
 use uplift_result::{Kind, ResultFile};
+use uplift_risk::FEW_RECORDS;
 use uplift_study::{AnyStudy, Study, Warning};
 use uplift_uniform_risk::consistency::Question;
 

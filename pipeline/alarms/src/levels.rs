@@ -4,7 +4,7 @@ use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
 use uplift_job::text::{rate, share};
-use uplift_risk::{OrdinateFlag, TAIL_SHARE_LIMIT};
+use uplift_risk::{BEYOND_LIMIT, DECISIVE_SHARE, OrdinateFlag, TAIL_SHARE_LIMIT};
 use uplift_study::{MeasurePlan, levels_key};
 
 use super::evidence::{Evidence, Place, Scope};
@@ -14,11 +14,6 @@ use crate::error::AlarmsError;
 pub const BELOW_FIRST_LEVEL: &str = "below-first-level";
 /// The kind of the alarm about the last level.
 pub const BEYOND_LAST_LEVEL: &str = "beyond-last-level";
-/// From this share of the target rate on, motions above the last level may matter though few records exceed the
-/// ordinate there: the risk integral goes on with the share of the last level (Eq. 4.4), and the truth may be all.
-const BEYOND_LIMIT: f64 = 0.1;
-/// From this share of the risk on, an ordinate is decided by what was not analysed.
-const DECISIVE: f64 = 0.1;
 
 pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
     let (mut below, mut beyond, mut censored, mut zero) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -47,7 +42,7 @@ fn at_strengths(shares: &Array<3>, place: &Place<'_>) -> Vec<f64> {
 }
 
 fn severity(share: f64) -> Severity {
-    if share > DECISIVE { Severity::Caution } else { Severity::Note }
+    if share > DECISIVE_SHARE { Severity::Caution } else { Severity::Note }
 }
 
 fn below_first(evidence: &Evidence, place: &Place<'_>) -> Option<Case> {

@@ -4,14 +4,11 @@ use uplift_job::alarm::{Alarm, Case, Severity};
 use uplift_job::text::{per_cent, rate, records_in_words, share as share_in_words};
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::USUAL_SAFETY_FACTOR;
-use uplift_risk::TAIL_SHARE_LIMIT;
+use uplift_risk::{DECISIVE_SHARE, TAIL_SHARE_LIMIT};
 use uplift_study::{Structure, levels_key};
 use uplift_uniform_risk::{BOUND_CONFIDENCE, EventRisk, share_at_most};
 
 use super::inputs::warning_alarm;
-
-/// From this share of a risk on, it is decided by what was not analysed.
-const DECISIVE: f64 = 0.1;
 
 /// A risk of the structure itself by the stripes of one measure.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,7 +77,7 @@ fn outside_levels(own: &OwnRisk) -> Option<Case> {
         (lower_tail_share, format!("below the first level, {first}"), "too large", "Lower")
     };
     (share > TAIL_SHARE_LIMIT).then(|| Case {
-        severity: if share > DECISIVE { Severity::Caution } else { Severity::Note },
+        severity: if share > DECISIVE_SHARE { Severity::Caution } else { Severity::Note },
         badness: share,
         subject: own.subject.clone(),
         what: format!(

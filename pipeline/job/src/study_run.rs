@@ -8,9 +8,6 @@ use serde::Serialize;
 use crate::alarm::Alarm;
 use crate::machine::Room;
 
-/// With fewer records than this a spectrum changes with each of them (Section 4.5.1: 40 are a robust lower limit).
-pub const FEW_RECORDS: usize = 40;
-
 /// What belongs to one run of a study and not to the study.
 #[derive(Debug, Clone, Default)]
 pub struct RunOptions {
