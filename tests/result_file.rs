@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use serde_json::Value;
 use uplift::bootstrap::resampling_plan;
 use uplift::result::{Kind, ResultFile, StoredStripes, StudyOfResult};
+use uplift::text::risk_name;
 use uplift_labelled::{LabelledReader, LabelledWriter};
 
 use crate::common::{SMALL_STUDY, SmallStudy, repository};
@@ -45,7 +46,7 @@ fn figures_and_report_show_the_ordinates_of_the_file() {
                 let points = spectra.strengths.iter().zip(u_m).filter(|(_, u_m)| u_m.is_finite());
                 points.map(|(&strength, &u_m)| (short(strength), short(u_m))).collect()
             };
-            let name = format!("{} % in 50 years", 100.0 * spectra.poes[poe]);
+            let name = risk_name(spectra.poes[poe], spectra.years);
             assert_eq!(urs[site][&name], drawn(u_m), "{key} {site} {name}");
             differing += usize::from(drawn(u_m) != drawn(measure.exact_m.block([site, poe])));
         }
