@@ -84,7 +84,7 @@ fn shards_make_the_same_result() {
         assert!(merged.stderr.contains("analysis rows of 3 shards"), "{}", merged.stderr);
         assert_eq!(content(&study.path().join("merged.h5")), whole);
         // one that is missing or of other work is named
-        study.uplift(&["merge", "study.toml", all[0], all[2]]).fails(4, &["1 shard(s) missing: 2/3"]);
+        study.uplift(&["merge", "study.toml", all[0], all[2]]).fails(4, &["1 shard missing: 2/3"]);
         let other = ["run", "study.toml", "--shard", "1/3", "-o", "foreign", "--set", "records.synthetic.seed=2"];
         study.uplift(&other).ok();
         study.uplift(&["merge", "study.toml", "foreign", all[1], all[2]]).fails(4, &["foreign", "other work"]);

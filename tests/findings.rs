@@ -88,7 +88,7 @@ fn a_changed_structure_is_reported() {
     study.write("block.toml", &BLOCK.replace("0.8", "0.9"));
     let asked = ask(&study, QUESTIONS[0]);
     assert!(asked.stderr.contains("block.toml has changed: this answer replaces"), "{}", asked.stderr);
-    assert!(asked.stderr.contains("keeps 1 answer(s)") && asked.stderr.contains("site There"), "{}", asked.stderr);
+    assert!(asked.stderr.contains("keeps 1 answer") && asked.stderr.contains("site There"), "{}", asked.stderr);
     assert_eq!(kept(&study, "design"), before);
     let said = study.uplift(&["status", "r.h5"]).ok().stdout;
     let lines: Vec<&str> = said.lines().filter(|line| line.contains("asked    block: design")).collect();
@@ -178,7 +178,7 @@ fn report_and_exports_tell_what_was_printed() {
     let mat = std::fs::read(study.path().join("r.mat")).unwrap();
     assert!(mat.windows(13).any(|bytes| bytes == b"finding_value"));
     let said = study.uplift(&["table", "r.h5"]).ok();
-    assert!(said.stderr.contains("asked    4 answer(s) for block"), "{}", said.stderr);
+    assert!(said.stderr.contains("asked    4 answers for block"), "{}", said.stderr);
 }
 
 /// A search among uncertain structures keeps the bands with structures drawn, beside the narrower one of the records.

@@ -176,7 +176,7 @@ fn a_curve_of_another_definition_is_refused_unless_converted() {
     // the others do not say theirs
     assert_eq!(done.code, 0);
     let warnings = study.uplift(&["warnings", "results/study.h5"]).ok().stdout;
-    assert!(warnings.contains("3 hazard curve(s) do not say"), "{warnings}");
+    assert!(warnings.contains("horizontal component missing in 3 hazard curves"), "{warnings}");
     study
         .uplift(&["check", "study.toml", "--set", converted, "--set", "records.intensity=\"rotd100\""])
         .fails(4, &["RotD100"]);

@@ -185,7 +185,7 @@ fn shards_make_the_same_result() {
     assert_eq!(content(&study.path().join("results/study.h5")), content(&study.path().join("whole.h5")));
 
     std::fs::remove_file(study.path().join("results/study.h5")).unwrap();
-    study.uplift(&["merge", "study.toml", &one, &three]).fails(4, &["1 shard(s) missing: 2/3"]);
+    study.uplift(&["merge", "study.toml", &one, &three]).fails(4, &["1 shard missing: 2/3"]);
     study.uplift(&["merge", "study.toml", &one, &one, &two, &three]).fails(4, &["shard 1 of 3", "too"]);
     study.uplift(&["run", "study.toml", "--shard", "1/2", "-o", "half"]).ok();
     study

@@ -50,7 +50,7 @@ fn shards_give_the_same_answer() {
         let joined = study.uplift(&[&ask[..], &["--shards"], &files].concat()).ok();
         assert!(joined.stderr.contains("analyses resumed"), "{}", joined.stderr);
         assert_eq!(joined.stdout, whole);
-        study.uplift(&[&ask[..], &["--shards"], &files[1..]].concat()).fails(4, &["1 shard(s) missing: 1/3"]);
+        study.uplift(&[&ask[..], &["--shards"], &files[1..]].concat()).fails(4, &["1 shard missing: 1/3"]);
         // of another structure they are of no use
         study.write("other.toml", &BLOCK.replace("0.8", "0.6"));
         let other = [&[job, "other.toml", "--urs", "r.h5", "--shards"][..], &files].concat();

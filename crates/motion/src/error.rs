@@ -31,7 +31,7 @@ pub enum MotionError {
         dt_s: f64,
     },
     /// There are fewer than two samples.
-    #[error("accelerogram has {count} sample(s); it needs at least 2")]
+    #[error("too few samples: {count}; an accelerogram needs at least 2")]
     TooFewSamples {
         /// Number of samples given.
         count: usize,
@@ -160,7 +160,7 @@ pub enum MotionError {
     },
     /// A file holds several components and none is chosen, or one that is not there.
     #[error(
-        "{name}: {found} component(s) in this file ({components}); give the number of one as its channel, 1 to {found}"
+        "{name}: the components of this file are {components}; give the number of one as its channel, 1 to {found}"
     )]
     Channel {
         /// The file.
@@ -254,7 +254,7 @@ pub enum MotionError {
         reason: &'static str,
     },
     /// A line has a wrong number of columns.
-    #[error("{name}, line {line}: {found} column(s), expected {expected}{hint}")]
+    #[error("{name}, line {line}: number of columns {found}, expected {expected}{hint}")]
     ColumnCount {
         /// The file.
         name: String,

@@ -127,7 +127,7 @@ fn csmip_volume_2() {
     let path = file("dmg/CE89146.V2").unwrap();
     assert_eq!(read_path(&path, &options).unwrap(), recordings[2].accelerogram);
     let message = read_path(&path, &ReadOptions::default()).unwrap_err().to_string();
-    assert!(message.contains("3 component(s) in this file (Chan 1: 360 Deg, Chan 2: Up, Chan 3: 90 Deg)"), "{message}");
+    assert!(message.contains("components of this file are Chan 1: 360 Deg, Chan 2: Up, Chan 3: 90 Deg;"), "{message}");
 }
 
 /// Cut anywhere in its head, and with bytes changed there: an answer, never a panic.

@@ -150,7 +150,7 @@ pub enum StructureError {
         requirement: &'static str,
     },
     /// The spectrum has fewer than two points.
-    #[error("the spectrum has {points} point(s): give at least 2")]
+    #[error("points of the spectrum: {points}; give at least 2")]
     TooFewPoints {
         /// Number of points given.
         points: usize,

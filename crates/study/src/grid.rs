@@ -97,7 +97,7 @@ impl Grid {
             field.mistake(
                 match grid.values.len() {
                     0 => "the grid is empty".to_owned(),
-                    count => format!("the grid has {count} value(s)"),
+                    count => format!("too few values in the grid: {count}"),
                 },
                 format!("give at least {}, as numbers or as \"start:step:stop\"", rule.least_count),
             );

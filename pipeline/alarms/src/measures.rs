@@ -1,11 +1,12 @@
-//! Spectra of one site and probability by PGV and by PGA that disagree: the demand is one, and two numbers for it are
-//! one too many.
+//! Spectra of one site and probability by PGV and by PGA that disagree, and neither the curves nor the records say why:
+//! the demand is one, and two numbers for it are one too many.
 
 use uplift_motion::IntensityMeasure;
 
 /// Where the reference curve is below this, m, a ratio says nothing: it is at the uplift displacement.
 pub const COMPARED_FROM_M: f64 = 0.003;
 
+use super::consistency;
 use super::evidence::{Evidence, Scope};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
@@ -69,6 +70,9 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
             let side = |of_measure| side(of_measure, evidence.bands.as_ref(), [site, poe]);
             let (one, other) = (side(pgv), side(pga));
             let Some(gap) = largest_gap(one, other, &strengths) else { continue };
+            if consistency::explains(evidence, scope, site, gap.ratio) {
+                continue;
+            }
             let banded = one.band_m.is_some() && other.band_m.is_some();
             let subject = format!("{name}, {}", risk_name(probability, spectra.years));
             cases.push(case(evidence, subject, gap, banded));

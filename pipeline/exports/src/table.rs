@@ -21,6 +21,7 @@ pub use uplift_alarms::COMPARED_FROM_M;
 use uplift_alarms::{Scope, alarms, alarms_of, fit_alarms, ranked};
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
+use uplift_job::text::counted;
 use uplift_questions::bootstrap::resampled;
 use uplift_result::{Kind, ResultFile};
 use uplift_uniform_risk::{AskedRisk, at};
@@ -126,7 +127,7 @@ fn tell_findings(file: &ResultFile, events: &dyn Events) -> Result<(), ExportsEr
     let mut structures: Vec<&str> = findings.iter().map(|of| of.finding.structure.as_str()).collect();
     structures.dedup();
     if !structures.is_empty() {
-        let text = format!("{} answer(s) for {}: see uplift report", findings.len(), structures.join(", "));
+        let text = format!("{} for {}: see uplift report", counted(findings.len(), "answer"), structures.join(", "));
         events.remark("asked", &text);
     }
     Ok(())

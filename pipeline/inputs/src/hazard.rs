@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use uplift_hazard::{CsvOptions, HazardCurve, SecondColumn, read_path};
 use uplift_job::JobError;
 use uplift_job::checksum::checksum_of_file;
+use uplift_job::text::counted;
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
 use uplift_study::{
@@ -79,9 +80,9 @@ pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Ve
 fn undefined_note(study: &UniformRiskStudy, undefined: &[String]) -> Option<String> {
     undefined.first().map(|first| {
         format!(
-            "{} hazard curve(s) do not say how horizontal components are combined ({first}{}): taken as {}; say it \
-             with [hazard] component",
-            undefined.len(),
+            "definition of the horizontal component missing in {} ({first}{}): taken as {}; say it with [hazard] \
+             component",
+            counted(undefined.len(), "hazard curve"),
             if undefined.len() > 1 { ", …" } else { "" },
             definition_of(study.records.intensity)
         )

@@ -118,6 +118,11 @@ pub fn thousands(number: u64) -> String {
     text
 }
 
+/// A number of things, named in the singular: `1 level`, `2 levels`.
+pub fn counted(count: usize, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{beside, digest_said, is_of_digest, is_of_result, provide_folder};
+use uplift_job::text::counted;
 use uplift_labelled::LabelledReader;
 
 use super::additions::Additions;
@@ -99,7 +100,10 @@ impl Earlier {
         let _ = std::fs::remove_dir(beside(&self.result, "figures"));
         if self.kept > 0 {
             let folders: Vec<String> = self.folders.iter().map(|folder| folder.display().to_string()).collect();
-            events.remark("earlier", &format!("{} file(s) of the earlier result: {}", self.kept, folders.join(", ")));
+            events.remark(
+                "earlier",
+                &format!("{} of the earlier result: {}", counted(self.kept, "file"), folders.join(", ")),
+            );
         }
         Ok(())
     }

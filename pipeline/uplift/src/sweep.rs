@@ -19,6 +19,7 @@ use uplift_job::alarm::{Alarm, Severity};
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::study_run::RunOptions;
+use uplift_job::text::counted;
 use uplift_labelled::hexadecimal;
 use uplift_result::{ResultFile, flag_word};
 use uplift_studies::uniform_risk::Inputs;
@@ -245,7 +246,8 @@ fn ready(options: &SweepOptions, folder: &Path) -> Result<Vec<Ready>, UpliftErro
         return Ok(ready);
     }
     let lines: Vec<String> = mistakes.iter().map(|mistake| format!("  - {mistake}")).collect();
-    Err(JobError::Usage(format!("{} thing(s) to mend in the variants:\n{}", mistakes.len(), lines.join("\n"))).into())
+    Err(JobError::Usage(format!("{} to mend in the variants:\n{}", counted(mistakes.len(), "thing"), lines.join("\n")))
+        .into())
 }
 
 /// What would compare nothing: studies without spectra, and spectra that cannot differ.

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::hazard_curves::{HazardImportReport, HazardReport, ShownCurve};
-use uplift::text::{Table, per_cent, rounded};
+use uplift::text::{Table, counted, per_cent, rounded};
 
 use super::alarms::print_lines;
 use crate::error::CommandError;
@@ -17,8 +17,8 @@ pub(crate) fn print_hazard_import(report: &HazardImportReport) -> Result<(), Com
     let files: Vec<&str> = report.curves.iter().map(|curve| curve.file.as_str()).collect();
     write!(
         output(),
-        "# {} curve(s) in {}: {}\n{}",
-        files.len(),
+        "# {} in {}: {}\n{}",
+        counted(files.len(), "curve"),
         report.folder.display(),
         files.join(", "),
         report.study_lines

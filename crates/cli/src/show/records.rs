@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::records::{AtLevelReport, ComponentReport, ListReport, RecordReport, SelectReport, ShowReport};
-use uplift::text::Table;
+use uplift::text::{Table, counted};
 
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -60,8 +60,8 @@ pub(crate) fn print_record(report: &ShowReport) -> Result<(), CommandError> {
     let mut out = output();
     match report {
         ShowReport::File(file) => {
-            let count = file.components.len();
-            writeln!(out, "{}: {} format, {count} component(s)", file.file.display(), file.format)?;
+            let components = counted(file.components.len(), "component");
+            writeln!(out, "{}: {} format, {components}", file.file.display(), file.format)?;
             for (index, component) in file.components.iter().enumerate() {
                 writeln!(out, "\ncomponent {}", index + 1)?;
                 print_component(&mut out, component)?;

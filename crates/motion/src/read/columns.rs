@@ -334,7 +334,7 @@ mod tests {
 
     #[test]
     fn decimal_commas_are_recognised() {
-        assert!(message("0,00;0,1\n0,01;0,2\n", None).contains("4 column(s), expected 1"));
+        assert!(message("0,00;0,1\n0,01;0,2\n", None).contains("number of columns 4, expected 1"));
         assert!(message("0,00;0,1\n0,01;0,2\n", None).contains("decimal mark"));
         assert!(message("0,10\n0,12\n0,10\n", Some(0.01)).contains("decimal mark"));
     }
@@ -351,11 +351,11 @@ mod tests {
             ("O.1 0.2\n1 2\n", "a.txt, line 1: \"O.1\" is not a number"),
             ("acc\n1\nmore words\n", "a.txt, line 3: \"more\" is not a number"),
             ("0 1\n1,,2\n", "a.txt, line 2: \"\" is an empty cell"),
-            ("0 1\n2\n", "a.txt, line 2: 1 column(s), expected 2 as above"),
-            ("1\n0 1\n", "a.txt, line 2: 2 column(s), expected 1 as above"),
-            ("1 2 3\n", "a.txt, line 1: 3 column(s), expected 1 (acceleration) or 2 (time, acceleration)"),
-            ("", "a.txt: accelerogram has 0 sample(s); it needs at least 2"),
-            ("# only\n0.5 1\n", "a.txt: accelerogram has 1 sample(s); it needs at least 2"),
+            ("0 1\n2\n", "a.txt, line 2: number of columns 1, expected 2 as above"),
+            ("1\n0 1\n", "a.txt, line 2: number of columns 2, expected 1 as above"),
+            ("1 2 3\n", "a.txt, line 1: number of columns 3, expected 1 (acceleration) or 2 (time, acceleration)"),
+            ("", "a.txt: too few samples: 0; an accelerogram needs at least 2"),
+            ("# only\n0.5 1\n", "a.txt: too few samples: 1; an accelerogram needs at least 2"),
         ] {
             assert_eq!(message(text, Some(0.01)), expected);
         }

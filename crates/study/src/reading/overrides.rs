@@ -117,7 +117,7 @@ fn item<'a>(list: &'a mut Node, part: &str) -> Result<&'a mut Node, (String, Str
     let help = if let Some(suggestion) = did_you_mean(part, &names) {
         suggestion
     } else if names.is_empty() {
-        format!("it has {count} item(s), counted from 0")
+        format!("its items are counted from 0, and it has {count}")
     } else {
         format!("the items are {}", names.join(", "))
     };

@@ -106,7 +106,7 @@ fn one_by_one() {
         ("", "the study has no intensity measure"),
         ("pgv = 3", "pgv: expected a section, found the number 3"),
         ("[[pgv]]", "pgv: expected a section, found a list of sections"),
-        ("[pgv]\nlevels_cm_s = [1]", "pgv.levels_cm_s: the grid has 1 value(s)"),
+        ("[pgv]\nlevels_cm_s = [1]", "pgv.levels_cm_s: too few values in the grid: 1"),
         ("[pgv]\nlevels_cm_s = [0, 1]", "pgv.levels_cm_s[0]: the value is 0 cm/s"),
         ("[pgv]\nlevels_cm_s = [1, nan]", "pgv.levels_cm_s[1]: the value is NaN cm/s"),
         (
@@ -136,7 +136,7 @@ fn one_by_one() {
         ("[pgv]\n[risk]\npoe = []", "risk.poe: the list is empty"),
         ("[pgv]\n[risk]\npoe = 1", "risk.poe: the value is 1"),
         ("[pgv]\n[risk]\nyears = \"fifty\"", "risk.years: expected a number [yr], found the text \"fifty\""),
-        ("[pgv]\n[risk]\ncontour = \"grid\"\nthresholds_m = 1", "risk.thresholds_m: the grid has 1 value(s)"),
+        ("[pgv]\n[risk]\ncontour = \"grid\"\nthresholds_m = 1", "risk.thresholds_m: too few values in the grid: 1"),
         ("seed = -1\n[pgv]", "seed: the value is -1"),
         ("seed = 99999999999999999999\n[pgv]", "seed: expected a whole number, found the number 1e20"),
         ("seed = 1.5\n[pgv]", "seed: expected a whole number, found the number 1.5"),

@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::{Map, Value};
 use uplift_job::JobError;
 use uplift_job::events::Events;
+use uplift_job::text::counted;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::{axis, structures};
 use uplift_result::{
@@ -62,9 +63,9 @@ fn tell_of_another_file(finding: &Finding, earlier: &[StoredFinding], events: &d
     if !left.is_empty() {
         let questions: Vec<String> = left.iter().map(|of| of.finding.question()).collect();
         events.note(&format!(
-            "{} has changed: the result keeps {} answer(s) for the earlier file, marked as such: {}",
+            "{} has changed: the result keeps {} for the earlier file, marked as such: {}",
             finding.structure,
-            left.len(),
+            counted(left.len(), "answer"),
             questions.join("; ")
         ));
     }

@@ -9,6 +9,7 @@ use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::lock::ResultLock;
 use uplift_job::outputs::beside;
+use uplift_job::text::counted;
 
 use super::Work;
 use crate::checkpoint::{Checkpoint, FinishedRows, RowFile, RowFileHead};
@@ -140,7 +141,7 @@ pub fn join(paths: &[PathBuf], work: &Work<'_>) -> Result<FinishedRows, EngineEr
         let named: Vec<String> = missing.iter().take(NAMED).map(|shard| format!("{shard}/{shards}")).collect();
         if !missing.is_empty() {
             let more = if missing.len() > NAMED { ", …" } else { "" };
-            mistakes.push(format!("{} shard(s) missing: {}{more}", missing.len(), named.join(", ")));
+            mistakes.push(format!("{} missing: {}{more}", counted(missing.len(), "shard"), named.join(", ")));
         }
     }
     if mistakes.is_empty() { Ok(rows) } else { Err(JobError::Inputs(mistakes).into()) }

@@ -16,6 +16,7 @@ use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::write_atomically;
+use uplift_job::text::counted;
 
 use super::read::distinct;
 use crate::error::InputsError;
@@ -181,15 +182,15 @@ fn choose(
 
 fn note_dropped(Chosen { exported, file, .. }: &Chosen, events: &dyn Events) {
     for (count, what) in [
-        (exported.dropped_zeros, "level(s) of zero at the end left out: no rate belongs to them"),
-        (exported.dropped_certain, "level(s) of probability 1 at the start left out: no rate belongs to them"),
+        (exported.dropped_zeros, "of zero at the end left out: no rate belongs to them"),
+        (exported.dropped_certain, "of probability 1 at the start left out: no rate belongs to them"),
         (
             exported.dropped_alike,
-            "level(s) at the start left out: they have the rate of the next one, since every earthquake exceeds them",
+            "at the start left out: they have the rate of the next one, since every earthquake exceeds them",
         ),
     ] {
         if count > 0 {
-            events.note(&format!("{file}: {count} {what}"));
+            events.note(&format!("{file}: {} {what}", counted(count, "level")));
         }
     }
 }

@@ -8,6 +8,7 @@ use uplift_hazard::{
 };
 use uplift_job::JobError;
 use uplift_job::events::Events;
+use uplift_job::text::counted;
 use uplift_motion::{IntensityMeasure, STANDARD_GRAVITY_M_S2};
 
 use super::import::NEAR_KM;
@@ -120,7 +121,7 @@ fn curves_of(path: &Path, selection: &SiteSelection, events: &dyn Events) -> Res
     match first {
         Some(error) if curves.is_empty() => Err(error.into()),
         Some(error) => {
-            events.note(&format!("{without} site(s) without a hazard curve, the first: {error}"));
+            events.note(&format!("{} without a hazard curve, the first: {error}", counted(without, "site")));
             Ok(curves)
         }
         None => Ok(curves),
