@@ -210,6 +210,14 @@ impl EquivalentSystem {
         self.post_uplift
     }
 
+    /// The displacement at which the force is gone, m; none where it does not fall after uplift.
+    pub fn capacity_m(&self) -> Option<f64> {
+        match self.post_uplift {
+            PostUpliftForce::Negative { capacity_m } => Some(capacity_m),
+            PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
+        }
+    }
+
     /// What limits the worth of this system.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings

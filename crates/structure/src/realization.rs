@@ -81,10 +81,7 @@ impl UncertainQuantity {
             Self::Strength => Some(system.strength()),
             Self::Restitution => restitution,
             Self::UpliftDisplacement => Some(system.conditions().uplift_displacement_m()),
-            Self::Capacity => match system.post_uplift() {
-                PostUpliftForce::Negative { capacity_m } => Some(capacity_m),
-                PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
-            },
+            Self::Capacity => system.capacity_m(),
         }
     }
 }

@@ -9,7 +9,7 @@
 //! | tendon stiffness | `k_res` of each column of a restrained frame | everything else |
 
 use crate::description::{Kind, StructureDescription};
-use crate::equivalent::{EquivalentSystem, PostUpliftForce};
+use crate::equivalent::EquivalentSystem;
 use crate::error::{StructureError, positive};
 
 /// A quantity of a structure that may be varied.
@@ -61,10 +61,7 @@ impl Quantity {
             Self::Strength => Some(system.strength()),
             Self::Size => Some(description.geometry().map_err(|error| vec![error])?.size_m()),
             Self::Width => Some(description.geometry().map_err(|error| vec![error])?.width_m()),
-            Self::Capacity => match system.post_uplift() {
-                PostUpliftForce::Negative { capacity_m } => Some(capacity_m),
-                PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
-            },
+            Self::Capacity => system.capacity_m(),
             Self::TendonStiffness => {
                 tendons(description, description.tendon_stiffness_n_m.unwrap_or_default())?;
                 description.tendon_stiffness_n_m

@@ -14,7 +14,6 @@ use uplift_study::Structure;
 use super::certainty::Scatter;
 use super::opening::{job_name, study_with_common_records};
 use super::overturning::{OverturningAnalysis, OverturningOptions, peaks_m};
-use super::report::capacity_m;
 use super::risk::{OVERTURNING_M, oscillator_capacity_m};
 use crate::error::DesignError;
 
@@ -130,7 +129,7 @@ fn limits(model: &System, structure: &Structure, share: f64) -> Vec<LimitState> 
         }
         // the corner of a block that stands on its other one is above it
         System::Block(block) => (0.0, Some(block.top_displacement_m(block.slenderness_rad())), 1.0),
-        System::Frame(_) => (0.0, capacity_m(&structure.system), 1.0),
+        System::Frame(_) => (0.0, structure.system.capacity_m(), 1.0),
     };
     let at = |name: String, threshold_m: f64| LimitState { name, displacement_m: factor * threshold_m, threshold_m };
     let mut limits = vec![at("uplift".to_owned(), uplift_m)];

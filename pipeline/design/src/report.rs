@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use uplift_result::ResultFile;
-use uplift_structure::{EquivalentSystem, PostUpliftForce};
 use uplift_study::Structure;
 use uplift_uniform_risk::StudyOfResult;
 
@@ -60,7 +59,7 @@ impl StructureReport {
             spectral_strength: system.spectral_strength(),
             uplift_displacement_m: system.conditions().uplift_displacement_m(),
             restitution,
-            capacity_m: capacity_m(system),
+            capacity_m: system.capacity_m(),
             post_uplift_stiffness_n_m: system.post_uplift_stiffness_n_m(),
             warnings: system.warnings().iter().map(ToString::to_string).collect(),
         }
@@ -90,13 +89,5 @@ impl ReportSource {
             record_set: source.record_set.clone(),
             synthetic: source.synthetic,
         })
-    }
-}
-
-/// The displacement capacity, m; none for a structure that has none.
-pub(super) fn capacity_m(system: &EquivalentSystem) -> Option<f64> {
-    match system.post_uplift() {
-        PostUpliftForce::Negative { capacity_m } => Some(capacity_m),
-        PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
     }
 }

@@ -3,7 +3,7 @@
 use uplift_alarms::OwnRisk;
 use uplift_fragility::Stripes as Stripe;
 use uplift_ida::System;
-use uplift_oscillator::{Oscillator, PostUplift};
+use uplift_oscillator::Oscillator;
 use uplift_risk::PooledDemand;
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, at_most_per_year, pooled_demand};
 
@@ -47,10 +47,7 @@ pub(super) fn capacity_m(system: &System) -> Option<f64> {
 
 /// The displacement capacity of an oscillator, m; none where its force does not fall.
 pub(super) fn oscillator_capacity_m(oscillator: &Oscillator) -> Option<f64> {
-    match oscillator.post_uplift() {
-        PostUplift::Negative { capacity_m } => Some(capacity_m),
-        PostUplift::Zero | PostUplift::Positive { .. } => None,
-    }
+    Some(oscillator.capacity_m()).filter(|capacity_m| capacity_m.is_finite())
 }
 
 /// The risk of exceeding `threshold_m`.

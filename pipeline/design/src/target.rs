@@ -468,7 +468,7 @@ impl FoundSystem {
             strength: system.strength(),
             spectral_strength: system.spectral_strength(),
             uplift_force_n: system.uplift_force_n(),
-            capacity_m: system.capacity().ok().map(|capacity| capacity.capacity_m()).filter(|m| m.is_finite()),
+            capacity_m: system.capacity_m(),
             post_uplift_stiffness_n_m: system.post_uplift_stiffness_n_m(),
         }
     }

@@ -6,7 +6,6 @@ use uplift_plausible::{
 };
 
 use super::{Kind, StructureDescription};
-use crate::equivalent::PostUpliftForce;
 
 /// The unlikely numbers of a description that [`resolve`](StructureDescription::resolve) takes.
 pub(super) fn unlikely(of: &StructureDescription) -> Vec<Unlikely> {
@@ -54,8 +53,5 @@ fn rotation_rad(of: &StructureDescription) -> Option<f64> {
     if !matches!(of.kind, Kind::RestrainedFrame | Kind::CurvedFrame) {
         return None;
     }
-    match of.resolve().ok()?.post_uplift() {
-        PostUpliftForce::Negative { capacity_m } => Some(capacity_m / of.geometry().ok()?.height_m()),
-        PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
-    }
+    Some(of.resolve().ok()?.capacity_m()? / of.geometry().ok()?.height_m())
 }

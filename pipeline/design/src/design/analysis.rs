@@ -16,7 +16,6 @@ use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::{Place, ShakenRecords, job_name, restitution};
 use crate::own_frame::{FrameQuestion, FrameReport, OwnFrame, Pairs, levels_for};
-use crate::report::capacity_m;
 use crate::sweep::Sweep;
 use crate::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
 use crate::weights::SiteWeights;
@@ -86,7 +85,7 @@ impl OwnAnalysis {
                     scatter: &scatter,
                     target_per_year,
                     years: source.study.risk.years,
-                    capacity_m: capacity_m(&structure.system),
+                    capacity_m: structure.system.capacity_m(),
                     safety_factor: options.safety_factor,
                 };
                 Some(question.answer(&frame.peaks(&wobbling, Some(&planar)))?)

@@ -13,7 +13,6 @@ use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::Place;
 use crate::own_frame::{FrameModel, FrameQuestion, FrameReport, OwnFrame, levels_for};
-use crate::report::capacity_m;
 use crate::risk::own_risk;
 use crate::weights::SiteWeights;
 
@@ -193,7 +192,7 @@ impl FrameTarget<'_> {
         let peaks = trials.shake(frame, levels, with_planar)?;
         let threshold_m = match self.options.event {
             TargetEvent::Overturning => None,
-            TargetEvent::BeyondCapacity => capacity_m(&structure.system),
+            TargetEvent::BeyondCapacity => structure.system.capacity_m(),
             TargetEvent::Beyond(displacement_m) => Some(displacement_m),
         };
         let (hazard, scatter) = self.of_records;
