@@ -339,8 +339,11 @@ function drawing() {
   const x = 120 + (300 - of.wide * scale) / 2;
   const top = ground - of.height * scale;
   const dimension = `stroke="${colours.soft}" fill="none"`;
+  const named = (text, x, y) => `<text x="${x}" y="${y}" text-anchor="middle" font-size="15" fill="${colours.soft}">${text}</text>`;
+  const [middle, base] = [(ground + top) / 2, Math.min(400, Math.max(60, x + (of.width * scale) / 2))];
   const svg = `<svg viewBox="0 0 460 400" role="img" aria-label="Elevation of the ${state.kind}: ${of.width} m wide, ${of.height} m high">${groundLine(ground, colours)}${bodies(of, 0, scale, x, ground, colours)}
     <path d="M95 ${ground}V${top}M90 ${ground}h10M90 ${top}h10" ${dimension}/><path d="M${x} 352H${x + of.width * scale}M${x} 347v10M${x + of.width * scale} 347v10" ${dimension}/>
+    ${named("Height, m", 50, middle - 28)}${named("Width, m", base < 180 ? base + 110 : base - 110, 381)}
     ${own().columns > of.shown ? `<text x="440" y="150" text-anchor="end" fill="${colours.ink}">of ${own().columns}</text>` : ""}</svg>`;
   const place = $("drawing");
   if (!place.querySelector("svg")) {
@@ -354,8 +357,8 @@ function drawing() {
     box.style.top = `${(100 * height) / 400}%`;
     if (document.activeElement !== box && !mistyped.has(key)) box.value = own()[key];
   };
-  put("height_m", 50, (ground + top) / 2);
-  put("width_m", Math.min(400, Math.max(60, x + (of.width * scale) / 2)), 376);
+  put("height_m", 50, middle);
+  put("width_m", base, 376);
 }
 // what is typed wrong, by field
 const mistyped = new Map();
@@ -403,6 +406,9 @@ const worst = (rules) => [...rules].sort((a, b) => (a.required_capacity_m ?? Inf
 const atUpperEnd = ({ required_capacity_band_m: limits }, { capacity_m: capacity }) =>
   (limits && capacity !== null && (limits[1] === null || limits[1] > capacity)
     ? ` (not at the upper limit of the band, which ${limits[1] === null ? "no capacity meets" : `requires ${metres(limits[1])}`})` : "");
+const verdict = (rule, { capacity_m: capacity }) => (rule.overturns ? "It overturns"
+  : `Required capacity ${metres(rule.required_capacity_m)}${band(rule.required_capacity_band_m)}${capacity === null ? "" : `, available ${metres(capacity)}`}`)
+  + `: ${rule.satisfied ? "satisfied" : "not satisfied"}`;
 // the demand read off the spectrum is of the oscillator that the spectrum was computed for
 function otherOscillator() {
   const differing = [["uplift_displacement_m", "uplift displacement", 1000, " mm"], ["restitution", "restitution", 1, ""]]
@@ -415,6 +421,7 @@ const drawDesign = latest(async () => {
   $("toml").textContent = toml();
   let told;
   const asked = inputs();
+  $("verdict").textContent = "";
   try {
     if (mistyped.size) throw new Error([...mistyped.values()].join("\n"));
     told = await ask({ ask: "structure", text: toml(), at: at(), safety_factor: state.safety });
@@ -430,10 +437,11 @@ const drawDesign = latest(async () => {
   window.design = told;
   if (state.strength === null) drawSpectrum();
   $("mistake").hidden = true;
+  const [most] = worst(told.rules ?? []);
+  $("verdict").textContent = most ? `The ${state.kind}: ${verdict(most, told).replace(/^./, (first) => first.toLowerCase())}.` : "";
   $("design").replaceChildren(
     ...worst(told.rules ?? []).map((rule) => element("p", { class: "answer" },
-      `${rule.overturns ? "It overturns" : `${metres(rule.demand_m)}${band(rule.demand_band_m)}`}: ${rule.satisfied ? "satisfied" : "not satisfied"}`,
-      element("small", {}, `Demand of the ${state.kind} by ${rule.rule.replace("-", " ")}, ${whereWords()}. ${rule.required_capacity_m === null ? "No capacity is enough." : `Required capacity ${metres(rule.required_capacity_m)}${band(rule.required_capacity_band_m)}${told.capacity_m === null ? "" : `, available ${metres(told.capacity_m)}`}.`}`))),
+      verdict(rule, told), element("small", {}, `By ${rule.rule.replace("-", " ")}, ${whereWords()}. ${rule.overturns ? "No capacity is enough." : `Displacement of the ${state.kind} ${metres(rule.demand_m)}${band(rule.demand_band_m)}, safety factor ${digits(rule.safety_factor, 3)}, ${digits(state.safety, 3)} required.`}`))),
     rows(
       ["Uplift strength", `${digits(told.spectral_strength, 3)} (displacements are ${digits(told.participation, 4)} times the spectrum's)`],
       ["Displacement capacity", told.capacity_m === null ? "none: the force does not fall after uplift" : metres(told.capacity_m)],
@@ -541,9 +549,13 @@ const drawMotion = latest(async () => {
     { x: motion.time_s, y: motion.displacement_m }],
     columns: { time_s: motion.time_s, displacement_m: motion.displacement_m, rotation_rad: motion.rotation_rad },
   });
+  $("f-trace").querySelector("svg").insertAdjacentHTML("beforeend", `<path class="now" d="M62 14V192" stroke="${palette().red}"/>`);
+  $("time").max = motion.time_s.at(-1) ?? 0;
   pose(0);
 });
 function pose(time) {
+  $("time").value = time;
+  $("time-number").textContent = `${time.toFixed(2)} s`;
   const of = scene();
   const colours = palette();
   let place = 0;
@@ -556,13 +568,15 @@ function pose(time) {
   const rotation = Math.max(-1.57, Math.min(1.57, rotations[from] ?? 0));
   const room = of.height + of.deck;
   const scale = Math.min(240 / room, 300 / (of.wide + 2 * of.over + room * 0.4));
-  $("stage").innerHTML = `<svg viewBox="0 0 460 300" role="img" aria-label="The ${state.kind} at ${time.toFixed(1)} s, in true shape">${groundLine(270, colours)}${bodies(of, rotation, scale, 230 - (of.wide * scale) / 2, 270, colours)}<text x="450" y="20" text-anchor="end" fill="${colours.ink}">${time.toFixed(2)} s</text></svg>`;
+  $("stage").innerHTML = `<svg viewBox="0 0 460 300" role="img" aria-label="The ${state.kind} at ${time.toFixed(1)} s, in true shape">${groundLine(270, colours)}${bodies(of, rotation, scale, 230 - (of.wide * scale) / 2, 270, colours)}</svg>`;
+  $("f-trace").querySelector(".now")?.setAttribute("transform", `translate(${(384 * time) / (moving.time_s.at(-1) || 1)} 0)`);
 }
 let playing = 0;
 $("play").onclick = () => {
   if (playing) { cancelAnimationFrame(playing); playing = 0; $("play").textContent = "Play"; return; }
   if (!moving) return;
-  const begin = performance.now();
+  const shown = Number($("time").value);
+  const begin = performance.now() - 1000 * (shown < (moving.time_s.at(-1) ?? 0) - 0.1 ? shown : 0);
   $("play").textContent = "Pause";
   const frame = (now) => {
     const time = (now - begin) / 1000;
@@ -571,6 +585,10 @@ $("play").onclick = () => {
     playing = requestAnimationFrame(frame);
   };
   playing = requestAnimationFrame(frame);
+};
+$("time").oninput = () => {
+  if (playing) $("play").click();
+  if (moving) pose(Number($("time").value));
 };
 async function listMotions() {
   try {
@@ -590,6 +608,7 @@ const say = (text) => { $("state").textContent = text; };
 // larger files are no curves and no records
 const LARGEST = 64e6;
 const bytes = async (file) => new Uint8Array(await file.arrayBuffer());
+const starts = async (file, letters) => [...await bytes(file.slice(0, letters.length))].every((own, place) => own === letters.charCodeAt(place));
 // reads files one after another and shows what is wrong with each
 async function each(files, work) {
   const wrong = [];
@@ -597,8 +616,13 @@ async function each(files, work) {
     try {
       if (file.size === 0) throw new Error("the file is empty");
       if (file.size > LARGEST) throw new Error(`${digits(file.size / 1e6, 3)} MB; the page reads files up to ${LARGEST / 1e6} MB`);
+      if (await starts(file, "PK\u0003\u0004")) throw new Error("is a zip archive: unpack it, and drop the files in it");
+      if (await starts(file, "\u0089HDF")) throw new Error("is a result of the program, which exports it for this page: uplift export RESULT --web");
       await work(file);
-    } catch (error) { wrong.push(error.message.includes(file.name) ? error.message : `${file.name}: ${error.message}`); }
+    } catch ({ message }) {
+      const short = message.length > 600 ? `${message.slice(0, 600)} …` : message;
+      wrong.push(short.includes(file.name) ? short : `${file.name}: ${short}`);
+    }
   }
   complain("own-mistake", wrong.join("\n"));
 }
@@ -642,30 +666,44 @@ function offer() {
     return [element("div", { role: "radiogroup", "aria-label": name }, ...boxes, ...(keys.length > 1 ? [radio(key, "", `no curve of ${name}`, false)] : []))];
   }));
 }
+// records that do not name their unit or time step are read when these are given
+let unread = [];
 async function takeRecord(file) {
-  const { format, records } = await ask({ ask: "record", name: file.name }, await bytes(file));
+  const unit = $("record-unit").value || null;
+  const step_s = parsed("Time step", $("record-step").value) ?? null;
+  const { format, records } = await ask({ ask: "record", name: file.name, unit, step_s }, await bytes(file)).catch((error) => {
+    if (/records without one/.test(error.message)) unread.push(file);
+    throw error;
+  });
   $("dropped").hidden = false;
   $("dropped-count").textContent = `${records} ${records === 1 ? "record" : "records"} (${format}).`;
 }
 async function takeStripes(file) {
-  await settle(await ask({ ask: "stripes" }, await bytes(file)));
+  const packed = await starts(file, "\u001f\u008b");
+  await settle(await ask({ ask: "stripes" }, await bytes(packed ? await unpacked(file) : file)));
   say(`${file.name} is shown.`);
 }
-// what a dropped file is: an exported result, a hazard curve, else a record
+const unpacked = (file) => new Response(file.stream().pipeThrough(new DecompressionStream("gzip"))).blob();
+// what a dropped file is: an exported result, a hazard curve, else a record, or what a curve may be without a word
 async function take(files) {
   $("own").open = true;
   let records = 0;
   await each(files, async (file) => {
-    const head = new TextDecoder().decode(await file.slice(0, 4000).arrayBuffer());
+    const packed = await starts(file, "\u001f\u008b");
+    const head = new TextDecoder().decode(await (packed ? await unpacked(file) : file).slice(0, 4000).arrayBuffer());
     if (/^\s*\{\s*"format":\s*"uplift-web/.test(head)) return takeStripes(file);
     if (/hazard|\bpoe|\bmaf\b|iml|imtls|xvalues/i.test(head) || /\.(nrml|xml|json)$/i.test(file.name)) return takeCurves(file);
-    await takeRecord(file);
-    records += 1;
+    try {
+      await takeRecord(file);
+      records += 1;
+    } catch (error) { await takeCurves(file).catch((other) => { throw /\.csv$/i.test(file.name) ? other : error; }); }
   });
   if (records) await listMotions();
 }
 $("files-hazard").onchange = (event) => each(event.target.files, (file) => takeCurves(file));
-$("files-records").onchange = (event) => each(event.target.files, takeRecord).then(listMotions);
+const takeRecords = (files) => each(files, takeRecord).then(listMotions);
+$("files-records").onchange = (event) => takeRecords(event.target.files);
+for (const id of ["record-unit", "record-step"]) $(id).onchange = () => { if (unread.length) takeRecords(unread.splice(0)); };
 $("files-stripes").onchange = (event) => each(event.target.files, takeStripes);
 $("take-paste").onclick = () => each([new File([$("paste").value], "pasted curve")], (file) => takeCurves(file));
 async function useFound() {

@@ -1,18 +1,19 @@
 //! Many runs, a record at a time, so that the page can show how far they are and stop them.
 
 use serde_json::{Value, json};
+use uplift_block::RockingBlock;
 use uplift_bootstrap::{inferred_limits, inferred_rate};
 use uplift_fragility::Stripes as Stripe;
 use uplift_ida::{Plan, StripeRecord, System, Unwatched, analyse};
 use uplift_motion::IntensityMeasure;
-use uplift_oscillator::{Oscillator, PostUplift};
+use uplift_oscillator::Oscillator;
 use uplift_risk::{EventRisk, PooledDemand, RiskCurve, StripeWeights, at_most_per_year};
 use uplift_study::{Structure, UniformRiskStudy};
 
 use crate::calculator::{Answer, At, refused};
 use crate::motions::{Motion, Motions};
 use crate::stripes::{CONFIDENCE, Measure, Stripes};
-use crate::structure::{capacity_m, parse, rocking_block};
+use crate::structure::parse;
 
 /// A threshold that nothing but overturning exceeds.
 const OVERTURNING_M: f64 = f64::MAX;
@@ -65,8 +66,11 @@ impl Analysis {
         let restitution = structure.description.restitution.unwrap_or(stripes.study.oscillator.restitution);
         let oscillator = structure.system.spectral_oscillator(restitution).map_err(refused)?;
         let mut systems = vec![System::Oscillator(oscillator)];
-        if with_block && let Some(block) = rocking_block(&structure) {
-            systems.push(System::Block(block?));
+        if with_block && let Some(of) = structure.block {
+            let block = RockingBlock::new(of.size_m, of.slenderness_rad)
+                .and_then(|block| block.with_gravity(structure.system.conditions().gravity_m_s2()))
+                .and_then(|block| block.with_restitution(structure.description.restitution.unwrap_or(of.restitution)));
+            systems.push(System::Block(block.map_err(refused)?));
         }
         let measures = vec![(of.measure, of.levels.clone())];
         let records = motions.all()?.len();
@@ -143,17 +147,14 @@ impl Analysis {
             PooledDemand::new(&stripe).map_err(refused)
         };
         let own = demand(0)?;
-        let capacity_m = capacity_m(&structure.system);
+        let capacity_m = structure.system.capacity_m();
         let ordinate = RiskCurve::new(&own, weights).and_then(|curve| curve.exact_ordinate(risk.per_year));
         let ordinate = ordinate.map_err(refused)?;
         let asked = (&[units.len()][..], CONFIDENCE);
         let band_m = inferred_limits(&own, weights, &units, &[risk.per_year], asked).map_err(refused)?;
         let band_m = band_m.first().map_or([f64::NAN; 2], |limits| limits.truth_m);
         let beyond = match &self.systems[0] {
-            System::Oscillator(oscillator) => match oscillator.post_uplift() {
-                PostUplift::Negative { capacity_m } => Some(capacity_m),
-                PostUplift::Zero | PostUplift::Positive { .. } => None,
-            },
+            System::Oscillator(own) => Some(own.capacity_m()).filter(|capacity_m| capacity_m.is_finite()),
             System::Block(_) | System::Frame(_) => None,
         };
         let beyond = beyond.map(|threshold_m| event(&own, (weights, &units), threshold_m, years, true)).transpose()?;

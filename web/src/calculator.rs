@@ -35,8 +35,8 @@ enum Question {
     Curves { name: String, choice: Option<Choice> },
     /// Adds a site with the curves of these numbers, which go on beyond their ends where `extrapolate` says so.
     Site { name: String, curves: Vec<usize>, extrapolate: bool },
-    /// Reads a record file.
-    Record { name: String },
+    /// Reads a record file; `unit` and `step_s` are of one that does not name its own.
+    Record { name: String, unit: Option<String>, step_s: Option<f64> },
     /// Forgets the record files.
     NoRecords,
     /// The names of the motions, and their measures.
@@ -149,7 +149,7 @@ impl Calculator {
                 let chosen = chosen.into_iter().map(|own| own.curve.clone()).collect();
                 self.stripes.as_mut().ok_or(NO_STRIPES)?.add_site(&name, chosen, extrapolate)
             }
-            Question::Record { name } => self.motions.add(file, &name),
+            Question::Record { name, unit, step_s } => self.motions.add((file, &name), (unit, step_s)),
             Question::NoRecords => {
                 self.motions.forget();
                 Ok(Value::Null)

@@ -14,12 +14,16 @@ use crate::stripes::Stripes;
 /// Most records that are dropped at once: some minutes of analysis.
 const MOST_DROPPED: usize = 200;
 
+/// What the page asks for, by its labels.
+const UNKNOWN_UNIT: &str = "unit: choose “Unit of records without one”";
+const UNKNOWN_STEP: &str = "time step: give “Time step of records without one”";
+
 /// A motion with the measure that it is scaled by.
 pub(crate) enum Motion {
     /// A component of a pair, whose measure is that of both.
     OfPair(Box<RecordPair>, Horizontal),
-    /// A component alone, whose measure is its own, by its name and its number in a file of several.
-    Alone(String, Accelerogram, Option<usize>),
+    /// A component alone, whose measure is its own, with its name and its row of a manifest.
+    Alone(String, Accelerogram, String),
 }
 
 impl Motion {
@@ -31,17 +35,12 @@ impl Motion {
         }
     }
 
-    /// Its row of a manifest: name, file and number of the component, twice, since a manifest has pairs.
-    pub(crate) fn row(&self) -> String {
-        let (id, number) = match self {
-            Self::OfPair(pair, _) => (&pair.id, None),
-            Self::Alone(id, _, number) => (id, *number),
-        };
-        let number = number.map_or_else(String::new, |number| number.to_string());
-        let file = id.strip_suffix(&format!(":{number}")).unwrap_or(id);
-        let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
-        let (id, file) = (quoted(id), quoted(file));
-        format!("{id},{file},{number},{file},{number}\n")
+    /// Its row of the manifest of dropped records.
+    pub(crate) fn row(&self) -> &str {
+        match self {
+            Self::OfPair(..) => "",
+            Self::Alone(.., row) => row,
+        }
     }
 
     /// What shakes.
@@ -93,9 +92,18 @@ impl Motions {
     }
 
     /// Adds the components of a record file, each a record of its own.
-    pub(crate) fn add(&mut self, file: &[u8], name: &str) -> Answer<Value> {
-        let options = ReadOptions { gravity_m_s2: self.gravity_m_s2, ..ReadOptions::default() };
-        let read = read_record(file, name, &options).map_err(refused)?;
+    pub(crate) fn add(
+        &mut self,
+        (file, name): (&[u8], &str),
+        (unit, dt_s): (Option<String>, Option<f64>),
+    ) -> Answer<Value> {
+        let known_unit = unit.as_deref().map(str::parse).transpose().map_err(refused)?;
+        let options = ReadOptions { gravity_m_s2: self.gravity_m_s2, unit: known_unit, dt_s, ..ReadOptions::default() };
+        let read = read_record(file, name, &options).map_err(|error| match error {
+            MotionError::MissingUnit { name, .. } => format!("{name}: the file names no {UNKNOWN_UNIT}"),
+            MotionError::MissingTimeStep { name } => format!("{name}: the file names no {UNKNOWN_STEP}"),
+            error => refused(error),
+        })?;
         let is_horizontal = |own: &uplift_motion::Recording| {
             own.description.orientation.is_none_or(uplift_motion::Orientation::is_horizontal)
         };
@@ -105,7 +113,12 @@ impl Motions {
             .map(|(place, own)| {
                 let number = several.then_some(place + 1);
                 let id = number.map_or_else(|| name.to_owned(), |number| format!("{name}:{number}"));
-                Motion::Alone(id, own.accelerogram, number)
+                let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
+                // twice, since a manifest has pairs
+                let component = format!("{},{}", quoted(name), number.map_or_else(String::new, |own| own.to_string()));
+                let named = [unit.clone().unwrap_or_default(), dt_s.map_or_else(String::new, |own| own.to_string())];
+                let row = format!("{},{component},{component},{}\n", quoted(&id), named.join(","));
+                Motion::Alone(id, own.accelerogram, row)
             })
             .collect();
         if added.is_empty() {

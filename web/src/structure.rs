@@ -4,10 +4,9 @@ use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 use serde_json::{Value, json};
-use uplift_block::{FreeRocking, RockingBlock};
-use uplift_frame::{GroundMotion, Model, Options};
+use uplift_frame::{GroundMotion, HistoryRow, Model, Options};
 use uplift_motion::Accelerogram;
-use uplift_structure::{Check, EquivalentSystem, PostUpliftForce, Rule};
+use uplift_structure::{Check, PostUpliftForce, Rule};
 use uplift_study::Structure;
 
 use crate::calculator::{Answer, At, refused};
@@ -25,28 +24,10 @@ pub(crate) fn parse(text: &str) -> Answer<Structure> {
     Structure::parse(Path::new("structure.toml"), text.to_owned()).map_err(told)
 }
 
-/// The displacement at which the force after uplift is gone, m; none where it does not fall.
-pub(crate) fn capacity_m(system: &EquivalentSystem) -> Option<f64> {
-    match system.post_uplift() {
-        PostUpliftForce::Negative { capacity_m } => Some(capacity_m),
-        PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => None,
-    }
-}
-
-/// The block that rotates as the structure does, where there is one.
-pub(crate) fn rocking_block(structure: &Structure) -> Option<Answer<RockingBlock>> {
-    let of = structure.block?;
-    let block = RockingBlock::new(of.size_m, of.slenderness_rad)
-        .and_then(|block| block.with_gravity(structure.system.conditions().gravity_m_s2()))
-        .and_then(|block| block.with_restitution(structure.description.restitution.unwrap_or(of.restitution)));
-    Some(block.map_err(refused))
-}
-
 /// The structure, and where a spectrum is given what it asks of it: as `uplift design --spectrum-only`.
 pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>, safety_factor: f64) -> Answer<Value> {
     let structure = parse(text)?;
     let system = &structure.system;
-    let capacity_m = capacity_m(system);
     let mut told = json!({
         "kind": structure.description.kind.name(),
         "mass_kg": system.mass_kg(),
@@ -55,9 +36,8 @@ pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>,
         "participation": system.participation(),
         "spectral_strength": system.spectral_strength(),
         "uplift_displacement_m": system.conditions().uplift_displacement_m(),
-        "capacity_m": capacity_m,
+        "capacity_m": system.capacity_m(),
         "post_uplift_stiffness_n_m": system.post_uplift_stiffness_n_m(),
-        "can_move": structure.block.is_some() || structure.rocking_frame().is_some(),
         "warnings": system.warnings().iter().map(ToString::to_string)
             .chain(structure.warnings.iter().map(ToString::to_string)).collect::<Vec<_>>(),
     });
@@ -112,44 +92,29 @@ pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>,
     Ok(told)
 }
 
-/// The motion of a structure under a record: the block that rotates as it does, or the frame in its plane.
+/// The motion of a structure under a record, in its plane: as `uplift response --structure`.
 pub(crate) fn motion(text: &str, ground: &Accelerogram) -> Answer<Value> {
     let structure = parse(text)?;
-    // time, rotation, displacement of the top or the deck, its rise
-    let (rows, overturned, model): (Vec<[f64; 4]>, bool, &str) = if let Some(block) = rocking_block(&structure) {
-        let block = block?;
-        let free = FreeRocking::Lasting { duration_s: 2.0 };
-        let (response, history) = uplift_block::respond_with_history(&block, ground, free).map_err(refused)?;
-        let row = |row: &uplift_block::HistoryRow| {
-            [row.time_s, row.rotation_rad, block.top_displacement_m(row.rotation_rad), f64::NAN]
-        };
-        (history.rows.iter().map(row).collect(), response.is_overturned(), "block")
-    } else if let Some(frame) = structure.rocking_frame() {
-        let frame = frame.map_err(refused)?;
-        let options = Options { restitution: structure.description.restitution, ..Options::default() };
-        let shaking = GroundMotion::along_x(ground);
-        let (response, history) =
-            uplift_frame::respond_with_history(&frame, &shaking, Model::Planar, &options).map_err(refused)?;
-        let row = |row: &uplift_frame::HistoryRow| [row.time_s, row.rotation_rad, row.displacement_x_m, row.rise_m];
-        (history.rows.iter().map(row).collect(), response.overturned, "frame")
-    } else {
-        return Err("only columns with flat ends and blocks have a motion here".to_owned());
-    };
+    let frame = structure.rocking_frame().ok_or("only columns with flat ends and blocks have a motion here")?;
+    let options = Options { restitution: structure.description.restitution, ..Options::default() };
+    let shaking = GroundMotion::along_x(ground);
+    let frame = frame.map_err(refused)?;
+    let (response, history) =
+        uplift_frame::respond_with_history(&frame, &shaking, Model::Planar, &options).map_err(refused)?;
+    let rows = &history.rows;
     // what lies on its side moves no more
-    let standing = rows.iter().position(|row| row[1].abs() > FRAC_PI_2).unwrap_or(rows.len());
+    let standing = rows.iter().position(|row| row.rotation_rad.abs() > FRAC_PI_2).unwrap_or(rows.len());
     let rows = &rows[..standing];
     let every = rows.len().div_ceil(MOST_ROWS).max(1);
-    let of = |value: usize| rows.iter().step_by(every).map(|row| row[value]).collect::<Vec<_>>();
-    let peak_m = rows.iter().map(|row| row[2].abs()).fold(0.0, f64::max);
+    let of = |value: fn(&HistoryRow) -> f64| rows.iter().step_by(every).map(value).collect::<Vec<_>>();
     let samples = ground.acceleration_m_s2();
     let thin = samples.len().div_ceil(MOST_ROWS).max(1);
     Ok(json!({
-        "model": model,
-        "time_s": of(0),
-        "rotation_rad": of(1),
-        "displacement_m": of(2),
-        "peak_m": peak_m,
-        "overturned": overturned,
+        "time_s": of(|row| row.time_s),
+        "rotation_rad": of(|row| row.rotation_rad),
+        "displacement_m": of(|row| row.displacement_x_m),
+        "peak_m": response.displacement.value,
+        "overturned": response.overturned,
         "ground_m_s2": samples.iter().step_by(thin).collect::<Vec<_>>(),
         "ground_step_s": ground.dt_s() * thin as f64,
     }))

@@ -38,7 +38,7 @@ pub(crate) fn files(stripes: &Stripes, at: &At) -> Answer<Value> {
     let is_made = matches!(stripes.study.records.source, RecordSource::Synthetic { .. });
     if let Some(rows) = &stripes.manifest {
         // the program reads the files that were dropped, from the folder of the study
-        let head = "record_id,file_h1,channel_h1,file_h2,channel_h2\n";
+        let head = "record_id,file_h1,channel_h1,file_h2,channel_h2,unit,dt_s\n";
         files.insert("records.csv".to_owned(), format!("{head}{rows}").into());
         let records = Table::from_iter([("manifest".to_owned(), Toml::from("records.csv"))]);
         study.insert("records".to_owned(), records.into());
