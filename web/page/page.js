@@ -420,11 +420,15 @@ const inputs = () => toml() + JSON.stringify(at());
 const drawDesign = latest(async () => {
   $("toml").textContent = toml();
   let told;
+  let others = [];
   const asked = inputs();
   $("verdict").textContent = "";
   try {
     if (mistyped.size) throw new Error([...mistyped.values()].join("\n"));
-    told = await ask({ ask: "structure", text: toml(), at: at(), safety_factor: state.safety });
+    const by = (measure) => ask({ ask: "structure", text: toml(), at: { ...at(), measure }, safety_factor: state.safety });
+    told = await by(state.measure);
+    const keys = about.sites.find((own) => own.name === state.site).measures.filter((key) => key !== state.measure);
+    others = await Promise.all(keys.map(async (key) => [about.measures.find((own) => own.key === key).label, await by(key)]));
   } catch (error) {
     $("mistake").hidden = false;
     $("mistake").textContent = error.message;
@@ -438,7 +442,11 @@ const drawDesign = latest(async () => {
   if (state.strength === null) drawSpectrum();
   $("mistake").hidden = true;
   const [most] = worst(told.rules ?? []);
-  $("verdict").textContent = most ? `The ${state.kind}: ${verdict(most, told).replace(/^./, (first) => first.toLowerCase())}.` : "";
+  const small = (text) => text.replace(/^./, (first) => first.toLowerCase());
+  // a measure that asks for more, as the program names it
+  const also = others.flatMap(([name, by]) => worst(by.rules ?? []).map((rule) => [name, rule, by]))
+    .filter(([, rule]) => most && !rule.satisfied && most.satisfied).map(([name, rule, by]) => ` By ${name}, ${small(verdict(rule, by))}.`);
+  $("verdict").replaceChildren(most ? `The ${state.kind}: ${small(verdict(most, told))}.` : "", element("span", { class: "bad" }, also.join("")));
   $("design").replaceChildren(
     ...worst(told.rules ?? []).map((rule) => element("p", { class: "answer" },
       verdict(rule, told), element("small", {}, `By ${rule.rule.replace("-", " ")}, ${whereWords()}. ${rule.overturns ? "No capacity is enough." : `Displacement of the ${state.kind} ${metres(rule.demand_m)}${band(rule.demand_band_m)}, safety factor ${digits(rule.safety_factor, 3)}, ${digits(state.safety, 3)} required.`}`))),
@@ -453,6 +461,7 @@ const drawDesign = latest(async () => {
         [`Verdict, ${rule.rule.replace("-", " ")}`, rule.satisfied ? `satisfied: safety factor ${digits(rule.safety_factor, 3)}${atUpperEnd(rule, told)}` : `not satisfied: safety factor ${digits(rule.safety_factor, 3)}, ${digits(state.safety, 3)} required`, !rule.satisfied],
       ]),
     ),
+    ...(also.length ? [element("p", { class: "bad" }, also.join("").trim())] : []),
     ...otherOscillator(),
     ...told.warnings.map((own) => element("p", { class: "note" }, own)),
     element("p", { class: "note" }, `${whereWords()}${about.synthetic ? ", synthetic records" : ""}. A satisfied rule is no proof: analyse the structure itself.`),
