@@ -4,7 +4,8 @@
 use serde_json::{Value, json};
 use uplift_motion::synthetic::{Pairs, SyntheticSetOptions};
 use uplift_motion::{
-    Accelerogram, Component, Horizontal, IntensityMeasure, MotionError, ReadOptions, RecordPair, read_record,
+    Accelerogram, Combination, Component, Horizontal, IntensityMeasure, MotionError, ReadOptions, RecordPair,
+    read_record,
 };
 use uplift_study::RecordSource;
 
@@ -81,7 +82,8 @@ impl Motions {
             _ => None,
         };
         let recipe = match (&of.source, which) {
-            (&RecordSource::Synthetic { pairs, seed }, Some(which)) => {
+            // others are scaled by what no pair tells
+            (&RecordSource::Synthetic { pairs, seed }, Some(which)) if of.intensity == Combination::GeometricMean => {
                 let pairs = usize::try_from(pairs).unwrap_or(usize::MAX);
                 let options = SyntheticSetOptions { pairs, seed, ..SyntheticSetOptions::default() };
                 Some((options, which, stripes.records.clone()))
@@ -150,7 +152,8 @@ impl Motions {
             return Ok(&self.dropped);
         }
         if self.made.is_empty() {
-            let no_records = "the records of this result are files: drop them here, and they shake the structure";
+            let no_records =
+                "the page has not the records of this result: drop them here, and they shake the structure";
             let (options, which, wanted) = self.recipe.as_ref().ok_or(no_records)?;
             let pairs: Vec<RecordPair> =
                 Pairs::of(options).and_then(Iterator::collect::<Result<_, MotionError>>).map_err(refused)?;

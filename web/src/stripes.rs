@@ -11,7 +11,7 @@ use uplift_risk::{
     BEYOND_LIMIT, DECISIVE_SHARE, FEW_RECORDS, Ordinate, OrdinateFlag, PooledDemand, RiskCurve, StrengthPlace,
     StripeWeights, TAIL_SHARE_LIMIT,
 };
-use uplift_study::{AnyStudy, Study, UniformRiskStudy};
+use uplift_study::{AnyStudy, Study, UniformRiskStudy, definition_of};
 
 use crate::calculator::{Answer, At, Risk, refused};
 
@@ -216,25 +216,8 @@ impl Stripes {
         for curve in curves {
             let measure: IntensityMeasure = curve.measure().parse().map_err(refused)?;
             let curve = curve.in_field_units(self.study.gravity_m_s2).map_err(refused)?;
-            let wanted = ComponentDefinition::GeometricMean;
-            let curve = match curve.component() {
-                Some(component) if component == wanted => curve,
-                // as the study of the embedded records declares it
-                Some(ComponentDefinition::GmRotI50) => curve.converted(1.0, wanted).map_err(refused)?,
-                None => {
-                    notes.push(format!("{}: taken as the {} of two components", measure.label(), wanted.key()));
-                    curve
-                }
-                Some(other) => {
-                    return Err(format!(
-                        "{}: the curve is of the {}, and the records are measured by the {}: drop a file with \
-                         levels of that definition, named in the file",
-                        measure.label(),
-                        other.key(),
-                        wanted.key()
-                    ));
-                }
-            };
+            let (curve, note) = self.of_the_records_definition(measure, curve)?;
+            notes.extend(note);
             if own.iter().any(|own: &SiteCurve| own.measure == measure) {
                 return Err(format!("two curves of {} for one site: choose one", measure.label()));
             }
@@ -253,6 +236,33 @@ impl Stripes {
         self.sites.retain(|site| site.name != name);
         self.sites.push(Site { name: name.to_owned(), curves: own, extrapolate });
         Ok(json!({ "notes": notes, "about": self.about() }))
+    }
+
+    /// A curve by the definition that the records are measured by, as the program takes it, and what is assumed for it.
+    fn of_the_records_definition(
+        &self,
+        measure: IntensityMeasure,
+        curve: HazardCurve,
+    ) -> Answer<(HazardCurve, Option<String>)> {
+        let (label, hazard) = (measure.label(), &self.study.hazard);
+        let wanted = definition_of(self.study.records.intensity);
+        let Some(own) = curve.component().or(hazard.component) else {
+            if wanted == ComponentDefinition::GeometricMean {
+                let note = format!("{label}: taken as the {} of two components", wanted.key());
+                return Ok((curve, Some(note)));
+            }
+            return Err(format!("{label}: the records are measured by the {}: name it in the file", wanted.key()));
+        };
+        match (own == wanted, hazard.factor(own, wanted, measure)) {
+            (true, _) => Ok((curve, None)),
+            (false, Some(factor)) => Ok((curve.converted(factor, wanted).map_err(refused)?, None)),
+            (false, None) => Err(format!(
+                "{label}: the curve is of the {}, and the records are measured by the {}: drop a file with levels of \
+                 that definition, named in the file",
+                own.key(),
+                wanted.key()
+            )),
+        }
     }
 
     /// The warning of synthetic records as the export has it.
