@@ -141,7 +141,7 @@ mod tests {
         };
         let cases = vec![case(2.0, Severity::Note, "Here"), case(3.0, Severity::Caution, "There")];
         let found = Alarm::from_cases("off", cases).into_iter().collect::<Vec<_>>();
-        assert_eq!(found[0].to_string(), "There (and Here): is off by 3");
+        assert_eq!(found[0].to_string(), "There (1 more): is off by 3");
         assert_eq!((found[0].severity, &found[0].also[..]), (Severity::Caution, &["Here".to_owned()][..]));
         assert_eq!(Alarm::from_cases("off", Vec::new()), None);
 

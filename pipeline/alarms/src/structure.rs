@@ -80,12 +80,8 @@ fn outside_levels(own: &OwnRisk) -> Option<Case> {
         severity: if share > DECISIVE_SHARE { Severity::Caution } else { Severity::Note },
         badness: share,
         subject: own.subject.clone(),
-        what: format!(
-            "{} of the risk lies {where_from} {}: the rate is {therefore}",
-            share_in_words(share),
-            own.measure.unit()
-        ),
-        what_to_do: format!("{remedy} {} and run the study again", levels_key(own.measure)),
+        what: format!("{} of the risk is {where_from} {}: {therefore}", share_in_words(share), own.measure.unit()),
+        what_to_do: format!("{remedy} {}", levels_key(own.measure)),
     })
 }
 

@@ -64,10 +64,9 @@ impl Alarm {
 impl fmt::Display for Alarm {
     /// `Athens, PGV, 2 % (3 more): what was found`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let also = match &self.also[..] {
-            [] => String::new(),
-            [one] => format!(" (and {one})"),
-            more => format!(" ({} more)", more.len()),
+        let also = match self.also.len() {
+            0 => String::new(),
+            more => format!(" ({more} more)"),
         };
         write!(formatter, "{}{also}: {}", self.subject, self.what)
     }
