@@ -21,7 +21,7 @@ fn validate(python: &Path, schema: &Path, files: &[PathBuf]) -> Output {
 }
 
 /// The file of a library among the studies.
-const LIBRARY: &str = "rocking-library.toml";
+pub(crate) const LIBRARY: &str = "rocking-library.toml";
 
 /// The TOML files of a folder of `configs`.
 fn toml_files(folder: &str) -> Vec<PathBuf> {
