@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use uplift_block::RockingBlock;
-use uplift_bootstrap::{inferred_limits, inferred_rate};
+use uplift_bootstrap::{inferred_rate, truth_limits};
 use uplift_fragility::Stripes as Stripe;
 use uplift_ida::{Plan, StripeRecord, System, Unwatched, analyse};
 use uplift_motion::IntensityMeasure;
@@ -150,9 +150,7 @@ impl Analysis {
         let capacity_m = structure.system.capacity_m();
         let ordinate = RiskCurve::new(&own, weights).and_then(|curve| curve.exact_ordinate(risk.per_year));
         let ordinate = ordinate.map_err(refused)?;
-        let asked = (&[units.len()][..], CONFIDENCE);
-        let band_m = inferred_limits(&own, weights, &units, &[risk.per_year], asked).map_err(refused)?;
-        let band_m = band_m.first().map_or([f64::NAN; 2], |limits| limits.truth_m);
+        let band_m = truth_limits(&own, weights, &units, &[risk.per_year], CONFIDENCE).map_err(refused)?[0];
         let beyond = match &self.systems[0] {
             System::Oscillator(own) => Some(own.capacity_m()).filter(|capacity_m| capacity_m.is_finite()),
             System::Block(_) | System::Frame(_) => None,

@@ -3,7 +3,7 @@
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use uplift_bootstrap::inferred_limits;
+use uplift_bootstrap::truth_limits;
 use uplift_fragility::Stripes as Stripe;
 use uplift_hazard::{ComponentDefinition, Extrapolation, HazardCurve};
 use uplift_motion::IntensityMeasure;
@@ -447,9 +447,7 @@ impl Place<'_> {
 
     fn ordinate(&self, demand: &PooledDemand, per_year: f64) -> Answer<Banded> {
         let ordinate = RiskCurve::new(demand, self.weights).and_then(|curve| curve.exact_ordinate(per_year));
-        let (sizes, targets) = ([self.of.units.len()], [per_year]);
-        let limits = inferred_limits(demand, self.weights, &self.of.units, &targets, (&sizes, CONFIDENCE));
-        let band_m = limits.map_err(refused)?.first().map_or([f64::NAN; 2], |limits| limits.truth_m);
+        let band_m = truth_limits(demand, self.weights, &self.of.units, &[per_year], CONFIDENCE).map_err(refused)?[0];
         Ok(Banded { ordinate: ordinate.map_err(refused)?, band_m })
     }
 }

@@ -3,7 +3,7 @@
 use uplift_risk::{PooledDemand, RiskError, RunWeights, StripeWeights};
 
 use crate::shared_rates::SharedRates;
-use crate::skewed_mean::{SkewedMean, StudentQuantiles};
+use crate::skewed_mean::{LEAST_FREEDOM, SkewedMean, StudentQuantiles};
 use crate::unit_rates::UnitRates;
 
 /// Where the deviate of a target is less, that of a larger target is below −1, whatever rounding leaves of either.
@@ -16,6 +16,12 @@ pub struct InferredLimits {
     pub truth_m: [f64; 2],
     /// Lower and upper limit of the ordinate of another set of as many units, m.
     pub prediction_m: [f64; 2],
+}
+
+impl InferredLimits {
+    fn of([truth, prediction]: [Search; 2]) -> Self {
+        Self { truth_m: truth.limits_m(), prediction_m: prediction.limits_m() }
+    }
 }
 
 /// Limits of exact ordinates at one site, `[target, size]`; NaN of a single unit.
@@ -46,7 +52,27 @@ pub fn inferred_limits(
     (sizes, confidence): (&[usize], f64),
 ) -> Result<Vec<InferredLimits>, RiskError> {
     check(demand, weights, units)?;
-    limits(demand, weights, (Rates::of(demand, units), units), targets_per_year, (sizes, confidence))
+    let found =
+        searches::<2>(demand, weights, (Rates::of(demand, units), units), targets_per_year, (sizes, confidence))?;
+    Ok(found.into_iter().map(InferredLimits::of).collect())
+}
+
+/// The limits of the truth alone, m, `[target]`, to the bit those of [`inferred_limits`] for as many units as the set
+/// has.
+///
+/// # Errors
+/// As [`inferred_limits`].
+pub fn truth_limits(
+    demand: &PooledDemand,
+    weights: &StripeWeights,
+    units: &[Vec<usize>],
+    targets_per_year: &[f64],
+    confidence: f64,
+) -> Result<Vec<[f64; 2]>, RiskError> {
+    check(demand, weights, units)?;
+    let rates = (Rates::of(demand, units), units);
+    let found = searches::<1>(demand, weights, rates, targets_per_year, (&[units.len()], confidence))?;
+    Ok(found.into_iter().map(|[truth]| truth.limits_m()).collect())
 }
 
 /// The same of records that count as `weights` say, repaired: the weights are taken as they are.
@@ -61,43 +87,69 @@ pub fn repaired_limits(
     (sizes, confidence): (&[usize], f64),
 ) -> Result<Vec<InferredLimits>, RiskError> {
     check(demand, weights.stripes(), units)?;
-    let rates = Rates::weighted(weights, units);
-    limits(demand, weights.stripes(), (rates, units), targets_per_year, (sizes, confidence))
+    let rates = (Rates::weighted(weights, units), units);
+    let found = searches::<2>(demand, weights.stripes(), rates, targets_per_year, (sizes, confidence))?;
+    Ok(found.into_iter().map(InferredLimits::of).collect())
 }
 
-fn limits(
+/// The limits of the truth alone of records that count as `weights` say, as [`truth_limits`].
+///
+/// # Errors
+/// As [`inferred_limits`].
+pub fn repaired_truth_limits(
+    demand: &PooledDemand,
+    weights: &RunWeights,
+    units: &[Vec<usize>],
+    targets_per_year: &[f64],
+    confidence: f64,
+) -> Result<Vec<[f64; 2]>, RiskError> {
+    check(demand, weights.stripes(), units)?;
+    let rates = (Rates::weighted(weights, units), units);
+    let found = searches::<1>(demand, weights.stripes(), rates, targets_per_year, (&[units.len()], confidence))?;
+    Ok(found.into_iter().map(|[truth]| truth.limits_m()).collect())
+}
+
+/// The bands of each target and size, `[target, size]`: that of the truth and, of two `KINDS`, that of another set.
+fn searches<const KINDS: usize>(
     demand: &PooledDemand,
     weights: &StripeWeights,
     (mut rates, units): (Rates, &[Vec<usize>]),
     targets_per_year: &[f64],
     (sizes, confidence): (&[usize], f64),
-) -> Result<Vec<InferredLimits>, RiskError> {
+) -> Result<Vec<[Search; KINDS]>, RiskError> {
     targets_per_year.iter().try_for_each(|target| check_target(*target))?;
-    let none = InferredLimits { truth_m: [f64::NAN; 2], prediction_m: [f64::NAN; 2] };
     if units.len() < 2 {
-        return Ok(vec![none; targets_per_year.len() * sizes.len()]);
+        return Ok(vec![[Search::NONE; KINDS]; targets_per_year.len() * sizes.len()]);
     }
     let most = sizes.iter().copied().max().unwrap_or(1).max(units.len());
     let quantiles = StudentQuantiles::new(confidence, most);
-    // [target, size] of truth and prediction
-    let mut searches = vec![[Search::default(); 2]; targets_per_year.len() * sizes.len()];
+    let mut searches = vec![[Search::default(); KINDS]; targets_per_year.len() * sizes.len()];
     let per_year = weights.per_year();
     let all = units.len();
     let root = |units: usize| (units as f64).sqrt();
+    let root_of_all = root(all);
     // its own scatter is added to that of the set
     let of_sizes: Vec<(usize, f64, f64)> =
         sizes.iter().map(|&size| (size, root(size), (1.0 + all as f64 / size as f64).sqrt())).collect();
     // the least first: where the band of a target has not been reached, those of larger ones have not
     let mut rising: Vec<(f64, usize)> = targets_per_year.iter().copied().zip(0..).collect();
     rising.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let (least_target, largest_quantile) =
+        (rising.first().map_or(0.0, |own| own.0), quantiles.at(LEAST_FREEDOM.min(all - 1)));
     let mut look = |rates: &Rates, from_m: f64, to_m: f64| {
+        // most of a fall is above every band, where the mean alone tells; with other sizes it does not
+        if KINDS == 1 && rates.is_far_below(least_target, largest_quantile) {
+            return true;
+        }
         let mean = rates.mean();
-        let of_set = mean.deviates(root(all));
-        let of_set = (of_set, quantiles.at(mean.degrees_of_freedom(all)));
+        let of_units = |units: usize, root| (mean.deviates(root), quantiles.at(mean.degrees_of_freedom(units)));
+        let of_set = (KINDS > 1).then(|| of_units(all, root_of_all));
         let mut is_open = false;
         for (place, &(size, root, wider)) in of_sizes.iter().enumerate() {
-            let own = (mean.deviates(root), quantiles.at(mean.degrees_of_freedom(size)));
-            for (kind, (deviates, quantile)) in [own, (of_set.0, of_set.1 * wider)].into_iter().enumerate() {
+            let of_another = of_set.map(|(deviates, quantile)| (deviates, quantile * wider));
+            for (kind, (deviates, quantile)) in
+                [Some(of_units(size, root)), of_another].into_iter().flatten().enumerate()
+            {
                 for &(target, row) in &rising {
                     let search = &mut searches[row * sizes.len() + place][kind];
                     if search.was_beyond {
@@ -121,11 +173,7 @@ fn limits(
             true
         }
     });
-    let limits = |[truth, prediction]: &[Search; 2]| InferredLimits {
-        truth_m: truth.limits_m(),
-        prediction_m: prediction.limits_m(),
-    };
-    Ok(searches.iter().map(limits).collect())
+    Ok(searches)
 }
 
 /// Limits of the rate at which `threshold_m` is exceeded, 1/yr, by all records there could be: the interval that
@@ -260,6 +308,17 @@ impl Rates {
             Self::Shared(rates) => rates.mean(),
         }
     }
+
+    /// Whether the deviate from `target` is below −`quantile` however the units scatter, known from their mean m alone.
+    ///
+    /// No unit is negative: s/√n is at most m and γ/√n at most 1, as of a single unit that carries all. Then T is at
+    /// most 1 − target/m, and the cubic g(T) of [`SkewedMean`] at most 1/6 + T/4, whatever γ is.
+    fn is_far_below(&self, target: f64, quantile: f64) -> bool {
+        match self {
+            Self::Alike(rates) => target > (2.0 + 4.0 * quantile) * rates.per_year(),
+            Self::Shared(_) => false,
+        }
+    }
 }
 
 /// Whether it is a target.
@@ -289,6 +348,9 @@ pub(crate) struct Search {
 }
 
 impl Search {
+    /// Of a single unit, which has no band.
+    const NONE: Self = Self { found_m: Some([f64::NAN; 2]), leap_m: f64::NAN, was_beyond: true };
+
     /// All displacements from `from_m` to `to_m` have this `deviate`, over its quantile.
     pub(crate) fn see(&mut self, deviate: f64, from_m: f64, to_m: f64) {
         if self.was_beyond {

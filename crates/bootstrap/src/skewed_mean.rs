@@ -3,7 +3,7 @@
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Fewest degrees of freedom, where there are units enough for so many: below, the quantile says nothing any more.
-const LEAST_FREEDOM: usize = 2;
+pub(crate) const LEAST_FREEDOM: usize = 2;
 /// A scatter below this share of the mean is that of rounding.
 const ROUNDING: f64 = 1e-7;
 

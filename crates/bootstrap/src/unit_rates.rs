@@ -52,11 +52,15 @@ impl UnitRates {
         self.rates[unit] = after;
     }
 
+    /// The rate of all records, 1/yr.
+    pub(crate) fn per_year(&self) -> f64 {
+        self.sums[1][0] / self.sums[0][1]
+    }
+
     /// The rate of all records, 1/yr, with the scatter of the units.
     pub(crate) fn mean(&self) -> SkewedMean {
         let sums = &self.sums;
-        let (units, records) = (sums[0][0], sums[0][1]);
-        let mean = sums[1][0] / records;
+        let (units, records, mean) = (sums[0][0], sums[0][1], self.per_year());
         // Σ (W − mean n)^p by the binomial theorem
         let power = |p: usize, choose: &[f64]| {
             let mut factor = 1.0;

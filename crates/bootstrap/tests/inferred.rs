@@ -5,6 +5,7 @@ use proptest::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 use uplift_bootstrap::{
     InferredLimits, ResamplingPlan, SkewedMean, StudentQuantiles, inferred_limits, inferred_rate, repaired_limits,
+    repaired_truth_limits, truth_limits,
 };
 use uplift_fragility::Stripes;
 use uplift_risk::{PooledDemand, RecordSample, RiskCurve, RunWeights, StripeWeights};
@@ -83,6 +84,9 @@ proptest! {
         let sizes = [units.len(), 3, 40];
         let demand = pooled(&edp_m);
         let found = inferred_limits(&demand, &weights(), &units, &[target, 0.05], (&sizes, 0.9)).unwrap();
+        let alone = truth_limits(&demand, &weights(), &units, &[target, 0.05], 0.9).unwrap();
+        let of_both = inferred_limits(&demand, &weights(), &units, &[target, 0.05], (&[units.len()], 0.9)).unwrap();
+        prop_assert_eq!(alone, of_both.iter().map(|limits| limits.truth_m).collect::<Vec<_>>());
         for (size, found) in sizes.into_iter().zip(&found) {
             let expected = plain_limits(&edp_m, &units, target, (size, 0.9));
             prop_assert_eq!(*found, expected);
@@ -243,7 +247,10 @@ proptest! {
         let asked = (&[count, 7][..], 0.9);
         let demand = pooled(&edp_m);
         let found = repaired_limits(&demand, &alike, &units, &[target], asked).unwrap();
-        prop_assert_eq!(found, inferred_limits(&demand, &weights(), &units, &[target], asked).unwrap());
+        prop_assert_eq!(&found, &inferred_limits(&demand, &weights(), &units, &[target], asked).unwrap());
+        let alone = repaired_truth_limits(&demand, &alike, &units, &[target], 0.9).unwrap();
+        let of_both = repaired_limits(&demand, &alike, &units, &[target], (&[units.len()], 0.9)).unwrap();
+        prop_assert_eq!(alone[0], of_both[0].truth_m);
     }
 }
 

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 use uplift_bootstrap::{
-    inferred_limits, inferred_limits_over_curves, inferred_rate, inferred_rate_over_curves, is_too_narrow,
-    repaired_limits, repaired_rate,
+    inferred_limits_over_curves, inferred_rate, inferred_rate_over_curves, is_too_narrow, repaired_rate,
+    repaired_truth_limits, truth_limits,
 };
 use uplift_result::ResultFile;
 use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
@@ -141,12 +141,12 @@ pub(super) fn record_bands(
     (target_per_year, confidence): (f64, f64),
 ) -> Result<Option<Bands>, DesignError> {
     let of = |units: &Vec<Vec<usize>>| -> Result<Option<[f64; 2]>, DesignError> {
-        let (sizes, targets) = ([units.len()], [target_per_year]);
+        let targets = [target_per_year];
         let found = match repaired {
-            None => inferred_limits(demand, mean, units, &targets, (&sizes, confidence))?,
-            Some(weights) => repaired_limits(demand, weights, units, &targets, (&sizes, confidence))?,
+            None => truth_limits(demand, mean, units, &targets, confidence)?,
+            Some(weights) => repaired_truth_limits(demand, weights, units, &targets, confidence)?,
         };
-        Ok(found.first().map(|own| own.truth_m).filter(|limits_m| !limits_m[1].is_nan()))
+        Ok(found.first().copied().filter(|limits_m| !limits_m[1].is_nan()))
     };
     let Some(by_record) = of(&scatter.pairs)? else { return Ok(None) };
     let by_earthquake = scatter.earthquakes.as_ref().map(of).transpose()?.flatten();

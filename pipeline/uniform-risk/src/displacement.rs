@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use serde::Serialize;
-use uplift_bootstrap::{inferred_limits, repaired_limits};
+use uplift_bootstrap::{repaired_truth_limits, truth_limits};
 use uplift_hazard::rate_from_probability;
 use uplift_job::table::{ColumnsOf, table_text};
 use uplift_job::text::nearest;
@@ -92,7 +92,7 @@ pub struct DisplacementReport {
 /// Reads displacements off the result `file`, which is [`at`](crate::at) the risks asked for, linear between its
 /// strengths.
 ///
-/// The band is that of [`inferred_limits`] over [`QuotedUnits`], the same as `truth` in `/bootstrap`.
+/// The band is that of [`truth_limits`] over [`QuotedUnits`], the same as `truth` in `/bootstrap`.
 ///
 /// # Errors
 /// A file that is damaged, of another kind, or without sites; strengths, risks, sites or a measure that it does not
@@ -193,13 +193,11 @@ fn bands(
 ) -> Result<Vec<Vec<[f64; 2]>>, UniformRiskError> {
     let demand = stripes.demand(strength)?;
     let of_site = |&site: &usize| {
-        let asked = (&[units.len()][..], CONFIDENCE);
-        let limits = match reweighing.map(|own| own.weights(stripes.measure, site)) {
-            None => inferred_limits(&demand, &stripes.weights[site], units, targets_per_year, asked)?,
-            Some(Some(weights)) => repaired_limits(&demand, weights, units, targets_per_year, asked)?,
-            Some(None) => return Ok(vec![[f64::NAN; 2]; targets_per_year.len()]),
-        };
-        Ok(limits.iter().map(|limits| limits.truth_m).collect())
+        Ok(match reweighing.map(|own| own.weights(stripes.measure, site)) {
+            None => truth_limits(&demand, &stripes.weights[site], units, targets_per_year, CONFIDENCE)?,
+            Some(Some(weights)) => repaired_truth_limits(&demand, weights, units, targets_per_year, CONFIDENCE)?,
+            Some(None) => vec![[f64::NAN; 2]; targets_per_year.len()],
+        })
     };
     sites.iter().map(of_site).collect()
 }

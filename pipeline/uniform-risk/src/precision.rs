@@ -4,7 +4,7 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use uplift_bootstrap::{inferred_limits, units};
+use uplift_bootstrap::{truth_limits, units};
 use uplift_fragility::quantile;
 use uplift_job::text::{nearest, per_cent, risk_in_words};
 use uplift_motion::IntensityMeasure;
@@ -72,8 +72,8 @@ pub fn precision(
     let widths = |units: &[Vec<usize>]| -> Result<Vec<f64>, UniformRiskError> {
         let of_site = |demand: &PooledDemand, weights: &StripeWeights| -> Result<Option<f64>, RiskError> {
             let ordinate = RiskCurve::new(demand, weights)?.exact_ordinate(target)?;
-            let limits = inferred_limits(demand, weights, units, &[target], (&[units.len()], CONFIDENCE))?;
-            Ok(limits.first().and_then(|limits| half_width(ordinate.displacement_m, limits.truth_m)))
+            let limits_m = truth_limits(demand, weights, units, &[target], CONFIDENCE)?;
+            Ok(limits_m.first().and_then(|limits_m| half_width(ordinate.displacement_m, *limits_m)))
         };
         let mut all = Vec::new();
         for demand in &demands {

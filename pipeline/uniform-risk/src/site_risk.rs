@@ -1,7 +1,7 @@
 //! Spectra and coefficients of many sites, one after the other: what they share is made once.
 
 use rayon::prelude::*;
-use uplift_bootstrap::{InferredLimits, inferred_limits, repaired_limits};
+use uplift_bootstrap::{repaired_truth_limits, truth_limits};
 use uplift_regression::ExponentialFit;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, RunWeights, StripeWeights};
 use uplift_study::UniformRiskStudy;
@@ -69,8 +69,8 @@ impl<'a> SiteRisk<'a> {
         Ok(Self { study, reading: Reading::from_study(study)?, demands, bands: None })
     }
 
-    /// The same with the band of each ordinate at the strengths of these positions: [`inferred_limits`], or
-    /// [`repaired_limits`] of weighted runs.
+    /// The same with the band of each ordinate at the strengths of these positions: [`truth_limits`], or
+    /// [`repaired_truth_limits`] of weighted runs.
     ///
     /// - `units`: positions of the records that count as one, as [`QuotedUnits`](crate::QuotedUnits) has them.
     #[must_use]
@@ -86,7 +86,7 @@ impl<'a> SiteRisk<'a> {
     /// Weights of another number of levels.
     pub fn spectra(&self, weights: &StripeWeights) -> Result<SiteSpectra, String> {
         let limits = |demand: &PooledDemand, units: &[Vec<usize>]| {
-            inferred_limits(demand, weights, units, &self.reading.targets, (&[units.len()], CONFIDENCE))
+            truth_limits(demand, weights, units, &self.reading.targets, CONFIDENCE)
         };
         self.of_curves(|demand| RiskCurve::new(demand, weights), limits)
     }
@@ -97,7 +97,7 @@ impl<'a> SiteRisk<'a> {
     /// Weights of another number of runs.
     pub fn weighted_spectra(&self, weights: &RunWeights) -> Result<SiteSpectra, String> {
         let limits = |demand: &PooledDemand, units: &[Vec<usize>]| {
-            repaired_limits(demand, weights, units, &self.reading.targets, (&[units.len()], CONFIDENCE))
+            repaired_truth_limits(demand, weights, units, &self.reading.targets, CONFIDENCE)
         };
         self.of_curves(|demand| RiskCurve::weighted(demand, weights), limits)
     }
@@ -105,7 +105,7 @@ impl<'a> SiteRisk<'a> {
     fn of_curves<'d>(
         &'d self,
         curve: impl Fn(&'d PooledDemand) -> Result<RiskCurve<'d>, RiskError>,
-        limits: impl Fn(&PooledDemand, &[Vec<usize>]) -> Result<Vec<InferredLimits>, RiskError>,
+        limits: impl Fn(&PooledDemand, &[Vec<usize>]) -> Result<Vec<[f64; 2]>, RiskError>,
     ) -> Result<SiteSpectra, String> {
         let mut by_strength = Vec::with_capacity(self.demands.len());
         for demand in &self.demands {
@@ -121,7 +121,7 @@ impl<'a> SiteRisk<'a> {
             let of = |&strength: &usize| limits(&self.demands[strength], units).map_err(|error| error.to_string());
             limits_by_strength = strengths.iter().map(of).collect::<Result<_, _>>()?;
         }
-        let of_poe = |poe: usize| limits_by_strength.iter().map(move |limits| limits[poe].truth_m);
+        let of_poe = |poe: usize| limits_by_strength.iter().map(move |limits| limits[poe]);
         let bands_m = (0..poes).flat_map(of_poe).collect();
         Ok(SiteSpectra { ordinates, fits, bands_m })
     }
