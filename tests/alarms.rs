@@ -141,6 +141,28 @@ fn records_that_explain_why_measures_disagree_are_named_alone() {
     assert!(!raised(&run, "measures-disagree") && !raised(&run, "curves-disagree"), "{run}");
 }
 
+// The first study: scaled to PGA its records have 1.6 times the site's PGV, and scaled to PGV, by which the spectrum is
+// read, nearly the site's PGA.
+#[test]
+fn measures_that_disagree_are_raised_where_what_explains_it_is_not() {
+    let study = SmallStudy::new();
+    study.uplift(&["init", "first", "-q"]).ok();
+    let run = json(&study, &["run", "first/study.toml", "-o", "r.h5", "--json"]);
+    assert_eq!(text(alarm(&run, "hazard-inconsistent"), "subject"), "Athens by PGA");
+    assert!(!raised(&run, "measures-disagree"), "{run}");
+    let of = |command: &str, measure| json(&study, &[command, "r.h5", "--measure", measure, "--json"]);
+    assert!(!raised(&of("spectrum", "pga"), "measures-disagree"));
+    let found = of("spectrum", "pgv");
+    let apart = alarm(&found, "measures-disagree");
+    let what = text(apart, "what");
+    assert!(what.starts_with("the PGA spectrum is ") && what.contains(" times PGV's at strength "), "{apart}");
+    assert_eq!(text(apart, "what_to_do"), "Compare: uplift measures RESULT");
+    // bands decide where there are some
+    study.uplift(&["bootstrap", "r.h5", "--replicates", "30", "--sizes", "15,30", "-q"]).ok();
+    let table = of("table", "pgv");
+    assert!(text(alarm(&table, "measures-disagree"), "what").ends_with(", outside both 90 % bands"), "{table}");
+}
+
 /// Words of a file of the study that spells its texts as they are, in bytes of two or in a packed sheet.
 fn holds(file: &Path, words: &str) -> bool {
     let bytes = std::fs::read(file).unwrap();

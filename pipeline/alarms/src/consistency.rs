@@ -14,8 +14,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let mut cases = Vec::new();
     for consistency in &evidence.consistency {
         for (site, name) in evidence.spectra.sites.iter().enumerate() {
-            let is_told = scope.holds(site, consistency.scaled_to) && !curves::are_apart(evidence, site);
-            if let Some(times) = missed(consistency, site, scope).filter(|_| is_told) {
+            if let Some(times) = missed(evidence, scope, consistency, site) {
                 cases.push(case(consistency, site, name, times));
             }
         }
@@ -23,8 +22,12 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     Alarm::from_cases("hazard-inconsistent", cases)
 }
 
-/// How many times the site's level of the other measure the records have, where that is too far from 1.
-fn missed(consistency: &StoredConsistency, site: usize, scope: &Scope) -> Option<f64> {
+/// How many times the site's level of the other measure the records have, where that is raised: it is within the
+/// scope, too far from 1, and not the fault of the curves.
+fn missed(evidence: &Evidence, scope: &Scope, consistency: &StoredConsistency, site: usize) -> Option<f64> {
+    if !scope.holds(site, consistency.scaled_to) || curves::are_apart(evidence, site) {
+        return None;
+    }
     // one risk is judged by itself, so that the others of a result do not matter to it
     let (times, verdict) = match scope.poe {
         None => (consistency.bias[site], consistency.verdict[site].as_str()),
@@ -36,11 +39,11 @@ fn missed(consistency: &StoredConsistency, site: usize, scope: &Scope) -> Option
     (times.is_finite() && verdict == Verdict::Inconsistent.key()).then_some(times)
 }
 
-/// Whether an alarm of the curves or of the records already explains that the spectrum by PGA is `ratio` times the one
-/// by PGV: records that have too little PGA for their PGV reach the site's PGA with too much PGV.
+/// Whether an alarm within the scope, of the curves or of the records, already explains that the spectrum by PGA is
+/// `ratio` times the one by PGV: records that have too little PGA for their PGV reach the site's PGA with too much PGV.
 pub(super) fn explains(evidence: &Evidence, scope: &Scope, site: usize, ratio: f64) -> bool {
     let pulls_alike = |own: &StoredConsistency| {
-        missed(own, site, scope).is_some_and(|times| pulls([own.scaled_to, own.other], times, ratio))
+        missed(evidence, scope, own, site).is_some_and(|times| pulls([own.scaled_to, own.other], times, ratio))
     };
     curves::are_apart(evidence, site) || evidence.consistency.iter().any(pulls_alike)
 }
