@@ -18,12 +18,6 @@ pub struct InferredLimits {
     pub prediction_m: [f64; 2],
 }
 
-impl InferredLimits {
-    fn of([truth, prediction]: [Search; 2]) -> Self {
-        Self { truth_m: truth.limits_m(), prediction_m: prediction.limits_m() }
-    }
-}
-
 /// Limits of exact ordinates at one site, `[target, size]`; NaN of a single unit.
 ///
 /// A displacement c belongs to the band of a target rate λ* where λ(c), a mean over the units, does not differ from λ*
@@ -52,9 +46,7 @@ pub fn inferred_limits(
     (sizes, confidence): (&[usize], f64),
 ) -> Result<Vec<InferredLimits>, RiskError> {
     check(demand, weights, units)?;
-    let found =
-        searches::<2>(demand, weights, (Rates::of(demand, units), units), targets_per_year, (sizes, confidence))?;
-    Ok(found.into_iter().map(InferredLimits::of).collect())
+    limits(demand, weights, (Rates::of(demand, units), units), targets_per_year, (sizes, confidence))
 }
 
 /// The limits of the truth alone, m, `[target]`, to the bit those of [`inferred_limits`] for as many units as the set
@@ -70,9 +62,7 @@ pub fn truth_limits(
     confidence: f64,
 ) -> Result<Vec<[f64; 2]>, RiskError> {
     check(demand, weights, units)?;
-    let rates = (Rates::of(demand, units), units);
-    let found = searches::<1>(demand, weights, rates, targets_per_year, (&[units.len()], confidence))?;
-    Ok(found.into_iter().map(|[truth]| truth.limits_m()).collect())
+    truths(demand, weights, (Rates::of(demand, units), units), targets_per_year, confidence)
 }
 
 /// The same of records that count as `weights` say, repaired: the weights are taken as they are.
@@ -87,9 +77,8 @@ pub fn repaired_limits(
     (sizes, confidence): (&[usize], f64),
 ) -> Result<Vec<InferredLimits>, RiskError> {
     check(demand, weights.stripes(), units)?;
-    let rates = (Rates::weighted(weights, units), units);
-    let found = searches::<2>(demand, weights.stripes(), rates, targets_per_year, (sizes, confidence))?;
-    Ok(found.into_iter().map(InferredLimits::of).collect())
+    let rates = Rates::weighted(weights, units);
+    limits(demand, weights.stripes(), (rates, units), targets_per_year, (sizes, confidence))
 }
 
 /// The limits of the truth alone of records that count as `weights` say, as [`truth_limits`].
@@ -104,9 +93,33 @@ pub fn repaired_truth_limits(
     confidence: f64,
 ) -> Result<Vec<[f64; 2]>, RiskError> {
     check(demand, weights.stripes(), units)?;
-    let rates = (Rates::weighted(weights, units), units);
-    let found = searches::<1>(demand, weights.stripes(), rates, targets_per_year, (&[units.len()], confidence))?;
-    Ok(found.into_iter().map(|[truth]| truth.limits_m()).collect())
+    truths(demand, weights.stripes(), (Rates::weighted(weights, units), units), targets_per_year, confidence)
+}
+
+fn limits(
+    demand: &PooledDemand,
+    weights: &StripeWeights,
+    rates: (Rates, &[Vec<usize>]),
+    targets_per_year: &[f64],
+    asked: (&[usize], f64),
+) -> Result<Vec<InferredLimits>, RiskError> {
+    let of = |[truth, prediction]: [Search; 2]| InferredLimits {
+        truth_m: truth.limits_m(),
+        prediction_m: prediction.limits_m(),
+    };
+    Ok(searches(demand, weights, rates, targets_per_year, asked)?.into_iter().map(of).collect())
+}
+
+fn truths(
+    demand: &PooledDemand,
+    weights: &StripeWeights,
+    (rates, units): (Rates, &[Vec<usize>]),
+    targets_per_year: &[f64],
+    confidence: f64,
+) -> Result<Vec<[f64; 2]>, RiskError> {
+    let asked = (&[units.len()][..], confidence);
+    let found = searches(demand, weights, (rates, units), targets_per_year, asked)?;
+    Ok(found.into_iter().map(|[truth]: [Search; 1]| truth.limits_m()).collect())
 }
 
 /// The bands of each target and size, `[target, size]`: that of the truth and, of two `KINDS`, that of another set.
@@ -137,7 +150,7 @@ fn searches<const KINDS: usize>(
     let (least_target, largest_quantile) =
         (rising.first().map_or(0.0, |own| own.0), quantiles.at(LEAST_FREEDOM.min(all - 1)));
     let mut look = |rates: &Rates, from_m: f64, to_m: f64| {
-        // most of a fall is above every band, where the mean alone tells; with other sizes it does not
+        // a fall begins far above every band, where the mean alone tells; with other sizes it does not
         if KINDS == 1 && rates.is_far_below(least_target, largest_quantile) {
             return true;
         }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use uplift_job::JobError;
 use uplift_job::events::Events;
+use uplift_job::text::counted;
 use uplift_motion::{Combination, RecordPair};
 use uplift_spectra::{MotionSet, RecordOfSet};
 use uplift_study::{DisplacementStudy, RecordSource, SetPlan, SetRecords};
@@ -192,10 +193,10 @@ pub fn read_sets(
         .map(|(pair, checksums)| SetRecord { pair, checksums, vertical: verticals.next() })
         .collect();
     let kind = if synthetic { "synthetic" } else { "recorded" };
-    let noun = if records.len() == 1 { "pair" } else { "pairs" };
+    let pairs = counted(records.len(), &format!("{kind} pair"));
     let into = if sets.len() == 1 { "one set".to_owned() } else { format!("{} sets", sets.len()) };
     let chosen = if select.is_empty() { String::new() } else { format!(", {select}") };
-    let description = format!("{} {kind} {noun} ({source}{chosen}) in {into}, both components", records.len());
+    let description = format!("{pairs} ({source}{chosen}) in {into}, both components");
     let description = if with_vertical { format!("{description}, with the vertical one") } else { description };
     Ok(RecordSets { description, synthetic, records, sets, notes })
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use uplift::spectrum::SpectrumReport;
 use uplift::text::{
-    Table, cell_with_band, kind_of_risks, metres_with_named_band, per_cent, risk_in_words, risk_name, rounded,
+    Table, cell_with_band, counted, kind_of_risks, metres_with_named_band, per_cent, risk_in_words, risk_name, rounded,
 };
 use uplift::uniform_risk::{BandOf, CONFIDENCE, Displacement, DisplacementReport};
 
@@ -54,14 +54,13 @@ pub(super) fn print_displacements(
     let sites = rows.chunk_by(|a, b| a[0].site == b[0].site).count();
     let risks = rows.len() / sites.max(1);
     if !terminal.is_quiet() {
-        let several = if sites == 1 { "site" } else { "sites" };
-        let made = if report.synthetic { " synthetic" } else { "" };
+        let record = if report.synthetic { "synthetic record" } else { "record" };
         let kind = if report.repaired { "Repaired uniform risk spectra" } else { "Uniform risk spectra" };
         let poes: Vec<f64> = rows.iter().map(|row| row[0].poe).collect();
         let risk = if risks == 1 { Some(risk(first)) } else { kind_of_risks(&poes, first.years) };
         let risk = risk.map_or_else(String::new, |risk| format!("{risk}, "));
-        let records = if report.records == 1 { "record" } else { "records" };
-        writeln!(out, "\n{kind}, {sites} {several}, {}{made} {records}, {risk}by {}", report.records, first.im)?;
+        let [sites, records] = [counted(sites, "site"), counted(report.records, record)];
+        writeln!(out, "\n{kind}, {sites}, {records}, {risk}by {}", first.im)?;
         let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
         let is_banded = report.displacements.iter().any(|own| own.band_m.is_some());
         // wider than the number of records suggests
