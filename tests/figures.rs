@@ -39,7 +39,7 @@ use uplift::inputs::{RecordSets, read_record_sets};
 use uplift_motion::RecordPair;
 use uplift_study::{AnyStudy, Study};
 
-use crate::common::{real_records, repository};
+use crate::common::{command, python, real_records, repository};
 
 /// The options that make a study run on the 105 real records.
 fn with_real_records() -> Option<[String; 4]> {
@@ -67,6 +67,17 @@ fn record_sets(settings: &[String]) -> Option<RecordSets> {
         AnyStudy::Displacement(study) => Some(read_record_sets(&study, &Silent).unwrap()),
         _ => panic!("{} is of another kind", file.display()),
     }
+}
+
+#[test]
+#[ignore = "long: make test-long"]
+fn the_gallery_shows_what_is_printed() {
+    let Some(python) = python() else { return };
+    let program = command(repository()).get_program().to_owned();
+    let mut compared = std::process::Command::new(python);
+    compared.arg(repository().join("tests/outputs")).arg("--program").arg(program).arg("docs/gallery.md");
+    let output = compared.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
 }
 
 /// A spectrum's ordinates as a `.urs.csv` has them: site, measure, probability, strength, displacement in m.
