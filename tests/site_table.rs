@@ -313,6 +313,132 @@ fn definitions_of_the_measure_are_kept_apart_as_for_sites() {
     assert_eq!(halved["Alpha PGV 0.1"], written["Alpha PGV 0.1"]);
 }
 
+/// The numbers of many sites beside a result.
+fn cube(at: &Path, result: &str) -> LabelledReader {
+    LabelledReader::open(&at.join(format!("{result}.sites.h5"))).unwrap()
+}
+
+#[test]
+fn arrays_hold_what_the_tables_hold() {
+    let study = many(&format!("{}{SECTION}strengths = [0.2, 0.4]\nbands = true\n", without_sites()));
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    let reader = cube(study.path(), "r");
+    let u_m = reader.array_f64("/urs/u_m").unwrap();
+    assert_eq!(u_m.dims, ["site", "measure", "poe", "strength"]);
+    assert_eq!(u_m.shape, [7, 2, 3, 2]);
+    let columns = ["u_m", "lower_m", "upper_m"];
+    let spectra = rows(&read(study.path(), "r.sites.csv"), &columns);
+    let fits = rows(&read(study.path(), "r.sites.coefficients.csv"), &["c0_m", "c1", "c2_m", "rmse_m", "problem"]);
+    let flags = reader.array_u8("/urs/flag").unwrap().values;
+    let problems = reader.array_text("/urs/problem").unwrap().values;
+    let [sites, measures] = ["site", "measure"].map(|axis| reader.axis_text(axis).unwrap());
+    let poes = reader.axis_f64("poe").unwrap();
+    for (number, &site) in ["Alpha", "3", "Sea", "Gamma", "Alpha again", "Nowhere"].iter().enumerate() {
+        let place = number + 1; // a comma in the first name
+        assert_eq!(sites[place], site);
+        for (m, measure) in measures.iter().enumerate() {
+            for (p, poe) in poes.iter().enumerate() {
+                let (key, fit) = (format!("{site} {} {poe}", measure.to_uppercase()), (place * 2 + m) * 3 + p);
+                for (column, name) in columns.iter().enumerate() {
+                    let own = &reader.array_f64(&format!("/urs/{name}")).unwrap().values[2 * fit..][..2];
+                    match spectra.get(&key) {
+                        Some(rows) => {
+                            let theirs: Vec<f64> = rows.iter().map(|row| row[column].parse().unwrap()).collect();
+                            assert_eq!(own, theirs, "{key} {name}");
+                        }
+                        None => assert!(own.iter().all(|value| value.is_nan()), "{key} {name}"),
+                    }
+                }
+                assert_eq!(flags[2 * fit] == 3, !spectra.contains_key(&key), "{key}");
+                let theirs = &fits[&key][0];
+                for (column, name) in ["c0_m", "c1", "c2_m", "rmse_m"].iter().enumerate() {
+                    let own = reader.array_f64(&format!("/urs/{name}")).unwrap().values[fit];
+                    assert_eq!(
+                        theirs[column].parse::<f64>().ok(),
+                        Some(own).filter(|own| !own.is_nan()),
+                        "{key} {name}"
+                    );
+                }
+                assert_eq!(theirs[4], problems[fit].split(',').next().unwrap(), "{key}");
+            }
+        }
+    }
+    study.uplift(&["verify", "r.sites.h5"]).ok();
+    // without tables the arrays alone
+    study.uplift(&["run", "study.toml", "-o", "alone.h5", "--set", "output.csv=false"]).ok();
+    assert!(!study.path().join("alone.sites.csv").exists());
+    assert_eq!(cube(study.path(), "alone").array_f64("/urs/u_m").unwrap().values.len(), u_m.values.len());
+    // and another file of that name is nobody's to replace
+    study.write("mine.sites.h5", "mine");
+    study.uplift(&["run", "study.toml", "-o", "mine.h5"]).fails(2, &["mine.sites.h5", "is there already"]);
+}
+
+#[test]
+fn slices_joined_are_the_whole_table() {
+    let study = many(&format!("{}{SECTION}bands = true\n", without_sites()));
+    study.uplift(&["run", "study.toml", "-o", "whole.h5"]).ok();
+    let repair = ["--set", "consistency.repair=\"weights\""];
+    study.uplift(&[&["run", "study.toml", "-o", "repaired.h5"][..], &repair].concat()).ok();
+    for (whole, more) in [("whole", &[][..]), ("repaired", &repair)] {
+        let set = [&["--set", "output.file=\"part.h5\""][..], more].concat();
+        for slice in ["1/3", "2/3", "3/3"] {
+            let done = study.uplift(&[&["run", "study.toml", "--force", "--sites", slice][..], &set].concat()).ok();
+            // only the first of all computes stripes
+            let known = slice != "1/3" || whole == "repaired";
+            assert_eq!(done.stderr.contains("resumed"), known, "{}", done.stderr);
+        }
+        let again = study.uplift(&[&["run", "study.toml", "--sites", "2/3"][..], &set].concat()).ok();
+        assert!(again.stdout.contains("done already"), "{}", again.stdout);
+        let slices = ["part.slice-3-of-3.h5", "part.slice-1-of-3.h5", "part.slice-2-of-3.h5"];
+        let cubes = slices.map(|slice| slice.replace(".h5", ".sites.h5"));
+        let paths = slices.into_iter().chain(cubes.iter().map(String::as_str));
+        let merge: Vec<&str> =
+            ["merge", "study.toml"].into_iter().chain(paths).chain(["-o", "joined.h5", "--force"]).collect();
+        study.uplift(&[&merge[..], more].concat()).ok();
+        assert_eq!(files(study.path(), whole), files(study.path(), "joined"));
+        let [one, other] = [whole, "joined"].map(|name| cube(study.path(), name));
+        let names = if more.is_empty() { &["urs"][..] } else { &["urs", "consistent"] };
+        for name in names.iter().flat_map(|group| ["u_m", "lower_m", "c1"].map(|name| format!("/{group}/{name}"))) {
+            let bits = |of: &LabelledReader| {
+                of.array_f64(&name).unwrap().values.iter().map(|v| v.to_bits()).collect::<Vec<_>>()
+            };
+            assert_eq!(bits(&one), bits(&other), "{name}");
+        }
+        let [one, other] = [whole, "joined"].map(|name| study.uplift(&["warnings", &format!("{name}.h5")]).ok().stdout);
+        assert_eq!(one, other.replace("joined", whole));
+    }
+}
+
+#[test]
+fn slices_that_do_not_make_the_table_are_refused() {
+    let study = many(&format!("{}{SECTION}", without_sites()));
+    for slice in ["1/3", "2/3", "3/3", "1/2"] {
+        study.uplift(&["run", "study.toml", "--sites", slice, "-q"]).ok();
+    }
+    let [one, two, three] = [1, 2, 3].map(|number| format!("results/study.slice-{number}-of-3.h5"));
+    let merge = |slices: &[&str]| study.uplift(&[&["merge", "study.toml"][..], slices, &["-o", "joined.h5"]].concat());
+    merge(&[&one, &three]).fails(4, &["1 slice missing: 2/3", "--sites 2/3"]);
+    study.write("copy.h5", "");
+    std::fs::copy(study.path().join(&one), study.path().join("copy.h5")).unwrap();
+    merge(&[&one, "copy.h5", &two, &three]).fails(4, &["copy.h5: slice 1/3 is there twice, as results/study.slice-1"]);
+    merge(&[&one, &two, &three, "results/study.slice-1-of-2.h5"]).fails(4, &["of 2 and 3"]);
+    merge(&[&one, "results/study.shard-1-of-2"]).fails(2, &["is a result, and others are shards"]);
+    let other = ["merge", "study.toml", &one, &two, &three, "-o", "joined.h5", "--set", "risk.years=10"];
+    study.uplift(&other).fails(4, &["slice-1-of-3.h5: is a slice of another study"]);
+    study.uplift(&["run", "study.toml", "-o", "whole.h5", "-q"]).ok();
+    merge(&["whole.h5", &two]).fails(4, &["whole.h5: is no slice of a table"]);
+    // a table that was edited is not joined
+    let table = "results/study.slice-2-of-3.sites.csv";
+    study.write(table, &read(study.path(), table).replacen("PGV", "PGA", 1));
+    merge(&[&one, &two, &three]).fails(4, &["slice-2-of-3.sites.csv: is missing, or was changed", "--again"]);
+    study.uplift(&["run", "study.toml", "--sites", "2/3", "-q", "--again"]).ok();
+    merge(&[&one, &two, &three]).ok();
+    std::fs::remove_file(study.path().join("results/study.slice-3-of-3.sites.h5")).unwrap();
+    study.uplift(&["merge", "study.toml", &one, &two, &three, "-o", "j.h5"]).fails(4, &["slice-3-of-3.sites.h5"]);
+    study.uplift(&["run", "study.toml", "--sites", "8/8"]).fails(4, &["has 7 sites: at most 7 slices"]);
+    study.uplift(&["run", "study.toml", "--sites", "0/8"]).fails(2, &["write 3/1000"]);
+}
+
 #[test]
 fn mistakes_in_the_study() {
     let study = many(&format!("{}{SECTION}", without_sites()));
@@ -324,6 +450,7 @@ fn mistakes_in_the_study() {
         ("site_table.within=3", &["unknown key `within`", "within_km"]),
         ("site_table=3", &["a section"]),
         ("site_table.bands=3", &["bands", "true or false"]),
+        ("site_table.slice=\"9/3\"", &["\"9/3\" is no slice", "write 3/1000"]),
     ] {
         study.uplift(&["check", "study.toml", "--set", set]).fails(3, words);
     }

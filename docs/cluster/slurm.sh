@@ -14,6 +14,8 @@
 # on where it stopped, finished ones end at once, and the join waits for all of them. Keep SHARDS as it was: the
 # division is part of a shard.
 #
+# A large table of sites is cut into SLICES as well: further jobs compute them, and the last one joins them.
+#
 # The program is `uplift` in your PATH, or what the variable UPLIFT says; a task has CPUS threads (8 unless you set it):
 # more threads and fewer shards, or the other way, are the same to the result and almost so to the time. Account,
 # partition and the like are Slurm's own variables (man sbatch, "INPUT ENVIRONMENT VARIABLES"), which go before the
@@ -33,9 +35,11 @@ set -euo pipefail
 uplift=${UPLIFT:-uplift}
 usage="usage: $0 STUDY.toml SHARDS [RESULT.h5]"
 study=${1:?$usage} shards=${2:?$usage} result=${3:-results/$(basename "$study" .toml).h5} step=${4:-submit}
+slices=${SLICES:-1}
 
-# The file of a shard, as `uplift run --shard` names it.
+# The files of a shard and of a slice, as `uplift run` names them.
 shard() { printf '%s.shard-%0*d-of-%d' "${result%.h5}" "${#shards}" "$1" "$shards"; }
+slice() { printf '%s.slice-%0*d-of-%d.h5' "${result%.h5}" "${#slices}" "$1" "$slices"; }
 
 case $step in
 submit)
@@ -49,6 +53,12 @@ submit)
     # afterok: once every task has ended well; where one has not, the join is taken out of the queue
     join=$("${submit[@]}" --job-name=uplift-join --dependency="afterok:${stripes%%;*}" --kill-on-invalid-dep=yes \
         --output="$log.join.log" "$0" "$study" "$shards" "$result" join)
+    if [ "$slices" != 1 ]; then
+        sites=$("${submit[@]}" --job-name=uplift-sites --array="2-$slices" --dependency="afterok:${join%%;*}" \
+            --kill-on-invalid-dep=yes --output="$log.sites.%a.log" "$0" "$study" "$shards" "$result" sites)
+        join=$("${submit[@]}" --job-name=uplift-join --dependency="afterok:${sites%%;*}" --kill-on-invalid-dep=yes \
+            --output="$log.join-sites.log" "$0" "$study" "$shards" "$result" join-sites)
+    fi
     echo "stripes: job ${stripes%%;*}, $shards tasks; join: job ${join%%;*}. Logs: $log.*.log;" \
         "how far it is: $uplift status $result"
     ;;
@@ -61,9 +71,21 @@ stripes)
 join)
     files=()
     for ((index = 1; index <= shards; index++)); do files+=("$(shard "$index")"); done
-    "$uplift" merge "$study" "${files[@]}" --output "$result" --threads "$SLURM_CPUS_PER_TASK"
+    joined=$result sites=()
+    [ "$slices" = 1 ] || { joined=$(slice 1) && sites=(--sites "1/$slices"); }
+    "$uplift" merge "$study" "${files[@]}" "${sites[@]}" --output "$joined" --threads "$SLURM_CPUS_PER_TASK"
     # all that was in them is in the result
     rm -f "${files[@]}"
+    ;;
+sites)
+    exec "$uplift" run "$study" --sites "$SLURM_ARRAY_TASK_ID/$slices" --output "$(slice "$SLURM_ARRAY_TASK_ID")" \
+        --threads "$SLURM_CPUS_PER_TASK"
+    ;;
+join-sites)
+    files=()
+    for ((index = 1; index <= slices; index++)); do files+=("$(slice "$index")"); done
+    "$uplift" merge "$study" "${files[@]}" --output "$result" --threads "$SLURM_CPUS_PER_TASK"
+    for file in "${files[@]}"; do rm -f "${file%.h5}".*; done
     ;;
 *)
     echo "$usage" >&2

@@ -77,7 +77,8 @@ compare() {
     "$uplift" verify results/study.h5 >/dev/null || fail "$1: the result is not whole"
     "$repository/.venv/bin/python" "$repository/tests/cluster/same.py" whole.h5 results/study.h5 ||
         fail "$1: other numbers"
-    ! ls results/study.shard-* 2>/dev/null || fail "$1: shards are left"
+    cmp whole.sites.csv results/study.sites.csv || fail "$1: other spectra of the table of sites"
+    ! ls results/study.s[hl]* 2>/dev/null || fail "$1: shards or slices are left"
     rm -r results
     ran+=("$1")
 }
@@ -88,6 +89,7 @@ in_slurm() {
     local version first said
     version="slurm ($(sinfo --version))"
     export SBATCH_MEM_PER_NODE=400
+    export SLICES=3
     said=$(CPUS=1 "$repository/docs/cluster/slurm.sh" study.toml 3)
     echo "$said"
     first=$(sed -n 's/.*stripes: job \([0-9]*\).*/\1/p' <<<"$said")
@@ -100,8 +102,9 @@ in_slurm() {
     [ ! -e results/study.h5 ] || fail "$version: a result of an array that was stopped"
     CPUS=1 "$repository/docs/cluster/slurm.sh" study.toml 3
     until_true 300 queue_is_empty || fail "$version: the jobs do not end"
+    unset SLICES
     grep -qh "^known " results/logs/*.log || fail "$version: nothing was taken over of the $written bytes written"
-    compare "$version, an array of 3, cancelled and submitted again"
+    compare "$version, an array of 3 and 3 slices, cancelled and submitted again"
 }
 
 in_hyperqueue() {
@@ -148,7 +151,19 @@ conversions = [{ from = "GMRotI50", to = "geometric mean", pgv = 1.0, pga = 1.0 
 name = "Athens"
 pgv = "$repository/hazard/athens/pgv.csv"
 pga = "$repository/hazard/athens/pga.csv"
+[site_table]
+pgv = "many.csv"
 STUDY
+awk 'BEGIN {
+    print "#,,\"kind=\047mean\047, investigation_time=1.0, imt=\047PGV\047\""
+    printf "lon,lat"
+    for (level = 0.05; level < 400; level *= 2) printf ",poe-%.4f", level
+    for (site = 1; site < 9; site++) {
+        printf "\n%d,45", site
+        for (level = 0.05; level < 400; level *= 2) printf ",%.6e", 1 - exp(-0.02 * site / level ^ 2)
+    }
+    print ""
+}' >many.csv
 "$uplift" run study.toml --quiet -o whole.h5
 export UPLIFT=$uplift
 for part in $parts; do

@@ -269,11 +269,20 @@ impl LabelledWriter {
         long_name: &str,
     ) -> Result<(), LabelledError> {
         self.check_path(path)?;
-        let (shape, scales) = self.shape(path, dims)?;
+        let shape: Vec<usize> = self.scales(path, dims)?.into_iter().map(|(length, _)| length).collect();
         if shape.iter().product::<usize>() != values.len() {
             let reason = format!("{} values for the shape {shape:?} of {dims:?}", values.len());
             return Err(self.misuse(path, reason));
         }
+        let shape = self.prepare(path, dims)?;
+        let dataset = self.dataset(path, &shape, values, unit, long_name)?;
+        self.attach(path, dims, &dataset)
+    }
+
+    /// Makes room for an array at `path`: its group, with the axes visible in it. Returns the lengths of the axes.
+    pub(super) fn prepare(&mut self, path: &str, dims: &[&str]) -> Result<Vec<usize>, LabelledError> {
+        self.check_path(path)?;
+        let shape = self.scales(path, dims)?.into_iter().map(|(length, _)| length).collect();
         let group = path.rsplit_once('/').map_or("", |(group, _)| group);
         if !group.is_empty() {
             self.group(group)?;
@@ -281,11 +290,16 @@ impl LabelledWriter {
         for dim in dims {
             self.link(group, dim)?;
         }
-        let dataset = self.dataset(path, &shape, values, unit, long_name)?;
+        Ok(shape)
+    }
+
+    /// Ties the array at `path` to its axes.
+    pub(super) fn attach(&mut self, path: &str, dims: &[&str], dataset: &Dataset) -> Result<(), LabelledError> {
         if dims.is_empty() {
             return Ok(());
         }
-        self.check(dimension_scale::attach(&dataset, dims, &scales), "write", path)?;
+        let scales: Vec<ObjectReference1> = self.scales(path, dims)?.into_iter().map(|(_, scale)| scale).collect();
+        self.check(dimension_scale::attach(dataset, dims, &scales), "write", path)?;
         let reference = self.check(self.file.reference(path), "refer to", path)?;
         for (dimension, dim) in (0..).zip(dims) {
             if let Some(axis) = self.axes.get_mut(*dim) {
@@ -296,7 +310,7 @@ impl LabelledWriter {
     }
 
     /// Lengths and references of the axes `dims`.
-    fn shape(&self, path: &str, dims: &[&str]) -> Result<(Vec<usize>, Vec<ObjectReference1>), LabelledError> {
+    fn scales(&self, path: &str, dims: &[&str]) -> Result<Vec<(usize, ObjectReference1)>, LabelledError> {
         if dims.iter().collect::<BTreeSet<_>>().len() < dims.len() {
             return Err(self.misuse(path, format!("an axis is named twice in {dims:?}")));
         }
@@ -322,7 +336,7 @@ impl LabelledWriter {
         Ok(())
     }
 
-    /// Writes the values, `units` and `long_name` of an array or axis.
+    /// Writes an array or axis with its attributes.
     fn dataset<T: H5Type + Hashed>(
         &mut self,
         path: &str,
@@ -331,28 +345,43 @@ impl LabelledWriter {
         unit: Option<&str>,
         long_name: &str,
     ) -> Result<Dataset, LabelledError> {
+        let dataset = self.create_dataset::<T>(path, shape, unit, long_name)?;
+        let write = || {
+            dataset.write_raw::<_, T>(values)?;
+            attribute::write(&dataset, CHECKSUM, &of_values(values).into())?;
+            // Closing writes what the library has kept back, and tells nobody when that fails: flush, which does tell.
+            dataset.flush()
+        };
+        self.check(write(), "write", path)?;
+        Ok(dataset)
+    }
+
+    /// Makes an array or axis of this `shape` with its `units` and `long_name`, and without values.
+    pub(super) fn create_dataset<T: H5Type>(
+        &mut self,
+        path: &str,
+        shape: &[usize],
+        unit: Option<&str>,
+        long_name: &str,
+    ) -> Result<Dataset, LabelledError> {
         if self.file.link_exists(path) {
             return Err(self.misuse(path, "it is there already".into()));
         }
-        let write = || {
+        let create = || {
             let mut builder = self.file.new_dataset::<T>().shape(shape).obj_track_times(false);
             // A variable-length text lies outside the array: there is nothing to compress.
             let text = T::type_descriptor() == VarLenUnicode::type_descriptor();
-            if !text && size_of_val(values) > COMPRESS_ABOVE_BYTES {
+            if !text && shape.iter().product::<usize>() * size_of::<T>() > COMPRESS_ABOVE_BYTES {
                 builder = builder.chunk(chunk_shape(shape, size_of::<T>())).shuffle().deflate(DEFLATE_LEVEL);
             }
             let dataset = builder.create(path)?;
-            dataset.write_raw::<_, T>(values)?;
             if let Some(unit) = unit {
                 attribute::write(&dataset, "units", &unit.into())?;
             }
             attribute::write(&dataset, "long_name", &long_name.into())?;
-            attribute::write(&dataset, CHECKSUM, &of_values(values).into())?;
-            // Closing writes what the library has kept back, and tells nobody when that fails: flush, which does tell.
-            dataset.flush()?;
             Ok(dataset)
         };
-        let dataset = self.check(write(), "write", path)?;
+        let dataset = self.check(create(), "write", path)?;
         if dataset.is_chunked() {
             self.chunks.push(path.to_owned());
         }
@@ -383,11 +412,16 @@ impl LabelledWriter {
         }
     }
 
-    fn check<T>(&self, result: hdf5::Result<T>, action: &'static str, object: &str) -> Result<T, LabelledError> {
+    pub(super) fn check<T>(
+        &self,
+        result: hdf5::Result<T>,
+        action: &'static str,
+        object: &str,
+    ) -> Result<T, LabelledError> {
         result.map_err(|error| hdf5_error(self.place.target(), action, object, &error))
     }
 
-    fn misuse(&self, object: &str, reason: String) -> LabelledError {
+    pub(super) fn misuse(&self, object: &str, reason: String) -> LabelledError {
         LabelledError::Misuse { path: self.place.target().to_owned(), object: object.to_owned(), reason }
     }
 }
@@ -418,7 +452,7 @@ fn is_axis_name(name: &str) -> bool {
 }
 
 /// Whole trailing dimensions in a chunk, as many as fit into [`CHUNK_BYTES`].
-fn chunk_shape(shape: &[usize], element_bytes: usize) -> Vec<usize> {
+pub(super) fn chunk_shape(shape: &[usize], element_bytes: usize) -> Vec<usize> {
     let mut left = (CHUNK_BYTES / element_bytes).max(1);
     let mut chunk: Vec<usize> = shape
         .iter()

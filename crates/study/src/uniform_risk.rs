@@ -58,7 +58,7 @@ pub(crate) use oscillator::{FREE_VIBRATION, RESTITUTION};
 pub use records::Records;
 pub use regression::Regression;
 pub use risk::{Contour, Risk};
-pub use site_table::SiteTable;
+pub use site_table::{SiteSlice, SiteTable};
 pub use sites::Site;
 pub use warnings::usual_top_level;
 

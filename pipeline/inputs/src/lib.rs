@@ -35,5 +35,7 @@ pub use other_unit::{POE, curve_line, file_of, unit_of_branch, unit_that_explain
 pub use record_set::{Record, RecordSet, read_measured, read_records, read_with_pairs};
 pub use record_sets::{NamedSet, RecordSets, SetRecord, is_numbered, read_record_sets, read_sets};
 pub use rocking_frame::{TORSION, model_of, rocking_frame};
-pub use site_table::{BatchSite, ListedSite, SharedCurve, SiteCurves, SiteExport, SiteList, read_site_list};
+pub use site_table::{
+    BatchSite, ListedSite, SharedCurve, SiteCurves, SiteExport, SiteList, read_site_list, site_table_checksums,
+};
 pub use third_component::Vertical;

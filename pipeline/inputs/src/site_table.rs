@@ -7,6 +7,7 @@ mod export;
 mod places;
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
@@ -24,6 +25,8 @@ use uplift_job::text::thousands;
 use uplift_study::{MeasurePlan, Repair, SiteTable, UniformRiskStudy};
 
 const SITES_NAMED: usize = 4;
+/// How the files of a table of sites are called among the inputs of a result.
+const TABLE: &str = "site table";
 
 /// A site of the table.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,6 +53,8 @@ impl ListedSite {
 pub struct SiteList {
     /// The sites in the order of the table, or of the first export where there is no table.
     pub sites: Vec<ListedSite>,
+    /// Positions of those that are asked for: the whole table, or a slice of it.
+    pub range: Range<usize>,
     /// Names of further columns of the table.
     pub carried: Vec<String>,
     /// The exports of the measures that the study is analysed by, in their order.
@@ -116,8 +121,14 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Inpu
         Some(places) => (places.sites, places.carried),
         None => (first.sites(), Vec::new()),
     };
-    let (notes, checksums) = (Vec::new(), BTreeMap::new());
-    let mut list = SiteList { sites, carried, exports: Vec::new(), compared: Vec::new(), notes, checksums };
+    let (notes, checksums) = (Vec::new(), site_table_checksums(study)?);
+    let range = table.slice.map_or(0..sites.len(), |slice| slice.range(sites.len()));
+    if table.slice.is_some_and(|slice| slice.count > sites.len()) {
+        let most = count(sites.len());
+        let words = format!("site_table.slice: the table has {most} sites: at most {most} slices");
+        return Err(JobError::input(words).into());
+    }
+    let mut list = SiteList { sites, range, carried, exports: Vec::new(), compared: Vec::new(), notes, checksums };
     let mut failures = Vec::new();
     let mut any_works = false;
     for (number, (read, path, index)) in found.iter().enumerate() {
@@ -134,8 +145,7 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Inpu
         let label = measure.label();
         failures.extend(list.without_hazard(label, path, index, &rows, table.within_km));
         list.notes.extend(index.notes.iter().cloned());
-        let checksum = summed(path)?;
-        list.checksums.insert(format!("site table {label}"), checksum.clone());
+        let checksum = list.checksums.get(&format!("{TABLE} {label}")).cloned().unwrap_or_default();
         let items = rows.iter().map(|row| row.map(|row| row.item)).collect();
         let path = (*path).to_owned();
         let export = SiteExport { measure, path, checksum, items, within_km: table.within_km };
@@ -146,10 +156,21 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Inpu
         return Err(JobError::Inputs(failures).into());
     }
     list.notes.splice(0..0, failures);
-    if let Some(path) = &table.sites {
-        list.checksums.insert("site table".to_owned(), summed(path)?);
-    }
     Ok(Some(list))
+}
+
+/// Name to SHA-256 of each file of the study's table of sites that is read.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn site_table_checksums(study: &UniformRiskStudy) -> Result<BTreeMap<String, String>, InputsError> {
+    let Some(table) = &study.site_table else { return Ok(BTreeMap::new()) };
+    let exports = to_be_read(study, table).filter_map(|read| {
+        let path = table.export(read.measure())?;
+        Some((format!("{TABLE} {}", read.measure().label()), path))
+    });
+    let sites = table.sites.as_deref().map(|path| (TABLE.to_owned(), path));
+    exports.chain(sites).map(|(name, path)| Ok((name, summed(path)?))).collect()
 }
 
 /// What an export is read for.
@@ -202,7 +223,12 @@ impl SiteList {
             let found = export.items.iter().flatten().count();
             format!("{} found in the export of {}", count(found), export.measure.label())
         });
-        format!("{}; {}", count(self.sites.len()), exports.collect::<Vec<_>>().join(", "))
+        let slice = if self.range.len() < self.sites.len() {
+            format!("{} of ", count(self.range.len()))
+        } else {
+            String::new()
+        };
+        format!("{slice}{}; {}", count(self.sites.len()), exports.collect::<Vec<_>>().join(", "))
     }
 
     /// What keeps sites from having spectra of a measure, counted, the first ones named.
@@ -277,15 +303,15 @@ pub struct BatchSite {
 pub struct SiteCurves<'a> {
     list: &'a SiteList,
     streams: Vec<Stream>,
-    next: usize,
+    left: Range<usize>,
 }
 
 impl<'a> SiteCurves<'a> {
-    /// Opens the exports again.
+    /// Opens the exports again for the sites at the positions of `range`.
     ///
     /// # Errors
     /// An export that cannot be read, or is not any more what it was.
-    pub fn open(list: &'a SiteList) -> Result<Self, InputsError> {
+    pub fn open(list: &'a SiteList, range: Range<usize>) -> Result<Self, InputsError> {
         let stream = |export: &SiteExport| {
             if summed(&export.path)? != export.checksum {
                 return Err(JobError::input(format!(
@@ -294,10 +320,10 @@ impl<'a> SiteCurves<'a> {
                 ))
                 .into());
             }
-            Stream::open(&export.path, export.items.iter().copied().flatten())
+            Stream::open(&export.path, export.items[range.clone()].iter().copied().flatten())
         };
         let streams = list.all_exports().map(stream).collect::<Result<_, _>>()?;
-        Ok(Self { list, streams, next: 0 })
+        Ok(Self { list, streams, left: range })
     }
 
     /// The next sites, at most so many; none at the end.
@@ -305,8 +331,8 @@ impl<'a> SiteCurves<'a> {
     /// # Errors
     /// An export that cannot be read any more.
     pub fn next_batch(&mut self, most: usize) -> Result<Vec<BatchSite>, InputsError> {
-        let end = self.list.sites.len().min(self.next + most);
-        let batch = (self.next..end)
+        let end = self.left.end.min(self.left.start + most);
+        let batch = (self.left.start..end)
             .map(|site| {
                 let curves = self.list.all_exports().zip(&mut self.streams).map(|(export, stream)| {
                     match export.items.get(site).copied().flatten() {
@@ -319,7 +345,7 @@ impl<'a> SiteCurves<'a> {
                 Ok(BatchSite { site, curves: curves.collect::<Result<_, _>>()? })
             })
             .collect::<Result<_, InputsError>>()?;
-        self.next = end;
+        self.left.start = end;
         Ok(batch)
     }
 }

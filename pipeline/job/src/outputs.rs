@@ -11,6 +11,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use uplift_atomic_file::AtomicFile;
+use uplift_labelled::LabelledReader;
 
 use crate::error::JobError;
 pub use metadata::{metadata_path, metadata_text};
@@ -35,6 +36,9 @@ const TEXT_MARK: &[u8] = b"# uplift ";
 /// All in which spaces count.
 const MARKS: [&[u8]; 7] = [MATLAB_MARK, WORKBOOK_MARK, PNG_MARK, SVG_MARK, PAGE_MARK, NRML_MARK, TEXT_MARK];
 
+/// The attribute `kind` of a file with the numbers of many sites.
+pub const SITES_KIND: &str = "sites";
+
 /// What a file is: how its name ends, and by what one of this program's is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutputKind {
@@ -50,6 +54,8 @@ pub enum OutputKind {
     Nrml,
     /// A map of many sites.
     GeoJson,
+    /// The numbers of many sites as arrays.
+    Sites,
     /// A figure, as its name ends.
     Figure,
     /// The page of a report.
@@ -146,6 +152,7 @@ impl OutputKind {
             Self::Workbook => &["xlsx"],
             Self::Nrml => &["xml"],
             Self::GeoJson => &["geojson"],
+            Self::Sites => &["h5"],
             Self::Figure => &["svg", "png"],
             Self::Page => &["html"],
             Self::Remarks => &["txt"],
@@ -182,9 +189,16 @@ impl OutputKind {
             Self::Page => contains(head, PAGE_MARK),
             Self::Nrml => contains(head, NRML_MARK),
             Self::Remarks => head.starts_with(TEXT_MARK),
+            Self::Sites => is_sites(path),
             Self::Manifest | Self::Curve | Self::Record => false,
         }
     }
+}
+
+/// Whether the file at `path` holds the numbers of many sites as arrays.
+pub fn is_sites(path: &Path) -> bool {
+    let kind = LabelledReader::open(path).and_then(|reader| reader.attribute_text("/", "kind"));
+    kind.is_ok_and(|kind| kind == SITES_KIND)
 }
 
 /// Refuses `outputs` that would replace one of the `inputs`, or without `force` something else than an earlier output

@@ -26,6 +26,8 @@ pub struct RunOptions {
     /// Further results of which stripes are taken, where they are of the same motion, intensity, oscillator, strength
     /// and level.
     pub earlier: Vec<PathBuf>,
+    /// Results of the slices of a table of sites, in order, of which the numbers of the sites are taken.
+    pub slices: Vec<PathBuf>,
 }
 
 impl RunOptions {

@@ -13,7 +13,7 @@ use super::spectra::{flag_number, flag_of};
 use crate::error::ResultError;
 
 /// The flag of an ordinate that does not exist, of records that could not be repaired.
-const NO_ORDINATE: u8 = 3;
+pub const NO_ORDINATE: u8 = 3;
 
 /// What stands in a result for the names in angle brackets of a declaration: `<im>`, `<site>`.
 pub type Names<'a> = &'a [(&'a str, &'a str)];

@@ -42,6 +42,7 @@ pub use bands::{
 };
 pub use consistency::{CONSISTENCY, DIAGNOSES, REPAIRED_FITS, REPAIRED_LEVELS, REPAIRED_SPECTRA, REPAIRS, WEIGHTS};
 pub use consistency::{StoredConsistency, consistency_names};
+pub use declared::NO_ORDINATE;
 pub use design::{BOUNDS, RESTRAINED_DESIGN, ROUNDING, SOLITARY_CAPACITY, SOLITARY_DESIGN, VALUES, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
 pub use displacements::{MOTIONS, ROUNDED_SPECTRA, SET_SPECTRA, SPECTRA};

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use uplift_alarms::alarms;
 use uplift_ida::NUMERICS;
-use uplift_inputs::{input_checksums, read_hazard, read_other_hazard, read_records};
+use uplift_inputs::{input_checksums, read_hazard, read_other_hazard, read_records, site_table_checksums};
 use uplift_job::JobError;
 use uplift_job::events::{Events, Silent};
 use uplift_job::study_run::{RunHead, RunOptions};
@@ -114,9 +114,12 @@ fn is_result_of_any(study: &AnyStudy, path: &Path) -> Result<bool, UpliftError> 
 fn answers(file: &ResultFile, study: &AnyStudy) -> Result<bool, UpliftError> {
     let AnyStudy::UniformRisk(study) = study else { return Ok(true) };
     let kept = file.stored_study()?;
-    let lacks_repair = study.consistency.repair == Repair::Weights && !file.has_repair();
+    let of_sites = study.consistency.repair == Repair::Weights && !study.sites.is_empty();
+    let lacks_repair = of_sites && !file.has_repair();
+    // the files of a table of sites are only written by a run
+    let other_tables = study.site_table.is_some() && study.consistency.repair != kept.consistency.repair;
     let same_question = study.consistency.differing_keys(&kept.consistency).is_empty();
-    Ok(study.bootstrap == kept.bootstrap && same_question && !lacks_repair)
+    Ok(study.bootstrap == kept.bootstrap && same_question && !lacks_repair && !other_tables)
 }
 
 /// Whether the file at `path` holds the stripes and spectra of `study`, made of the same records and hazard curves.
@@ -134,8 +137,9 @@ fn is_result_of(study: &UniformRiskStudy, path: &Path) -> Result<bool, UpliftErr
     let (hazard, _) = read_hazard(study)?;
     let records = read_records(study, &Silent)?;
     let (other_hazard, _) = read_other_hazard(study)?;
-    let provenance = Provenance::new(&RunOptions::default(), input_checksums(&records, &hazard, &other_hazard));
-    if head.input_checksums != provenance.input_checksums {
+    let mut checksums = input_checksums(&records, &hazard, &other_hazard);
+    checksums.extend(site_table_checksums(study)?);
+    if head.input_checksums != checksums {
         return Ok(false);
     }
     Ok(uniform_risk::is_of_records(&file, study, &records.records).unwrap_or(false))

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use uplift_engine::analysis::{ShardReport, hold, join};
+use uplift_engine::checkpoint::FinishedRows;
 use uplift_ida::Shard;
 use uplift_inputs::read_hazard;
 use uplift_job::JobError;
@@ -54,16 +55,27 @@ pub fn check_inputs(study: &AnyStudy, options: &RunOptions, events: &dyn Events)
     Ok(())
 }
 
-/// Joins the `shards` of a run into its result.
+/// Joins the `shards` of a run into its result; or the results of the slices of its table of sites.
 ///
 /// # Errors
-/// Every shard that is missing, there twice, unfinished or of other work, at once; else as [`run`](crate::run()).
+/// Every shard or slice that is missing, there twice, unfinished or of other work, at once; else as
+/// [`run`](crate::run()).
 pub fn merge(
     study: &AnyStudy,
     shards: &[PathBuf],
     options: &RunOptions,
     events: &dyn Events,
 ) -> Result<RunReport, UpliftError> {
+    let is_slice = |path: &&PathBuf| path.extension().is_some_and(|ending| ending == "h5");
+    if let (Some(result), AnyStudy::UniformRisk(study_of_slices)) = (shards.iter().find(is_slice), study) {
+        if !shards.iter().all(|path| is_slice(&path)) {
+            let name = result.display();
+            let words = format!("{name} is a result, and others are shards: give shards, or the results of slices");
+            return Err(JobError::Usage(words).into());
+        }
+        let slices = site_table::sorted_slices(study_of_slices, shards)?;
+        return run_with(study, &RunOptions { slices, ..options.clone() }, FinishedRows::default(), events);
+    }
     let result = options.result_file(&study.output().file);
     let known = match study {
         AnyStudy::UniformRisk(study) => {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use uplift_job::JobError;
 use uplift_job::events::Events;
+use uplift_job::outputs::is_sites;
 use uplift_labelled::{Seal, Verdict, verify as verify_file, verify_bytes};
 use uplift_result::ResultFile;
 
@@ -49,7 +50,7 @@ pub fn verify(files: &[PathBuf], events: &dyn Events) -> Result<VerifyReport, Up
         }
         // what is damaged is not opened; what is whole may still be of another program
         let verdict = verify_file(file).map_err(UpliftError::from).and_then(|verdict| {
-            if verdict.is_sound() {
+            if verdict.is_sound() && !is_sites(file) {
                 ResultFile::open(file)?;
             }
             Ok(verdict)

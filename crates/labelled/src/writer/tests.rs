@@ -251,3 +251,54 @@ fn files_in(folder: &Path) -> Vec<String> {
     names.sort();
     names
 }
+
+#[test]
+fn rows_one_after_the_other_are_the_array_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = 2000_u32;
+    let values: Vec<f64> = (0..rows * 3 * 41).map(|i| f64::from(i).sin()).collect();
+    let flags: Vec<u8> = (0_u8..7).cycle().take(2000).collect();
+    let write = |name: &str, at_once: Option<&[usize]>| {
+        let path = folder.path().join(name);
+        let mut writer = LabelledWriter::create(&path).unwrap();
+        writer.axis_u32("site", &(0..rows).collect::<Vec<_>>(), "1", "site").unwrap();
+        writer.axis_u32("poe", &[0, 1, 2], "1", "probability").unwrap();
+        writer.axis_u32("strength", &(0..41).collect::<Vec<_>>(), "1", "strength").unwrap();
+        let dims = ["site", "poe", "strength"];
+        let Some(parts) = at_once else {
+            writer.array_f64("/urs/u_m", &dims, &values, "m", "displacement").unwrap();
+            writer.array_u8("/flag", &["site"], &flags, "1", "flag").unwrap();
+            writer.finish().unwrap();
+            return fs::read(path).unwrap();
+        };
+        let mut array = writer.grow_f64("/urs/u_m", &dims, "m", "displacement").unwrap();
+        let mut begin = 0;
+        for rows in parts {
+            let end = begin + rows * 3 * 41;
+            writer.append(&mut array, &values[begin..end]).unwrap();
+            begin = end;
+        }
+        writer.complete(array).unwrap();
+        let mut array = writer.grow_u8("/flag", &["site"], "1", "flag").unwrap();
+        flags.chunks(300).for_each(|some| writer.append(&mut array, some).unwrap());
+        writer.complete(array).unwrap();
+        writer.finish().unwrap();
+        LabelledReader::open(&path).unwrap().array_f64("/urs/u_m").unwrap();
+        fs::read(path).unwrap()
+    };
+    let whole = write("whole.h5", None);
+    assert!(whole == write("pieces.h5", Some(&[1, 699, 0, 1000, 300])), "other bytes");
+    assert!(whole == write("rows.h5", Some(&[1; 2000])), "other bytes");
+}
+
+#[test]
+fn rows_too_many_or_too_few_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = LabelledWriter::create(&folder.path().join("a.h5")).unwrap();
+    writer.axis_u32("site", &[1, 2, 3], "1", "site").unwrap();
+    let mut array = writer.grow_f64("/u_m", &["site"], "m", "displacement").unwrap();
+    writer.append(&mut array, &[1.0, 2.0]).unwrap();
+    assert!(matches!(writer.complete(array), Err(LabelledError::Misuse { .. })));
+    let mut array = writer.grow_f64("/v_m", &["site"], "m", "displacement").unwrap();
+    assert!(matches!(writer.append(&mut array, &[0.0; 4]), Err(LabelledError::Misuse { .. })));
+}

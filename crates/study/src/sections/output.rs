@@ -12,9 +12,8 @@ const FILE: Key<File> = file("file")
     .without_default("`results/<name of the study file>.h5` in the current directory")
     .meaning("the result file (HDF5)")
     .note("ends in `.h5`; no folder, no input of the study");
-const CSV: Key<Boolean> = boolean("csv")
-    .with_default(true)
-    .meaning("whether tables are written as CSV beside it; those of `[site_table]` always are");
+const CSV: Key<Boolean> =
+    boolean("csv").with_default(true).meaning("whether tables are written beside it, as CSV and GeoJSON");
 
 /// What is written where.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

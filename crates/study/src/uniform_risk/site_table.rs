@@ -1,6 +1,9 @@
 //! The section `[site_table]`: many sites, their hazard in the exports of an engine.
 
+use std::fmt;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
 use serde::{Serialize, Serializer};
 use uplift_motion::IntensityMeasure;
@@ -8,11 +11,12 @@ use uplift_plausible::DISTANCE;
 
 use super::measures;
 use crate::grid::{Grid, GridRule};
-use crate::keys::{Boolean, File, Key, Number, SectionKeys, boolean, file, grid, number};
+use crate::keys::{Boolean, File, Key, Number, SectionKeys, Text, boolean, file, grid, number, text};
 use crate::reading::{Field, Paths, Rule, Section, optional, quantity};
 use crate::sections::strengths;
 
-pub(super) const KEYS: SectionKeys = SectionKeys::new("site_table", &[&SITES, &EXPORT, &WITHIN_KM, &STRENGTHS, &BANDS]);
+pub(super) const KEYS: SectionKeys =
+    SectionKeys::new("site_table", &[&SITES, &EXPORT, &WITHIN_KM, &STRENGTHS, &BANDS, &SLICE]);
 const SITES: Key<File> = file("sites")
     .without_default("every site of the first export")
     .meaning(
@@ -24,14 +28,14 @@ const EXPORT: Key<File> = file("pgv")
     .also(&["pga", "sa_1s"])
     .without_default("one of a measure that is switched on is needed")
     .meaning(
-        "export of mean hazard curves of any measure, by its name: OpenQuake's CSV, NRML or the JSON of the USGS, PGV \
-         in cm/s and PGA in g as they write them; a repair (`consistency.repair`) holds what the records bring against \
-         that of another measure, switched on or not",
+        "export of mean hazard curves of a measure, named by its key: OpenQuake's CSV, NRML or the JSON of the USGS, \
+         PGV in cm/s and PGA in g as they write them; a repair (`consistency.repair`) uses the curves of a second \
+         measure even if the study is not analysed by it",
     )
     .note("existing file");
 const WITHIN_KM: Key<Number> = number("within_km", "km", Rule::Within(DISTANCE))
     .with_default(1.0)
-    .meaning("farthest distance between a site and the site of the export that is taken for it, the nearest; km");
+    .meaning("largest distance from a site to the nearest site of the export, whose curve it gets; km");
 const STRENGTHS: Key<GridRule> = grid("strengths", strengths::RULE)
     .without_default("all in the table; on the map those nearest to 0.1, 0.2 and 0.4")
     .meaning("strengths whose ordinates are written, a grid")
@@ -39,6 +43,50 @@ const STRENGTHS: Key<GridRule> = grid("strengths", strengths::RULE)
 const BANDS: Key<Boolean> = boolean("bands")
     .with_default(false)
     .meaning("whether each ordinate that is written has its 90 % band; at 20 strengths some five times the time");
+const SLICE: Key<Text> = text("slice")
+    .without_default("the whole table")
+    .meaning("one part of the table: `3/1000` is the third of a thousand; `uplift run --sites 3/1000` sets it");
+
+/// Most slices of a table.
+const MOST_SLICES: usize = 1_000_000;
+
+/// One of several parts of a table of sites, each of neighbours in it: for one machine of many.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SiteSlice {
+    /// Which, from 1.
+    pub number: usize,
+    /// Of how many.
+    pub count: usize,
+}
+
+impl SiteSlice {
+    /// Positions of its sites in a table of so many.
+    pub fn range(self, sites: usize) -> Range<usize> {
+        // a table of sites is in memory: its length times a million is far from the end of 128 bits
+        let end = |number: usize| (sites as u128 * number as u128 / self.count as u128) as usize;
+        end(self.number - 1)..end(self.number)
+    }
+}
+
+impl FromStr for SiteSlice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').map(|(number, count)| [number, count].map(|part| part.trim().parse()));
+        match numbers {
+            Some([Ok(number), Ok(count)]) if (1..=count).contains(&number) && count <= MOST_SLICES => {
+                Ok(Self { number, count })
+            }
+            _ => Err(format!("write 3/1000 for the third of a thousand slices; at most {MOST_SLICES}")),
+        }
+    }
+}
+
+impl fmt::Display for SiteSlice {
+    fn fmt(&self, text: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(text, "{}/{}", self.number, self.count)
+    }
+}
 
 /// Many sites with the exports that hold their hazard curves.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -58,6 +106,9 @@ pub struct SiteTable {
     /// Whether each ordinate that is written has its 90 % band.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub bands: bool,
+    /// The part of the table that is computed; if none, the whole.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "write_slice")]
+    pub slice: Option<SiteSlice>,
 }
 
 impl SiteTable {
@@ -70,6 +121,11 @@ impl SiteTable {
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         self.sites.iter().chain(self.exports.iter().map(|(_, path)| path)).map(PathBuf::as_path)
     }
+}
+
+#[allow(clippy::ref_option)] // as serde calls it
+fn write_slice<S: Serializer>(slice: &Option<SiteSlice>, serializer: S) -> Result<S::Ok, S::Error> {
+    slice.map(|slice| slice.to_string()).serialize(serializer)
 }
 
 fn write_exports<S: Serializer>(exports: &[(IntensityMeasure, PathBuf)], serializer: S) -> Result<S::Ok, S::Error> {
@@ -126,8 +182,22 @@ fn section(
     let strengths_field = section.given(&STRENGTHS);
     let strengths = optional(strengths_field.as_ref(), |field| strengths_of(field, known));
     let bands = section.read(&BANDS);
+    let slice_field = section.given(&SLICE);
+    let slice = optional(slice_field.as_ref(), slice_of);
     section.finish();
-    Some(SiteTable { sites: sites?, exports: exports?, within_km: within_km?, strengths: strengths?, bands: bands? })
+    Some(SiteTable {
+        sites: sites?,
+        exports: exports?,
+        within_km: within_km?,
+        strengths: strengths?,
+        bands: bands?,
+        slice: slice?,
+    })
+}
+
+fn slice_of(field: &Field<'_>) -> Option<SiteSlice> {
+    let text = SLICE.read(field)?;
+    text.parse().map_err(|help: String| field.mistake(format!("{text:?} is no slice of a table"), help)).ok()
 }
 
 /// A grid of strengths that are all `known`; where the study's own are wrong, only the notation is checked.
@@ -141,4 +211,36 @@ fn strengths_of(field: &Field<'_>, known: Option<&Grid>) -> Option<Grid> {
         format!("the nearest one of strengths.values is {}", quantity(nearest.unwrap_or_default(), "")),
     );
     None
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn slices_are_read_and_written_alike() {
+        for text in ["1/1", "3/1000", "1000/1000"] {
+            assert_eq!(text.parse::<SiteSlice>().unwrap().to_string(), text);
+        }
+        assert_eq!(" 3 / 8".parse(), Ok(SiteSlice { number: 3, count: 8 }));
+        for text in ["", "3", "0/3", "4/3", "1/0", "a/b", "1/2/3", "1/1000001", "-1/2"] {
+            assert!(text.parse::<SiteSlice>().is_err(), "{text}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn slices_hold_every_site_once_and_almost_as_many_each(sites in 0..5000_usize, count in 1..300_usize) {
+            let ranges: Vec<Range<usize>> =
+                (1..=count).map(|number| SiteSlice { number, count }.range(sites)).collect();
+            prop_assert_eq!(ranges[0].start, 0);
+            prop_assert_eq!(ranges[count - 1].end, sites);
+            prop_assert!(ranges.windows(2).all(|pair| pair[0].end == pair[1].start));
+            let lengths = ranges.iter().map(ExactSizeIterator::len);
+            prop_assert!(lengths.clone().max().unwrap() - lengths.min().unwrap() <= 1);
+        }
+    }
 }

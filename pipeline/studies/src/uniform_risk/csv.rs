@@ -11,7 +11,7 @@ use uplift_result::{Fits, StoredSpectra, flag_word, regression, urs};
 use uplift_study::UniformRiskStudy;
 
 use super::ComputedStudy;
-use super::site_table::site_table_paths;
+use super::site_table::{cube_path, site_table_paths};
 use crate::error::StudiesError;
 
 /// The tables beside the result file `result`: spectra and coefficients.
@@ -28,6 +28,9 @@ pub fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
         tables.push(Output::new(coefficients, OutputKind::Table(regression::RMSE_PLAIN_M.name)));
     }
     if study.site_table.is_some() {
+        tables.push(Output::new(cube_path(result), OutputKind::Sites));
+    }
+    if study.site_table.is_some() && study.output.csv {
         let [spectra, coefficients, map] = site_table_paths(result);
         tables.push(Output::new(spectra, OutputKind::Table("flag")));
         tables.push(Output::new(coefficients, OutputKind::Table("problem")));

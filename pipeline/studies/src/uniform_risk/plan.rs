@@ -145,7 +145,7 @@ pub(super) fn tell_mistaken_curves(
 ///
 /// The stripes hold 12 bytes an analysis, once more in a checkpoint and once more for a list of sites; the surface 8
 /// bytes a threshold, in memory twice while it is put in order; records 48 bytes a sample with their integrals and
-/// extremes; a site of a table half a kilobyte, and as text 80 bytes an ordinate and 800 a fit.
+/// extremes; a site of a table half a kilobyte, and in its files 100 bytes an ordinate and 900 a fit.
 pub fn needs(study: &UniformRiskStudy, set: &RecordSet, list: Option<&SiteList>) -> Needs {
     let count = |n: usize| n as u64;
     let product = |factors: &[u64]| factors.iter().fold(1_u64, |product, factor| product.saturating_mul(*factor));
@@ -168,7 +168,8 @@ pub fn needs(study: &UniformRiskStudy, set: &RecordSet, list: Option<&SiteList>)
     let is_listed = |plan: &&MeasurePlan| exports.iter().any(|export| export.measure == plan.measure);
     let listed_levels = study.measures.iter().filter(is_listed).map(|plan| count(plan.levels.len())).sum();
     let demands = product(&[12, records, strengths, listed_levels]);
-    let text = product(&[listed, count(exports.len()), count(study.risk.poe.len()), 80 * strengths + 800]);
+    let written = list.map_or(0, |list| count(list.range.len()));
+    let text = product(&[written, count(exports.len()), count(study.risk.poe.len()), 100 * strengths + 900]);
     Needs {
         memory_bytes: sum(&[
             PROGRAM_BYTES,

@@ -20,7 +20,8 @@ use uplift_uniform_risk::{
 use super::earlier::is_of_records;
 use super::plan::tell_mistaken_curves;
 use super::report::{MeasureReport, RunReport};
-use super::{Inputs, csv_paths, needs, site_table, write_csv, write_result};
+use super::site_table::{self, SiteOutput};
+use super::{Inputs, csv_paths, needs, write_csv, write_result};
 use crate::error::StudiesError;
 
 /// Carries out `study`, but for the rows of its analysis that are `known`.
@@ -44,7 +45,10 @@ pub fn run(
     tell_mistaken_curves(study, records, (&hazard, &other_hazard), events)?;
 
     needs(study, records, site_list.as_ref()).with_rows_of(&[checkpoint_path(path)]).require(path, events)?;
-    let earlier: Vec<&Path> = std::iter::once(path).chain(place.options.earlier.iter().map(PathBuf::as_path)).collect();
+    let beside = site_table::stripes_beside(study, path);
+    let options = place.options;
+    let further = options.earlier.iter().chain(&options.slices).take(1 + options.earlier.len()).chain(&beside);
+    let earlier: Vec<&Path> = std::iter::once(path).chain(further.map(PathBuf::as_path)).collect();
     let work = inputs.work(study, &earlier)?;
     let total = work.analyses();
     let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work.head(Shard::WHOLE))?;
@@ -81,8 +85,16 @@ pub fn run(
     provenance.input_checksums.extend(site_list.iter().flat_map(|list| list.checksums.clone()));
     let mut provenance = provenance.of_result(path, &study.to_toml()?);
     let line = provenance.line(&study.title, &records.description);
-    let mut sites =
-        site_table::compute(study, site_list.as_ref(), (&stripes, consistency.question()), path, &line, events)?;
+    let mut sites = match &site_list {
+        None => SiteOutput::default(),
+        Some(list) if options.slices.is_empty() => {
+            site_table::compute(study, list, (&stripes, consistency.question()), (path, &line), events)?
+        }
+        Some(list) => {
+            let checksums = &provenance.input_checksums;
+            site_table::join(study, (list, checksums), &options.slices, (path, &line), events)?
+        }
+    };
     warnings.append(&mut sites.warnings);
     provenance.wall_time_s = place.start.elapsed().as_secs_f64();
     let outcome = ComputedStudy {

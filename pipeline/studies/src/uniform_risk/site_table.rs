@@ -1,15 +1,20 @@
 //! The part of `uplift run` that many sites take: read before the analyses, computed and written after them.
 
 mod consistent;
+mod cube;
 mod files;
 mod repair;
+mod slices;
 
-pub use files::{SiteTableFiles, SiteTableLayout, SiteText, site_table_paths};
+pub use cube::cube_path;
+pub use files::{SiteRow, SiteTableFiles, SiteTableLayout, site_table_paths};
 pub use repair::{SiteConsistency, SiteRepair};
+pub use slices::{join, slice_path, sorted_slices, stripes_beside};
 
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use uplift_hazard::HazardCurve;
 use uplift_ida::Watch;
 use uplift_inputs::{BatchSite, SharedCurve, SiteCurves, SiteExport, SiteList, read_site_list};
@@ -35,7 +40,8 @@ const JUDGED_SITES: usize = 8;
 pub struct SiteOutput {
     /// What to know before using the numbers.
     pub warnings: Vec<String>,
-    files: Option<SiteTableFiles>,
+    /// With how many sites deserve which warning, as JSON.
+    files: Option<(SiteTableFiles, String)>,
 }
 
 impl SiteOutput {
@@ -44,7 +50,17 @@ impl SiteOutput {
     /// # Errors
     /// A file that cannot be written.
     pub fn finish(self) -> Result<Vec<PathBuf>, StudiesError> {
-        self.files.map_or(Ok(Vec::new()), SiteTableFiles::finish)
+        self.files.map_or(Ok(Vec::new()), |(files, findings)| files.finish(&findings))
+    }
+
+    fn new(
+        files: SiteTableFiles,
+        tally: &Tally,
+        study: &UniformRiskStudy,
+        list: &SiteList,
+    ) -> Result<Self, StudiesError> {
+        let findings = serde_json::to_string(tally).map_err(|error| JobError::input(error.to_string()))?;
+        Ok(Self { warnings: tally.warnings(study, list), files: Some((files, findings)) })
     }
 }
 
@@ -63,13 +79,11 @@ pub fn read(study: &UniformRiskStudy, events: &dyn Events) -> Result<Option<Site
 /// Spectra and coefficients of every site of the list, written site by site; `line` says where the numbers come from.
 pub(crate) fn compute<'a>(
     study: &'a UniformRiskStudy,
-    list: Option<&SiteList>,
+    list: &SiteList,
     (stripes, question): (&[Stripes], &Question),
-    path: &Path,
-    line: &str,
+    (path, line): (&Path, &str),
     events: &dyn Events,
 ) -> Result<SiteOutput, StudiesError> {
-    let Some(list) = list else { return Ok(SiteOutput::default()) };
     // both are in the order of the study's measures
     let is_listed = |own: &&Stripes| list.exports.iter().any(|export| export.measure == own.measure);
     let listed: Vec<&Stripes> = stripes.iter().filter(is_listed).collect();
@@ -79,15 +93,16 @@ pub(crate) fn compute<'a>(
     let repair = is_repaired.then(|| SiteRepair::new(question, list)).transpose()?;
     let mut files = SiteTableFiles::create(path, study, list, line)?;
     let mut tally = Tally::new(study, list);
-    let mut curves = SiteCurves::open(list)?;
+    let mut curves = SiteCurves::open(list, list.range.clone())?;
     let ordinates = list.exports.len() * study.risk.poe.len() * study.strengths.len();
     let most = (BATCH_BYTES / (ORDINATE_BYTES * ordinates.max(1))).clamp(8, 512);
-    let progress = Progress::begin(events, "sites", "sites", list.sites.len() as u64);
+    let progress = Progress::begin(events, "sites", "sites", list.range.len() as u64);
 
-    let mut batch = curves.next_batch(most)?;
     if study.site_table.as_ref().is_some_and(|table| table.bands) {
+        // of the table, so that its slices have the bands of the whole
+        let first = SiteCurves::open(list, 0..list.sites.len().min(most))?.next_batch(most)?;
         let with_bands = |(export, risk): (usize, SiteRisk<'a>)| {
-            let units = quoted_units(study, list, (export, listed[export]), (&batch, question))?;
+            let units = quoted_units(study, list, (export, listed[export]), (&first, question))?;
             if units.of == BandOf::Earthquakes {
                 events.remark("sites", &format!("bands by {} are by earthquake", listed[export].measure.label()));
             }
@@ -95,23 +110,24 @@ pub(crate) fn compute<'a>(
         };
         risks = risks.into_iter().enumerate().map(with_bands).collect::<Result<_, _>>()?;
     }
+    let mut batch = curves.next_batch(most)?;
     while !batch.is_empty() {
         if events.cancelled() {
             return Err(JobError::Interrupted.into());
         }
         // the next sites are read while these are computed
         let of_site = |site: &BatchSite| spectra_of(study, list, (&risks, repair.as_ref()), &files, site);
-        let (done, next): (Vec<(SiteText, SiteFindings)>, _) =
+        let (done, next): (Vec<(SiteRow, SiteFindings)>, _) =
             rayon::join(|| batch.par_iter().map(of_site).collect(), || curves.next_batch(most));
-        for (text, findings) in &done {
-            files.write(text)?;
-            tally.add(findings);
-        }
         progress.finished(done.len() as u64);
+        for (row, findings) in done {
+            files.write(row)?;
+            tally.add(&findings);
+        }
         batch = next?;
     }
     drop(progress);
-    Ok(SiteOutput { warnings: tally.warnings(study, list), files: Some(files) })
+    SiteOutput::new(files, &tally, study, list)
 }
 
 /// The units of all bands by the measure of `export`, as the first sites of the table tell them.
@@ -147,7 +163,7 @@ fn spectra_of(
     (risks, repair): (&[SiteRisk<'_>], Option<&SiteRepair<'_>>),
     files: &SiteTableFiles,
     site: &BatchSite,
-) -> (SiteText, SiteFindings) {
+) -> (SiteRow, SiteFindings) {
     let curve = |(export, exported): (&SiteExport, &SharedCurve)| {
         export.curve(study, exported.as_ref().as_ref().map_err(Clone::clone)?)
     };
@@ -164,7 +180,7 @@ fn spectra_of(
             .collect(),
         unrepaired: consistency.iter().flatten().map(|consistency| consistency.spectra.is_err()).collect(),
     };
-    (files.layout().text(&list.sites[site.site], &spectra, consistency.as_deref()), findings)
+    (files.layout().row(&list.sites[site.site], &spectra, consistency.as_deref()), findings)
 }
 
 fn found(study: &UniformRiskStudy, spectra: &SiteSpectra) -> Vec<[bool; FINDINGS]> {
@@ -184,6 +200,7 @@ fn found(study: &UniformRiskStudy, spectra: &SiteSpectra) -> Vec<[bool; FINDINGS
 }
 
 /// How many sites deserve which warning.
+#[derive(Serialize, Deserialize)]
 struct Tally {
     /// `[export][poe]`.
     counts: Vec<Vec<[u64; FINDINGS]>>,
@@ -208,6 +225,13 @@ impl Tally {
         }
     }
 
+    /// Adds those of other sites of the same study.
+    fn join(&mut self, other: &Self) {
+        self.unrepaired.iter_mut().zip(&other.unrepaired).for_each(|(count, own)| *count += own);
+        let counts = self.counts.iter_mut().flatten().flatten();
+        counts.zip(other.counts.iter().flatten().flatten()).for_each(|(count, own)| *count += own);
+    }
+
     fn warnings(&self, study: &UniformRiskStudy, list: &SiteList) -> Vec<String> {
         const WORDS: [&str; FINDINGS] = [
             "have ordinates that are censored: overturned runs, or the last threshold, exceed the target risk",
@@ -215,7 +239,7 @@ impl Tally {
             "have no fit: the column `problem` says why",
             "have a spectrum that is no decaying exponential: its coefficients mean nothing one by one",
         ];
-        let all = thousands(list.sites.len() as u64);
+        let all = thousands(list.range.len() as u64);
         let mut warnings = Vec::new();
         for (export, &count) in list.exports.iter().zip(&self.unrepaired).filter(|(_, count)| **count > 0) {
             warnings.push(format!(

@@ -75,9 +75,7 @@ fn population(records: &[String]) -> Result<Population, Failed> {
         output: Some(output.clone()),
         command: "coverage".to_owned(),
         overrides,
-        force: false,
-        again: false,
-        earlier: Vec::new(),
+        ..RunOptions::default()
     };
     uplift::run(&study, &options, &Silent)?;
     Population::open(&output)

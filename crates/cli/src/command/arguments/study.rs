@@ -6,7 +6,7 @@ use clap::Args;
 use uplift::RunOptions;
 use uplift::analysis::MOST_SHARDS;
 use uplift_ida::Shard;
-use uplift_study::{AnyStudy, Study};
+use uplift_study::{AnyStudy, SiteSlice, Study};
 
 use crate::error::CommandError;
 
@@ -24,6 +24,12 @@ impl StudyArguments {
     /// The study, of whichever kind, every default filled in.
     pub(crate) fn load_any(&self) -> Result<AnyStudy, CommandError> {
         Ok(Study::load_any(&self.study, &self.overrides)?)
+    }
+
+    /// The same of one slice of a table of sites, where one is asked for.
+    pub(crate) fn of_slice(&self, slice: Option<SiteSlice>) -> Self {
+        let slice = slice.map(|slice| format!("site_table.slice=\"{slice}\""));
+        Self { study: self.study.clone(), overrides: self.overrides.iter().cloned().chain(slice).collect() }
     }
 }
 

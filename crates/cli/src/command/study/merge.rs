@@ -1,22 +1,28 @@
-//! `uplift merge`: the shards of a run joined into its result.
+//! `uplift merge`: the shards of a run, or the slices of its table of sites, joined into its result.
 
 use std::path::PathBuf;
 
 use clap::Args;
+use uplift::uniform_risk::site_table::slice_path;
+use uplift_study::SiteSlice;
 
-use crate::command::arguments::{ForceArgument, StudyArguments, run_options};
+use crate::command::arguments::{ForceArgument, RARE, StudyArguments, run_options};
 use crate::error::CommandError;
 use crate::show::{print_json, print_run};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
-#[command(after_help = "Example:\n  uplift merge study.toml results/*.part")]
+#[command(after_help = "Examples:\n  uplift merge study.toml results/study.shard-*\n  \
+                  uplift merge study.toml results/study.slice-*-of-1000.h5")]
 pub(crate) struct MergeArguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// All shards of the run, from uplift run STUDY --shard I/N
+    /// All shards or slices, from uplift run STUDY --shard or --sites I/N
     #[arg(required = true, value_name = "SHARD")]
     shards: Vec<PathBuf>,
+    /// Of shards: join only slice I of N of the table of sites
+    #[arg(long, value_name = "I/N", help_heading = RARE)]
+    sites: Option<SiteSlice>,
     /// Result file [default: the study's output.file]
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
@@ -28,8 +34,10 @@ pub(crate) struct MergeArguments {
 }
 
 pub(crate) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let study = arguments.study.load_any()?;
-    let options = run_options(&arguments.study, arguments.output.clone(), arguments.overwriting.force);
+    let of_slice = arguments.study.of_slice(arguments.sites);
+    let study = of_slice.load_any()?;
+    let output = arguments.output.clone().or_else(|| Some(slice_path(&study.output().file, arguments.sites?)));
+    let options = run_options(&of_slice, output, arguments.overwriting.force);
     let report = uplift::merge(&study, &arguments.shards, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
 }

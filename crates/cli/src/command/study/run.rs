@@ -4,8 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use uplift::analysis::shard_path;
+use uplift::uniform_risk::site_table::slice_path;
 use uplift::{RunOptions, run_shard};
 use uplift_ida::Shard;
+use uplift_study::SiteSlice;
 
 use crate::command::arguments::{ForceArgument, StudyArguments, run_options, shard};
 use crate::error::CommandError;
@@ -30,6 +32,9 @@ pub(crate) struct RunArguments {
         value_parser = shard
     )]
     shard: Option<Shard>,
+    /// Compute only slice I of N of the table of sites
+    #[arg(long, value_name = "I/N", conflicts_with = "shard")]
+    sites: Option<SiteSlice>,
     /// Compute the result again, even if it exists
     #[arg(long)]
     again: bool,
@@ -39,7 +44,8 @@ pub(crate) struct RunArguments {
 }
 
 pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let study = arguments.study.load_any()?;
+    let of_slice = arguments.study.of_slice(arguments.sites);
+    let study = of_slice.load_any()?;
     if let Some(shard) = arguments.shard {
         let path = arguments.output.clone().unwrap_or_else(|| shard_path(&study.output().file, shard));
         if path.extension().is_some_and(|ending| ending == "h5") {
@@ -52,7 +58,8 @@ pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), C
         }
         return print_shard(&run_shard(&study, &path, shard, None, terminal)?, terminal);
     }
-    let options = run_options(&arguments.study, arguments.output.clone(), arguments.overwriting.force);
+    let output = arguments.output.clone().or_else(|| Some(slice_path(&study.output().file, arguments.sites?)));
+    let options = run_options(&of_slice, output, arguments.overwriting.force);
     let options = RunOptions { again: arguments.again, ..options };
     let report = uplift::run(&study, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_run(&report, terminal) }

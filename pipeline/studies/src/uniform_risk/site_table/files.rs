@@ -1,16 +1,19 @@
-//! The tables and the map of many sites, written site by site.
+//! The files of many sites, written site by site.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufRead, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use uplift_atomic_file::{AtomicFile, io_error};
 use uplift_inputs::{ListedSite, SiteList};
+use uplift_job::JobError;
+use uplift_job::checksum::checksum_of_file;
 use uplift_job::outputs::beside;
 use uplift_job::table::{neutral, write_metadata};
 use uplift_job::text::nearest;
+use uplift_labelled::LabelledReader;
 use uplift_regression::ExponentialFit;
 use uplift_result::flag_word;
 use uplift_risk::Ordinate;
@@ -18,28 +21,41 @@ use uplift_study::{Repair, UniformRiskStudy};
 use uplift_uniform_risk::SiteSpectra;
 
 use super::consistent;
+use super::cube::{Cube, CubeRows, FINDINGS, PROVENANCE, Shape, TABLES, cube_path};
 use super::repair::SiteConsistency;
 use crate::error::StudiesError;
 
 /// Strengths of which the map shows ordinates, unless the study names some.
 const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
+/// Position of the map among the three files of text.
+const MAP: usize = 2;
+/// How the line of a site on the map begins.
+const FEATURE: &str = "{\"type\":\"Feature\",";
 /// Columns of the spectra, before their bands.
 const SPECTRA: [&str; 9] = ["site", "longitude", "latitude", "im", "poe", "years", "strength", "u_m", "flag"];
 /// Columns of the coefficients, before those of the study's own table.
 const COEFFICIENTS: [&str; 12] =
     ["site", "longitude", "latitude", "im", "poe", "years", "c0_m", "c1", "c2_m", "rmse_m", "bound_active", "problem"];
 
-/// The files beside the result file `result`: spectra, coefficients, and both as a map.
+/// The tables beside the result file `result`: spectra, coefficients, and both as a map.
 pub fn site_table_paths(result: &Path) -> [PathBuf; 3] {
     ["sites.csv", "sites.coefficients.csv", "sites.geojson"].map(|ending| beside(result, ending))
 }
 
 /// The files of many sites while they are being written; those not finished are removed.
-#[derive(Debug)]
 pub struct SiteTableFiles {
+    cube: Cube,
+    /// None where the study wants no tables.
+    texts: Option<Texts>,
+    layout: SiteTableLayout,
+    /// Whether they are of a slice, of which a join has to know that they are whole.
+    is_slice: bool,
+}
+
+/// The two tables and the map.
+struct Texts {
     paths: [PathBuf; 3],
     files: [GrowingFile; 3],
-    layout: SiteTableLayout,
     features: u64,
     /// Where the numbers come from.
     line: String,
@@ -65,6 +81,9 @@ pub struct SiteTableLayout {
     /// Whether there are repaired spectra beside the plain ones.
     is_repaired: bool,
     has_bands: bool,
+    has_texts: bool,
+    /// Of the arrays.
+    shape: Shape,
 }
 
 #[derive(Debug, Clone)]
@@ -84,9 +103,14 @@ struct PoeNames {
 /// Ordinates of one probability, and their bands at the strengths in the table.
 type Spectrum<'a> = (&'a [Ordinate], &'a [[f64; 2]]);
 
-/// A site as it stands in the three files.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SiteText {
+/// A site as it stands in the files.
+pub struct SiteRow {
+    text: Option<SiteText>,
+    rows: CubeRows,
+}
+
+/// A site as it stands in the tables and on the map.
+struct SiteText {
     spectra: String,
     coefficients: String,
     feature: String,
@@ -100,19 +124,10 @@ impl SiteTableFiles {
     /// A file that cannot be written.
     pub fn create(result: &Path, study: &UniformRiskStudy, list: &SiteList, line: &str) -> Result<Self, StudiesError> {
         let layout = SiteTableLayout::new(study, list);
-        let paths = site_table_paths(result);
-        let [spectra, coefficients, map] = &paths;
-        let mut files = [GrowingFile::create(spectra)?, GrowingFile::create(coefficients)?, GrowingFile::create(map)?];
-        let columns = [layout.spectra_columns(), layout.coefficient_columns(&list.carried)];
-        for (file, names) in files.iter_mut().zip(&columns) {
-            let cells: Vec<String> = names.iter().map(|name| cell(name)).collect();
-            file.write(&format!("{}\n", cells.join(",")))?;
-        }
-        files[2].write(&format!(
-            "{{\"type\":\"FeatureCollection\",\n\"provenance\":{},\n\"features\":[",
-            json_text(line)
-        ))?;
-        Ok(Self { paths, files, layout, features: 0, line: line.to_owned(), columns })
+        let cube = Cube::create(&cube_path(result), study, list, &layout.shape, line)?;
+        let texts = layout.has_texts.then(|| Texts::create(result, &layout, &list.carried, line)).transpose()?;
+        let is_slice = study.site_table.as_ref().is_some_and(|table| table.slice.is_some());
+        Ok(Self { cube, texts, layout, is_slice })
     }
 
     /// What the rows and properties are called.
@@ -124,29 +139,136 @@ impl SiteTableFiles {
     ///
     /// # Errors
     /// A disk that is full, for instance.
-    pub fn write(&mut self, site: &SiteText) -> Result<(), StudiesError> {
-        let [spectra, coefficients, map] = &mut self.files;
-        spectra.write(&site.spectra)?;
-        coefficients.write(&site.coefficients)?;
-        map.write(if self.features == 0 { "\n" } else { ",\n" })?;
-        self.features += 1;
-        map.write(&site.feature)
+    pub fn write(&mut self, site: SiteRow) -> Result<(), StudiesError> {
+        self.cube.write(site.rows)?;
+        if let (Some(texts), Some(text)) = (&mut self.texts, &site.text) {
+            texts.write(text)?;
+        }
+        Ok(())
     }
 
-    /// Put the files in their places.
+    /// Append the sites of the slice whose result is at `slice`; returns what was found of them.
+    ///
+    /// # Errors
+    /// Files of the slice that are missing or not as they were written.
+    pub(super) fn write_slice(&mut self, slice: &Path, digest: &str) -> Result<String, StudiesError> {
+        let path = cube_path(slice);
+        let again = |path: &Path, why: &str| {
+            let (file, slice) = (path.display(), slice.display());
+            JobError::input(format!("{file}: {why}: repeat the run of {slice} with --again"))
+        };
+        let reader = LabelledReader::open(&path).map_err(|error| again(&path, &error.to_string()))?;
+        if !reader.attribute_text("/", PROVENANCE)?.contains(&format!("study digest {digest};")) {
+            return Err(again(&path, "is not of this result").into());
+        }
+        if let Some(texts) = &mut self.texts {
+            let tables = reader.attribute_texts("/", TABLES)?;
+            for (number, path) in site_table_paths(slice).iter().enumerate() {
+                if checksum_of_file(path).ok().as_ref() != tables.get(number) {
+                    return Err(again(path, "is missing, or was changed since it was written").into());
+                }
+                texts.copy(number, path)?;
+            }
+        }
+        self.cube.write(CubeRows::read(&reader, &self.layout.shape)?)?;
+        Ok(reader.attribute_text("/", FINDINGS)?)
+    }
+
+    /// Put the files in their places, with what was found of their sites.
     ///
     /// # Errors
     /// A disk that is full, for instance; earlier files are then as they were.
-    pub fn finish(mut self) -> Result<Vec<PathBuf>, StudiesError> {
-        self.files[2].write("\n]}\n")?;
+    pub fn finish(self, findings: &str) -> Result<Vec<PathBuf>, StudiesError> {
+        let Self { mut cube, mut texts, is_slice, .. } = self;
+        let mut checksums = Vec::new();
+        if let Some(texts) = &mut texts {
+            texts.complete()?;
+            if is_slice {
+                checksums = texts.checksums()?;
+            }
+        }
+        cube.attribute(FINDINGS, findings)?;
+        cube.attribute(TABLES, checksums)?;
+        let mut paths = vec![cube.finish()?];
+        if let Some(texts) = texts {
+            texts.files.into_iter().try_for_each(GrowingFile::put_in_place)?;
+            paths.extend(texts.paths);
+        }
+        Ok(paths)
+    }
+}
+
+impl Texts {
+    fn create(result: &Path, layout: &SiteTableLayout, carried: &[String], line: &str) -> Result<Self, StudiesError> {
+        let paths = site_table_paths(result);
+        let [spectra, coefficients, map] = &paths;
+        let files = [GrowingFile::create(spectra)?, GrowingFile::create(coefficients)?, GrowingFile::create(map)?];
+        let columns = [layout.spectra_columns(), layout.coefficient_columns(carried)];
+        let mut texts = Self { paths, files, features: 0, line: line.to_owned(), columns };
+        for number in 0..texts.columns.len() {
+            let header = texts.header(number);
+            texts.files[number].write(&header)?;
+        }
+        texts.files[MAP].write(&format!(
+            "{{\"type\":\"FeatureCollection\",\n\"provenance\":{},\n\"features\":[",
+            json_text(line)
+        ))?;
+        Ok(texts)
+    }
+
+    /// The first line of a table.
+    fn header(&self, table: usize) -> String {
+        let cells: Vec<String> = self.columns[table].iter().map(|name| cell(name)).collect();
+        format!("{}\n", cells.join(","))
+    }
+
+    fn write(&mut self, site: &SiteText) -> Result<(), StudiesError> {
+        self.files[0].write(&site.spectra)?;
+        self.files[1].write(&site.coefficients)?;
+        self.write_feature(&site.feature)
+    }
+
+    fn write_feature(&mut self, feature: &str) -> Result<(), StudiesError> {
+        self.files[MAP].write(if self.features == 0 { "\n" } else { ",\n" })?;
+        self.features += 1;
+        self.files[MAP].write(feature)
+    }
+
+    /// Appends what the file of a slice at `path` holds behind its head.
+    fn copy(&mut self, number: usize, path: &Path) -> Result<(), StudiesError> {
+        let read = |error| io_error(path, "read the file")(error);
+        let mut file = BufReader::new(File::open(path).map_err(read)?);
+        if number == MAP {
+            for line in file.lines() {
+                let line = line.map_err(read)?;
+                // one feature a line: a line break within a text is escaped
+                if line.starts_with(FEATURE) {
+                    self.write_feature(line.strip_suffix(',').unwrap_or(&line))?;
+                }
+            }
+            return Ok(());
+        }
+        let mut head = vec![0; self.header(number).len()];
+        file.read_exact(&mut head).map_err(read)?;
+        let own = &mut self.files[number];
+        std::io::copy(&mut file, &mut own.writer).map_err(io_error(own.place.target(), "write the file"))?;
+        Ok(())
+    }
+
+    /// Everything is written, and stands beside the places of the files.
+    fn complete(&mut self) -> Result<(), StudiesError> {
+        self.files[MAP].write("\n]}\n")?;
         for file in &mut self.files {
             file.flush()?;
         }
         for (path, names) in self.paths.iter().zip(&self.columns) {
             write_metadata(path, &self.line, names.iter().map(String::as_str))?;
         }
-        self.files.into_iter().try_for_each(GrowingFile::put_in_place)?;
-        Ok(self.paths.into())
+        Ok(())
+    }
+
+    fn checksums(&self) -> Result<Vec<String>, StudiesError> {
+        self.files.iter().map(|file| Ok(checksum_of_file(file.place.partial())?)).collect()
     }
 }
 
@@ -166,6 +288,7 @@ impl SiteTableLayout {
                 .map(|&poe| PoeNames { poe, key: format!("{key}_{}pct_{years}yr", (poe * 1e10).round() / 1e8) })
                 .collect(),
         };
+        let shape = Shape::new(study, list, &in_table);
         let mut layout = Self {
             years,
             strengths: study.strengths.to_vec(),
@@ -178,6 +301,8 @@ impl SiteTableLayout {
             carried: Vec::new(),
             is_repaired: study.consistency.repair == Repair::Weights,
             has_bands: study.site_table.as_ref().is_some_and(|table| table.bands),
+            has_texts: study.output.csv,
+            shape,
         };
         let mut taken = layout.property_names();
         layout.carried = distinct(&list.carried, &mut taken).iter().map(|name| json_text(name)).collect();
@@ -223,7 +348,17 @@ impl SiteTableLayout {
 
     /// A site with its spectra in each export, or why it has none, and with what consistency says of each where the
     /// study asks for a repair.
-    pub fn text(
+    pub fn row(
+        &self,
+        site: &ListedSite,
+        spectra: &[Result<SiteSpectra, String>],
+        consistency: Option<&[SiteConsistency]>,
+    ) -> SiteRow {
+        let text = self.has_texts.then(|| self.text(site, spectra, consistency));
+        SiteRow { text, rows: self.shape.rows(spectra, consistency) }
+    }
+
+    fn text(
         &self,
         site: &ListedSite,
         spectra: &[Result<SiteSpectra, String>],
@@ -245,18 +380,12 @@ impl SiteTableLayout {
                 problems.push(format!("{}: {reason}", names.label));
             }
             for (row, poe) in names.poes.iter().enumerate() {
-                let spectra = spectra.as_ref();
-                let spectrum = spectra.ok().map(|spectra| spectra.at_poe(row));
-                let fit = spectra.map(|spectra| spectra.fits[row].as_ref());
+                let spectrum = spectra.as_ref().ok().map(|spectra| spectra.at_poe(row));
+                let fit = spectra.as_ref().ok().and_then(|spectra| spectra.fits[row].as_ref().ok());
                 let head = format!("{place},{},{:?},{:?}", names.label, poe.poe, self.years);
                 let repaired = consistency.and_then(|own| own.spectra.as_ref().ok()).map(|own| own.at_poe(row));
                 self.spectrum_rows(&mut text.spectra, &head, spectrum, repaired);
-                let (fit, problem) = match fit {
-                    Err(reason) => (None, reason.clone()),
-                    Ok(Err(reason)) => (None, format!("no fit: {reason}")),
-                    Ok(Ok(fit)) if fit.at_search_limit => (Some(fit), NO_EXPONENTIAL.to_owned()),
-                    Ok(Ok(fit)) => (Some(fit), String::new()),
-                };
+                let problem = problem(spectra, row);
                 if !problem.is_empty() && spectrum.is_some() {
                     problems.push(format!("{}: {problem}", poe.key));
                 }
@@ -277,7 +406,7 @@ impl SiteTableLayout {
         let longitude = if site.longitude_deg > 180.0 { site.longitude_deg - 360.0 } else { site.longitude_deg };
         let _ = write!(
             text.feature,
-            "{{\"type\":\"Feature\",\"geometry\":{{\"type\":\"Point\",\"coordinates\":[{longitude:?},{:?}]}},\"properties\":{{\"name\":{}{properties},\"problem\":{problem}{carried}}}}}",
+            "{FEATURE}\"geometry\":{{\"type\":\"Point\",\"coordinates\":[{longitude:?},{:?}]}},\"properties\":{{\"name\":{}{properties},\"problem\":{problem}{carried}}}}}",
             site.latitude_deg,
             json_text(&site.name),
         );
@@ -346,6 +475,16 @@ impl SiteTableLayout {
 }
 
 const NO_EXPONENTIAL: &str = "the spectrum is no decaying exponential: its coefficients mean nothing one by one";
+
+/// What is wrong with the spectrum of a probability or its fit; empty where nothing is.
+pub(super) fn problem(spectra: &Result<SiteSpectra, String>, poe: usize) -> String {
+    match spectra.as_ref().map(|spectra| spectra.fits[poe].as_ref()) {
+        Err(reason) => reason.clone(),
+        Ok(Err(reason)) => format!("no fit: {reason}"),
+        Ok(Ok(fit)) if fit.at_search_limit => NO_EXPONENTIAL.to_owned(),
+        Ok(Ok(_)) => String::new(),
+    }
+}
 
 /// Ending of a property with what it holds.
 type Coefficient = (&'static str, fn(&ExponentialFit) -> f64);

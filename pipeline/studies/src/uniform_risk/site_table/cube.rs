@@ -1,0 +1,271 @@
+//! The numbers of many sites as arrays: one file of labelled arrays over sites, measures, probabilities and strengths.
+
+use std::path::{Path, PathBuf};
+
+use uplift_inputs::SiteList;
+use uplift_job::outputs::{SITES_KIND, beside, mark};
+use uplift_labelled::{AttributeValue, GrowingArray, LabelledReader, LabelledWriter};
+use uplift_regression::ExponentialFit;
+use uplift_result::{NO_ORDINATE, flag_number};
+use uplift_study::{Repair, UniformRiskStudy};
+use uplift_uniform_risk::SiteSpectra;
+
+use super::files::problem;
+use super::repair::SiteConsistency;
+use crate::error::StudiesError;
+
+const MEASURE: &str = "measure";
+const PER_ORDINATE: [&str; 4] = ["site", MEASURE, "poe", "strength"];
+const PER_SPECTRUM: [&str; 3] = ["site", MEASURE, "poe"];
+const PER_MEASURE: [&str; 2] = ["site", MEASURE];
+
+/// Groups of the spectra, plain and repaired.
+const GROUPS: [&str; 2] = ["/urs", "/consistent"];
+const FLAG: &str = "/urs/flag";
+const PROBLEM: &str = "/urs/problem";
+
+/// An array of each of [`GROUPS`].
+struct Quantity {
+    name: &'static str,
+    unit: &'static str,
+    long_name: &'static str,
+    values: Values,
+}
+
+/// What an array of spectra holds.
+enum Values {
+    Displacement,
+    /// The lower limit of the band, 0, or the upper one, 1.
+    Limit(usize),
+    Fit(fn(&ExponentialFit) -> f64),
+}
+
+const QUANTITIES: [Quantity; 7] = [
+    Quantity { name: "u_m", unit: "m", long_name: "displacement", values: Values::Displacement },
+    Quantity { name: "lower_m", unit: "m", long_name: "lower limit of its 90 % band", values: Values::Limit(0) },
+    Quantity { name: "upper_m", unit: "m", long_name: "upper limit of its 90 % band", values: Values::Limit(1) },
+    Quantity { name: "c0_m", unit: "m", long_name: "coefficient c0 of Eq. 4.11", values: Values::Fit(|fit| fit.c0) },
+    Quantity { name: "c1", unit: "1", long_name: "coefficient c1 of Eq. 4.11", values: Values::Fit(|fit| fit.c1) },
+    Quantity { name: "c2_m", unit: "m", long_name: "coefficient c2 of Eq. 4.11", values: Values::Fit(|fit| fit.c2) },
+    Quantity { name: "rmse_m", unit: "m", long_name: "error of the fit", values: Values::Fit(|fit| fit.rmse) },
+];
+
+/// Name, long name and value of an array of what consistency says of a site.
+type OfConsistency = (&'static str, &'static str, fn(&SiteConsistency) -> f64);
+
+const OF_CONSISTENCY: [OfConsistency; 3] = [
+    ("bias", "implied over the site's rates of the other measure, mean", |own| own.bias),
+    ("max", "largest |ln(implied/site)|", |own| own.max),
+    ("least_effective", "fewest effective records at a stripe", |own| own.least_effective),
+];
+
+/// Attribute of the root: where the numbers come from.
+pub(super) const PROVENANCE: &str = "provenance";
+/// Attribute of the root: how many sites deserve which warning, as JSON.
+pub(super) const FINDINGS: &str = "findings";
+/// Attribute of the root of a slice: SHA-256 of each of its tables and of its map.
+pub(super) const TABLES: &str = "tables";
+
+/// The file beside the result file `result`.
+pub fn cube_path(result: &Path) -> PathBuf {
+    beside(result, "sites.h5")
+}
+
+/// The file while it is being written.
+pub(super) struct Cube {
+    path: PathBuf,
+    writer: LabelledWriter,
+    /// In the order of [`numbers`](Shape::numbers).
+    arrays: Vec<GrowingArray<f64>>,
+    flags: GrowingArray<u8>,
+    problems: Vec<String>,
+}
+
+/// Which arrays there are.
+#[derive(Debug, Clone)]
+pub(super) struct Shape {
+    measures: usize,
+    poes: usize,
+    /// Positions of its strengths among those of the study.
+    strengths: Vec<usize>,
+    has_bands: bool,
+    is_repaired: bool,
+}
+
+/// Some sites as they stand in the file.
+#[derive(Debug, Default)]
+pub(super) struct CubeRows {
+    /// Of each array of numbers.
+    numbers: Vec<Vec<f64>>,
+    flags: Vec<u8>,
+    /// Why there is no spectrum or no fit, by measure and probability; empty where there is one.
+    problems: Vec<String>,
+}
+
+impl Shape {
+    pub(super) fn new(study: &UniformRiskStudy, list: &SiteList, strengths: &[usize]) -> Self {
+        Self {
+            measures: list.exports.len(),
+            poes: study.risk.poe.len(),
+            strengths: strengths.to_vec(),
+            has_bands: study.site_table.as_ref().is_some_and(|table| table.bands),
+            is_repaired: study.consistency.repair == Repair::Weights,
+        }
+    }
+
+    fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
+        let has_bands = self.has_bands;
+        QUANTITIES.iter().filter(move |quantity| has_bands || !matches!(quantity.values, Values::Limit(_)))
+    }
+
+    fn groups(&self) -> &'static [&'static str] {
+        if self.is_repaired { &GROUPS } else { &GROUPS[..1] }
+    }
+
+    /// Path, axes, unit and long name of every array of numbers.
+    fn numbers(&self) -> Vec<(String, &'static [&'static str], &'static str, &'static str)> {
+        let of_group = |group: &&'static str| {
+            let group = *group;
+            self.quantities().map(move |quantity| {
+                let axes: &[&str] =
+                    if matches!(quantity.values, Values::Fit(_)) { &PER_SPECTRUM } else { &PER_ORDINATE };
+                (format!("{group}/{}", quantity.name), axes, quantity.unit, quantity.long_name)
+            })
+        };
+        let of_consistency = OF_CONSISTENCY
+            .iter()
+            .filter(|_| self.is_repaired)
+            .map(|(name, long_name, _)| (format!("{}/{name}", GROUPS[1]), &PER_MEASURE[..], "1", *long_name));
+        self.groups().iter().flat_map(of_group).chain(of_consistency).collect()
+    }
+
+    /// A site with its spectra in each export, or why it has none, and with what consistency says of each.
+    pub(super) fn rows(
+        &self,
+        spectra: &[Result<SiteSpectra, String>],
+        consistency: Option<&[SiteConsistency]>,
+    ) -> CubeRows {
+        let plain: Vec<Option<&SiteSpectra>> = spectra.iter().map(|own| own.as_ref().ok()).collect();
+        let repaired: Vec<Option<&SiteSpectra>> =
+            consistency.into_iter().flatten().map(|own| own.spectra.as_ref().ok()).collect();
+        let mut numbers = Vec::new();
+        for of_group in [plain, repaired].iter().take(self.groups().len()) {
+            for quantity in self.quantities() {
+                numbers.push(self.of_quantity(&quantity.values, of_group));
+            }
+        }
+        for (_, _, value) in OF_CONSISTENCY.iter().filter(|_| self.is_repaired) {
+            numbers.push(consistency.into_iter().flatten().map(value).collect());
+        }
+        let (mut flags, mut problems) = (Vec::new(), Vec::new());
+        for spectra in spectra {
+            for poe in 0..self.poes {
+                let ordinates = spectra.as_ref().ok().map(|own| own.at_poe(poe).0);
+                let flag = |&strength: &usize| {
+                    ordinates.map_or(NO_ORDINATE, |ordinates| flag_number(ordinates[strength].flag))
+                };
+                flags.extend(self.strengths.iter().map(flag));
+                problems.push(problem(spectra, poe));
+            }
+        }
+        CubeRows { numbers, flags, problems }
+    }
+
+    fn of_quantity(&self, values: &Values, spectra: &[Option<&SiteSpectra>]) -> Vec<f64> {
+        let mut row = Vec::with_capacity(self.measures * self.poes * self.strengths.len());
+        for spectra in spectra {
+            for poe in 0..self.poes {
+                let at_poe = spectra.map(|spectra| spectra.at_poe(poe));
+                let displacement_m = |strength: usize| at_poe.map_or(f64::NAN, |(all, _)| all[strength].displacement_m);
+                let limit_m = |place: usize, end: usize| {
+                    at_poe.and_then(|(_, bands_m)| bands_m.get(place)).map_or(f64::NAN, |band_m| band_m[end])
+                };
+                match *values {
+                    Values::Displacement => row.extend(self.strengths.iter().map(|&own| displacement_m(own))),
+                    Values::Limit(end) => row.extend((0..self.strengths.len()).map(|place| limit_m(place, end))),
+                    Values::Fit(value) => {
+                        let fit = spectra.and_then(|spectra| spectra.fits[poe].as_ref().ok());
+                        row.push(fit.map_or(f64::NAN, value));
+                    }
+                }
+            }
+        }
+        row
+    }
+}
+
+impl CubeRows {
+    /// The sites of the file in `reader`, one of these arrays.
+    pub(super) fn read(reader: &LabelledReader, shape: &Shape) -> Result<Self, StudiesError> {
+        let numbers = shape.numbers();
+        let numbers = numbers.iter().map(|(path, ..)| Ok(reader.array_f64(path)?.values));
+        Ok(Self {
+            numbers: numbers.collect::<Result<_, StudiesError>>()?,
+            flags: reader.array_u8(FLAG)?.values,
+            problems: reader.array_text(PROBLEM)?.values,
+        })
+    }
+}
+
+impl Cube {
+    /// Begins the file of the sites that `list` is asked for; `line` says where the numbers come from.
+    pub(super) fn create(
+        path: &Path,
+        study: &UniformRiskStudy,
+        list: &SiteList,
+        shape: &Shape,
+        line: &str,
+    ) -> Result<Self, StudiesError> {
+        let mut writer = LabelledWriter::create(path)?;
+        writer.attribute("/", "program", mark())?;
+        writer.attribute("/", "kind", SITES_KIND)?;
+        writer.attribute("/", PROVENANCE, line)?;
+        writer.attribute("/", "years", study.risk.years)?;
+        let sites = &list.sites[list.range.clone()];
+        let names: Vec<String> = sites.iter().map(|site| site.name.to_string()).collect();
+        writer.axis_text("site", &names, "site")?;
+        let measures: Vec<String> = list.exports.iter().map(|export| export.measure.key().to_owned()).collect();
+        writer.axis_text(MEASURE, &measures, "intensity measure that the records are scaled by")?;
+        writer.axis_f64("poe", &study.risk.poe, "1", "probability of exceedance in `years`")?;
+        let strengths: Vec<f64> = shape.strengths.iter().map(|&index| study.strengths[index]).collect();
+        writer.axis_f64("strength", &strengths, "1", "uplift strength over weight")?;
+        let longitudes: Vec<f64> = sites.iter().map(|site| site.longitude_deg).collect();
+        let latitudes: Vec<f64> = sites.iter().map(|site| site.latitude_deg).collect();
+        writer.array_f64("/longitude_deg", &["site"], &longitudes, "degrees_east", "longitude")?;
+        writer.array_f64("/latitude_deg", &["site"], &latitudes, "degrees_north", "latitude")?;
+        let mut arrays = Vec::new();
+        for (path, axes, unit, long_name) in shape.numbers() {
+            arrays.push(writer.grow_f64(&path, axes, unit, long_name)?);
+        }
+        let words = "0 regular, 1 no exceedance, 2 censored, 3 no spectrum";
+        let flags = writer.grow_u8(FLAG, &PER_ORDINATE, "1", words)?;
+        Ok(Self { path: path.to_owned(), writer, arrays, flags, problems: Vec::new() })
+    }
+
+    /// Appends some sites.
+    pub(super) fn write(&mut self, rows: CubeRows) -> Result<(), StudiesError> {
+        for (array, values) in self.arrays.iter_mut().zip(&rows.numbers) {
+            self.writer.append(array, values)?;
+        }
+        self.writer.append(&mut self.flags, &rows.flags)?;
+        self.problems.extend(rows.problems);
+        Ok(())
+    }
+
+    /// Sets an attribute of the root.
+    pub(super) fn attribute(&mut self, name: &str, value: impl Into<AttributeValue>) -> Result<(), StudiesError> {
+        Ok(self.writer.attribute("/", name, value)?)
+    }
+
+    /// Puts the file in its place, and says where that is.
+    pub(super) fn finish(self) -> Result<PathBuf, StudiesError> {
+        let Self { path, mut writer, arrays, flags, problems } = self;
+        for array in arrays {
+            writer.complete(array)?;
+        }
+        writer.complete(flags)?;
+        writer.array_text(PROBLEM, &PER_SPECTRUM, &problems, "why there is no spectrum, or no fit")?;
+        writer.finish()?;
+        Ok(path)
+    }
+}
