@@ -128,3 +128,27 @@ fn a_quiet_table_is_the_table_and_says_what_its_risks_are() {
     let csv = std::fs::read_to_string(study.path().join("r.urs.csv")).unwrap();
     assert!(csv.contains(",0.0") && !csv.contains(",-0.0"), "{csv}");
 }
+
+#[test]
+fn an_option_of_another_command_is_said_to_be_so() {
+    let study = SmallStudy::new();
+    for (typed, words) in [
+        (&["run", "study.toml", "--urs", "r.h5"][..], "run has no --urs: it is an option of design, overturning"),
+        (&["spectrum", "r.h5", "--report", "a.html"], "spectrum has no --report: it is an option of `uplift design`"),
+        (&["run", "study.toml", "--site", "There"], "run has no --site: a run computes every site"),
+    ] {
+        study.uplift(typed).fails(2, &[words]);
+    }
+    let unknown = study.uplift(&["run", "study.toml", "--nowhere", "1"]).fails(2, &["--nowhere"]);
+    assert!(!unknown.stderr.contains("as a value"), "{}", unknown.stderr);
+}
+
+#[test]
+fn a_body_wider_than_tall_is_doubted_on_the_first_line() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.write("pier.toml", "kind = \"block\"\nwidth_m = 18\nheight_m = 2.5\nmass_kg = 400e3\n");
+    let said = study.uplift(&["design", "pier.toml", "--urs", "r.h5", "--site", "There"]).ok().stdout;
+    assert!(said.lines().next().unwrap().contains("if its numbers are right (mistake? below)"), "{said}");
+    assert!(said.contains("mistake? pier: wider than tall"), "{said}");
+}

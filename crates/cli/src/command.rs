@@ -18,7 +18,7 @@ mod validate;
 
 use std::fmt::Write as _;
 
-use clap::error::ContextKind;
+use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use uplift_oscillator::InstructionSet;
@@ -216,15 +216,35 @@ const ELSEWHERE: [(&str, &str, &str); 2] = [
 /// What was typed; a mistake ends the program with its message.
 pub(crate) fn typed() -> Arguments {
     let typed = program().try_get_matches().and_then(|found| Arguments::from_arg_matches(&found));
-    typed.unwrap_or_else(|error| {
-        let option = error.get(ContextKind::InvalidArg).map(ToString::to_string);
-        let command = std::env::args().nth(1);
-        let hint =
-            ELSEWHERE.iter().find(|(of, name, _)| command.as_deref() == Some(of) && option.as_deref() == Some(name));
-        let Some((of, name, hint)) = hint else { error.exit() };
-        tell(&format!("uplift: {of} has no {name}: {hint}"));
-        std::process::exit(error.exit_code())
+    typed.unwrap_or_else(|mut error| {
+        if let Some(option) = error.get(ContextKind::InvalidArg).map(ToString::to_string)
+            && let Some(command) = std::env::args().nth(1)
+            && error.kind() == ErrorKind::UnknownArgument
+        {
+            let hint = ELSEWHERE.iter().find(|(of, name, _)| *of == command && *name == option);
+            let hint = hint.map(|(.., hint)| (*hint).to_owned()).or_else(|| commands_with(&option));
+            if let Some(hint) = hint {
+                tell(&format!("uplift: {command} has no {option}: {hint}"));
+                std::process::exit(error.exit_code())
+            }
+            // that such an option could be meant as a value
+            error.remove(ContextKind::Suggested);
+        }
+        error.exit()
     })
+}
+
+/// Which commands have the option of this name, in words; none where none has.
+fn commands_with(option: &str) -> Option<String> {
+    let long = option.strip_prefix("--")?;
+    let program = Arguments::command();
+    let has = |own: &&clap::Command| !own.is_hide_set() && own.get_arguments().any(|own| own.get_long() == Some(long));
+    let names: Vec<&str> = program.get_subcommands().filter(has).map(clap::Command::get_name).collect();
+    match &names[..] {
+        [] => None,
+        [only] => Some(format!("it is an option of `uplift {only}`")),
+        [first @ .., last] => Some(format!("it is an option of {} and {last}", first.join(", "))),
+    }
 }
 
 #[cfg(test)]

@@ -58,12 +58,12 @@ impl Nearest {
         let (mut missed, mut cures) = (Vec::new(), Vec::new());
         for (Miss { level, times, scaled_to, .. }, side) in often.into_iter().chain(rarely) {
             let level = format!("{} {}", three(level), words.other_unit);
-            missed.push(format!("{level} {} times as often", three(times)));
+            missed.push(format!("{level} is exceeded {} times", three(times)));
             let scaled_to = format!("{} {} {}", words.scaled_to, three(scaled_to), words.scaled_to_unit);
             cures.push(format!("{side} {level} at {scaled_to}"));
         }
         let (missed, cures) = (missed.join(" and "), cures.join(" and "));
-        format!("the nearest hazard exceeds {missed}; add records with {} {cures}", words.other)
+        format!("at best, {missed} as often as at the site; add records with {} {cures}", words.other)
     }
 }
 
@@ -90,12 +90,13 @@ mod tests {
         with_words(|words| {
             assert_eq!(
                 nearest.sentence(words),
-                "the nearest hazard exceeds 0.181 g 1.81 times as often and 0.02 g 0.2 times as often; add records \
-                 with PGA below 0.181 g at PGV 7 cm/s and above 0.02 g at PGV 7 cm/s"
+                "at best, 0.181 g is exceeded 1.81 times and 0.02 g is exceeded 0.2 times as often as at the site; \
+                 add records with PGA below 0.181 g at PGV 7 cm/s and above 0.02 g at PGV 7 cm/s"
             );
             assert_eq!(
                 nearest.worst_side().sentence(words),
-                "the nearest hazard exceeds 0.02 g 0.2 times as often; add records with PGA above 0.02 g at PGV 7 cm/s"
+                "at best, 0.02 g is exceeded 0.2 times as often as at the site; add records with PGA above 0.02 g at \
+                 PGV 7 cm/s"
             );
         });
         let often = Nearest { too_rarely: None, ..nearest };

@@ -127,7 +127,7 @@ mod tests {
                 (
                     NoRepair::OutOfReach { reach: Reach { set_above: 12, set_below: 0 }, nearest },
                     [
-                        "the site's PGA at 12 of 12 rates: the nearest hazard exceeds 0.6 g 1.8 times",
+                        "the site's PGA at 12 of 12 rates: at best, 0.6 g is exceeded 1.8 times",
                         "add records with PGA below 0.6 g at",
                     ],
                 ),
@@ -141,9 +141,9 @@ mod tests {
                 ),
                 (
                     NoRepair::Runaway { exponents: [0.0, -61.0, 3.0, 0.0], nearest },
-                    ["no weights give the site's PGA: the nearest hazard exceeds 0.6 g 1.8 times", "PGV 48 cm/s"],
+                    ["no weights give the site's PGA: at best, 0.6 g is exceeded 1.8 times", "PGV 48 cm/s"],
                 ),
-                (NoRepair::NotReached { nearest }, ["0.6 g 1.8 times", "below 0.6 g at PGV 48 cm/s"]),
+                (NoRepair::NotReached { nearest }, ["0.6 g is exceeded 1.8 times", "below 0.6 g at PGV 48 cm/s"]),
                 (
                     NoRepair::TooFew { least: LeastEffective { records: 3.21, level: 2 }, other_level: 0.3141 },
                     ["3.2 effective records at the stripe 40 cm/s", "PGA near 0.314 g there"],

@@ -55,6 +55,9 @@ impl Declared {
     }
 }
 
+/// What the second column may be called.
+const HAZARD_NAMES: &str = "maf (rate per year), poe (probability) or return_period (years)";
+
 /// Lines among which a table says what it holds.
 const LONGEST_HEAD: usize = 50;
 
@@ -110,7 +113,8 @@ pub fn table_text(path: &Path) -> Result<String, HazardError> {
 /// Two columns, separated by comma, semicolon, tab or blanks, with decimal commas too between semicolons or tabs: the
 /// level, in the declared unit, and the annual rate of exceedance (1/yr) or the probability of exceedance in
 /// [`CsvOptions::years`]. A first row of column names, in any order and case, says which is which (`iml`, `im_g`,
-/// `pgv_cm_s`, `PGV [cm/s]`; `maf`, `afe`, `rate`; `poe`); without it [`CsvOptions::second_column`] decides. Lines
+/// `pgv_cm_s`, `PGV [cm/s]`; `maf`, `afe`, `rate`; `poe`; `return_period`); without it
+/// [`CsvOptions::second_column`] decides. Lines
 /// that begin with `#` are kept as the curve's source; where they say `IM: PGV [cm/s]` or `unit: cm/s` they must agree
 /// with the declaration; where they say how the horizontal components are combined (`IM: PGV [cm/s], geometric mean
 /// (GMRotI50)` or `component: RotD50`), the curve keeps it ([`HazardCurve::component`]).
@@ -267,19 +271,19 @@ fn read_header(fields: [&str; 2], options: &CsvOptions, place: &Place) -> Result
             None => {
                 let field = excerpt(field);
                 return fail(format!(
-                    "column name {field} is not known: use iml (or the measure, e.g. pgv_cm_s) and maf or poe"
+                    "column name {field} is not known: use iml (or the measure, e.g. pgv_cm_s) and {HAZARD_NAMES}"
                 ));
             }
         }
     }
     let (Some(level), Some(content)) = (level, content) else {
         let [a, b] = fields.map(excerpt);
-        return fail(format!(
-            "columns {a} and {b}: one must hold levels (iml) and the other annual rates (maf) or probabilities (poe)"
-        ));
+        return fail(format!("columns {a} and {b}: one must hold levels (iml), the other {HAZARD_NAMES}"));
     };
+    // a return period is an annual rate, written otherwise
+    let holds = if content == SecondColumn::ReturnPeriod { SecondColumn::AnnualRate } else { content };
     match options.second_column {
-        Some(declared) if declared != content => Err(HazardError::Contradiction {
+        Some(declared) if declared != holds => Err(HazardError::Contradiction {
             place: place.clone(),
             what: "second column",
             found: content.name().to_owned(),
@@ -291,8 +295,8 @@ fn read_header(fields: [&str; 2], options: &CsvOptions, place: &Place) -> Result
 
 fn content_without_header(options: &CsvOptions, place: &Place) -> Result<SecondColumn, HazardError> {
     options.second_column.ok_or_else(|| {
-        let reason = "no column names before the first numbers; add the line \"iml,maf\" or \"iml,poe\", or declare \
-                      what the second column holds";
+        let reason = "no column names before the first numbers: add the line \"iml,maf\" (rates per year), \"iml,poe\" \
+                      (probabilities) or \"iml,return_period\" (years)";
         HazardError::Row { place: place.clone(), reason: reason.to_owned() }
     })
 }

@@ -21,6 +21,8 @@ pub enum SecondColumn {
     AnnualRate,
     /// Probability of exceedance within [`crate::CsvOptions::years`].
     Probability,
+    /// Return period, years: one over the annual rate.
+    ReturnPeriod,
 }
 
 impl SecondColumn {
@@ -28,6 +30,7 @@ impl SecondColumn {
         match self {
             Self::AnnualRate => "annual rates",
             Self::Probability => "probabilities of exceedance",
+            Self::ReturnPeriod => "return periods",
         }
     }
 }
@@ -47,6 +50,7 @@ const MEASURES: [&str; 10] = ["pgv", "pga", "sa", "psa", "avgsa", "pgd", "cav", 
 const LONGEST_UNIT: usize = 16;
 const RATES: [&str; 8] =
     ["maf", "mafe", "afe", "rate", "annual_rate", "lambda", "annual_frequency", "annual_frequency_of_exceedance"];
+const RETURN_PERIODS: [&str; 3] = ["return_period", "tr", "rp"];
 const PROBABILITIES: [&str; 4] = ["poe", "probability", "probability_of_exceedance", "prob"];
 
 /// Recognises a column name such as `iml`, `im_g`, `pgv_cm_s`, `PGV [cm/s]`, `maf`, `maf_1_yr`, `poe`.
@@ -60,6 +64,9 @@ pub(crate) fn column(name: &str, declared_measure: Option<&str>) -> Option<Colum
     }
     if is(&PROBABILITIES) {
         return unit.is_none().then_some(Column::Hazard(SecondColumn::Probability));
+    }
+    if is(&RETURN_PERIODS) {
+        return unit.is_none_or(is_years).then_some(Column::Hazard(SecondColumn::ReturnPeriod));
     }
     let unit = unit.map(str::to_owned);
     if is(&GENERIC) {
@@ -150,7 +157,7 @@ fn split_unit(name: &str) -> (&str, Option<&str>) {
     if let Some((plain, unit)) = name.strip_suffix(']').and_then(|rest| rest.split_once('[')) {
         return (plain.trim_end(), Some(unit.trim()));
     }
-    let is_unit = |unit: &str| CurveUnit::parse(unit).is_some() || is_per_year(unit);
+    let is_unit = |unit: &str| CurveUnit::parse(unit).is_some() || is_per_year(unit) || is_years(unit);
     if let Some((plain, unit)) = name.strip_suffix(')').and_then(|rest| rest.split_once('('))
         && is_unit(unit)
     {
@@ -165,6 +172,10 @@ fn split_unit(name: &str) -> (&str, Option<&str>) {
 
 fn is_per_year(unit: &str) -> bool {
     matches!(unit, "1/yr" | "1/year" | "1_yr" | "yr-1" | "per_yr" | "per_year")
+}
+
+fn is_years(unit: &str) -> bool {
+    matches!(unit, "yr" | "year" | "years" | "a")
 }
 
 #[cfg(test)]

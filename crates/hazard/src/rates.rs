@@ -41,6 +41,15 @@ pub(crate) fn annual_rates(
     name: &str,
     place: impl Fn(usize) -> Place,
 ) -> Result<AnnualRates, HazardError> {
+    if content == SecondColumn::ReturnPeriod {
+        if let Some(row) = rows.iter().find(|row| row.value <= 0.0) {
+            let reason = format!("the return period is {}: write years above zero", row.value);
+            return Err(HazardError::Row { place: place(row.at), reason });
+        }
+        for row in &mut rows {
+            row.value = 1.0 / row.value;
+        }
+    }
     let before = rows.len();
     while rows.pop_if(|row| row.value == 0.0).is_some() {}
     let dropped_zeros = before - rows.len();

@@ -84,6 +84,21 @@ fn a_table_without_names_needs_a_declaration() {
 }
 
 #[test]
+fn return_periods_are_annual_rates_written_otherwise() {
+    for name in ["return_period", "Return period [years]", "Tr", "return_period_yr"] {
+        let text = format!("iml,{name}\n1,10\n2,475\n3,2475\n");
+        let declared = CsvOptions { second_column: Some(SecondColumn::AnnualRate), ..CsvOptions::new("PGV", "cm/s") };
+        for options in [CsvOptions::new("PGV", "cm/s"), declared] {
+            let curve = read_csv(&text, "site.csv", &options).unwrap().curve;
+            assert_eq!(curve.maf(), [0.1, 1.0 / 475.0, 1.0 / 2475.0], "{name}");
+        }
+    }
+    assert!(message("iml,return_period\n1,10\n2,0\n").contains("line 3: the return period is 0: write years above"));
+    assert!(message("iml,return_period\n1,475\n2,10\n").contains("site.csv"), "they must rise");
+    assert!(message("iml,return_period_days\n1,475\n2,10\n").contains("return_period (years)"));
+}
+
+#[test]
 fn rows_without_information_are_dropped_and_counted() {
     let read = read("iml,maf\n1,0.2\n2,0.1\n3,0\n4,0.0\n5,0e0\n").unwrap();
     assert_eq!((read.curve.len(), read.dropped_zeros, read.dropped_certain), (2, 3, 0));

@@ -75,6 +75,25 @@ pub fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsE
     Ok(ranked(alarms))
 }
 
+/// All that any command raises about the spectra of `file`: [`alarms`], and what is raised where the spectra of one
+/// measure are asked for alone.
+///
+/// # Errors
+/// A file that is damaged.
+pub fn every_alarm(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError> {
+    let mut every = alarms(file)?;
+    if file.kind() == Kind::UniformRisk {
+        for measure in file.measures() {
+            for alarm in alarms_of(file, &Scope { measure: Some(measure), ..Scope::default() })? {
+                if every.iter().all(|known| known.kind != alarm.kind) {
+                    every.push(alarm);
+                }
+            }
+        }
+    }
+    Ok(ranked(every))
+}
+
 /// The alarms that concern a structure which is read into the spectra of `file` within `scope`; not ranked yet.
 ///
 /// # Errors
@@ -107,8 +126,10 @@ pub fn alarms_of_inputs(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, 
 fn spectra_alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
     let mut alarms = hazard::alarms(evidence, scope);
     alarms.extend(levels::alarms(evidence, scope)?);
-    alarms.extend(measures::alarms(evidence, scope));
-    alarms.extend(consistency::alarms(evidence, scope));
+    if !scope.repaired {
+        alarms.extend(measures::alarms(evidence, scope));
+        alarms.extend(consistency::alarms(evidence, scope));
+    }
     alarms.extend(consistency::without_repair(evidence, scope));
     alarms.extend(consistency::failing_samples(evidence, scope));
     Ok(alarms)

@@ -5,8 +5,9 @@ use uplift_job::text::{per_cent, rate, records_in_words, share as share_in_words
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::USUAL_SAFETY_FACTOR;
 use uplift_risk::{DECISIVE_SHARE, TAIL_SHARE_LIMIT};
+use uplift_structure::Warning;
 use uplift_study::{Structure, levels_key};
-use uplift_uniform_risk::{BOUND_CONFIDENCE, EventRisk, share_at_most};
+use uplift_uniform_risk::{BOUND_CONFIDENCE, EventRisk};
 
 use super::inputs::warning_alarm;
 
@@ -29,9 +30,27 @@ pub struct OwnRisk {
     pub effective_pairs: f64,
 }
 
-/// Numbers of the structure file that are probably in another unit.
+/// Numbers of the structure file that are probably in another unit, or exchanged.
 pub fn structure_alarms(structure: &Structure) -> Vec<Alarm> {
-    structure.warnings.iter().map(|warning| warning_alarm(&structure.name(), warning)).collect()
+    let unlikely = structure.warnings.iter().map(|warning| warning_alarm(&structure.name(), warning));
+    unlikely.chain(wider_than_tall(structure)).collect()
+}
+
+/// A body whose width and height were probably exchanged: the theory is of slender ones.
+fn wider_than_tall(structure: &Structure) -> Option<Alarm> {
+    let is_wide = |warning: &&Warning| match warning {
+        Warning::Stocky { slenderness_rad, .. } => *slenderness_rad > std::f64::consts::FRAC_PI_4,
+        _ => false,
+    };
+    let what = structure.system.warnings().iter().find(is_wide)?;
+    let what_to_do = "Correct the width and the height, or leave them if they are meant";
+    Some(Alarm::new(
+        Severity::Mistake,
+        "unlikely-number",
+        &structure.name(),
+        format!("wider than tall, {what}"),
+        what_to_do,
+    ))
 }
 
 /// A safety factor that was probably meant otherwise.
@@ -92,17 +111,14 @@ fn none_seen(own: &OwnRisk) -> Option<Case> {
         badness: at_most_per_year,
         subject: own.subject.clone(),
         what: format!(
-            "0 of {} up to {} {}, so at most {} a year: 0 of {pairs}{weighted} leave up to {} at \
-             the last level ({} confidence)",
+            "0 of {}{weighted} up to {} {}: at most {} a year ({} confidence)",
             records_in_words(own.records, own.pairs),
             own.levels.1,
             own.measure.unit(),
             rate(at_most_per_year),
-            share_in_words(share_at_most(own.effective_pairs)),
             per_cent(BOUND_CONFIDENCE),
-            pairs = if own.pairs < own.records { format!("{} pairs", own.pairs) } else { own.records.to_string() },
             weighted = if own.effective_pairs < own.pairs as f64 {
-                format!(" (which, weighted, count as {:.0})", own.effective_pairs)
+                format!(" (weighted, they count as {:.0})", own.effective_pairs)
             } else {
                 String::new()
             },
@@ -162,8 +178,7 @@ mod tests {
         else {
             panic!()
         };
-        // 1 − 0.05^(1/30)
-        for words in ["0 of 30 records", "200 cm/s", "at most 2.3e-5 a year", "9.5 %"] {
+        for words in ["0 of 30 records up to 200 cm/s", "at most 2.3e-5 a year (95 % confidence)"] {
             assert!(none.what.contains(words), "{words}: {none}");
         }
     }
@@ -172,7 +187,7 @@ mod tests {
     fn none_of_thirty_pairs_is_no_more_for_having_two_components() {
         let both = OwnRisk { records: 60, ..own(EventRisk { per_year: 0.0, at_most_per_year: Some(2.3e-5), ..RISK }) };
         let [none] = &own_risk_alarms(&[both])[..] else { panic!() };
-        for words in ["0 of 60 records of 30 pairs up to", ": 0 of 30 pairs leave", "9.5 %"] {
+        for words in ["0 of 60 records of 30 pairs up to", "at most 2.3e-5 a year"] {
             assert!(none.what.contains(words), "{words}: {none}");
         }
     }

@@ -65,9 +65,17 @@ impl Bands {
 
     /// The band to quote: by earthquake where by record it is more than a quarter narrower ([`is_too_narrow`]).
     pub fn quoted(&self) -> [f64; 2] {
+        self.quoted_by_earthquake().unwrap_or(self.by_record)
+    }
+
+    /// What to say behind the quoted band of whom it is; nothing of one by record.
+    pub fn of_whom(&self) -> &'static str {
+        if self.quoted_by_earthquake().is_some() { " by earthquake" } else { "" }
+    }
+
+    fn quoted_by_earthquake(&self) -> Option<[f64; 2]> {
         let width = |[lower, upper]: [f64; 2]| upper - lower;
-        let by_earthquake = self.by_earthquake.filter(|own| is_too_narrow(width(self.by_record), width(*own)));
-        by_earthquake.unwrap_or(self.by_record)
+        self.by_earthquake.filter(|own| is_too_narrow(width(self.by_record), width(*own)))
     }
 
     /// The band that takes account of most: with the hazard curves where there are several, else the quoted one.
@@ -179,4 +187,21 @@ pub(super) fn demand_bands(
         beyond_capacity_per_year: capacity_m.map(rate).transpose()?.flatten(),
         overturning_per_year: rate(OVERTURNING_M)?,
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Bands;
+
+    #[test]
+    fn a_band_says_whose_it_is_where_it_is_quoted_by_earthquake() {
+        let bands = |by_earthquake| Bands { by_record: [1.0, 2.0], by_earthquake, with_hazard: None };
+        for (by_earthquake, quoted, words) in [
+            (None, [1.0, 2.0], ""),
+            (Some([0.9, 2.1]), [1.0, 2.0], ""),
+            (Some([0.5, 2.5]), [0.5, 2.5], " by earthquake"),
+        ] {
+            assert_eq!((bands(by_earthquake).quoted(), bands(by_earthquake).of_whom()), (quoted, words));
+        }
+    }
 }

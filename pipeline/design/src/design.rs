@@ -126,6 +126,9 @@ pub struct DesignReport {
     pub by_other_measures: Vec<MeasureVerdict>,
     /// How the structure and the study differ, and what could not be done.
     pub notes: Vec<String>,
+    /// Whether the spectrum is of another oscillator than the structure's: another uplift displacement, restitution or
+    /// gravity, or uncertain; the notes say which.
+    pub other_oscillator: bool,
     /// What to know before using the numbers, the worst first.
     pub alarms: Vec<Alarm>,
 }
@@ -193,6 +196,7 @@ pub fn design(
     let weights = site_weights(repaired_weights.as_ref(), place, &source)?;
     let restitution = restitution(structure, &source.study);
     let mut notes = differences(structure, &source, restitution);
+    let other_oscillator = !notes.is_empty();
 
     let plain = spectrum_demand(structure, &source, source.spectrum(measure, site, poe));
     let repaired = repaired_m.and_then(|u_m| spectrum_demand(structure, &source, &u_m));
@@ -275,6 +279,7 @@ pub fn design(
         uncertainty,
         rules,
         by_other_measures,
+        other_oscillator,
         notes,
         alarms: ranked(alarms),
     })

@@ -35,7 +35,8 @@ pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumRepo
         _ => None,
     };
     let strengths = between(&axes.strengths, &asked.strengths);
-    let alarms = alarms_of(&file, &Scope { site, measure: Some(found.measure), strengths, ..Scope::default() })?;
+    let (measure, repaired) = (Some(found.measure), found.repaired);
+    let alarms = alarms_of(&file, &Scope { site, measure, strengths, repaired, ..Scope::default() })?;
     Ok(SpectrumReport { found, alarms })
 }
 

@@ -147,24 +147,29 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         capacity_m.map_or_else(|| "no capacity: the force does not fall".to_owned(), |m| format!("capacity {m:.2} m"));
     // of a frame that can wobble it is the proxy that is judged
     let whose = if report.wobbles { ", by its proxy alone" } else { "" };
+    let is_doubted = report.alarms.iter().any(|alarm| alarm.severity == Severity::Mistake);
+    let doubt = if is_doubted { "if its numbers are right (mistake? below), " } else { "" };
     writeln!(
         out,
-        "Verdict   {name}{whose}, {has}: {}",
+        "Verdict   {name}{whose}, {has}: {doubt}{}",
         if verdicts.is_empty() { "no rule applies".to_owned() } else { verdicts.join(", ") }
     )?;
     for verdict in report.contradicted_by() {
         writeln!(out, "          {verdict}")?;
     }
     if !verdicts.is_empty() {
-        writeln!(out, "          with a safety factor of {} (Eq. 3.15)", report.required_safety_factor)?;
+        let of_others = if report.other_oscillator { "; by the spectrum of another oscillator: --details" } else { "" };
+        let factor = report.required_safety_factor;
+        writeln!(out, "          with a safety factor of {factor} (Eq. 3.15){of_others}")?;
     }
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();
         let band_m = bands.map(|bands| bands.demand_m.quoted());
         writeln!(
             out,
-            "Demand    {} on {}",
+            "Demand    {}{} on {}",
             metres_with_band(exact.demand_m, band_m),
+            bands.map_or("", |bands| bands.demand_m.of_whom()),
             if report.wobbles { "the equivalent oscillator" } else { "the structure itself" }
         )?;
         if let Some(risk) = &exact.beyond_capacity {
@@ -372,7 +377,7 @@ fn print_bands(out: &mut impl Write, exact: &ExactDemand, bands: &DemandBands) -
     let of = |what: &str, of: Option<Bands>, shown: fn(f64) -> String, unit: &str| {
         let [own, by_event, with_hazard] = of?.each();
         let by_event = by_event.zip(bands.earthquakes).map_or_else(String::new, |(by_event, count)| {
-            format!("; if their {count} earthquakes were others, {}", limits(by_event, shown))
+            format!("; by earthquake ({count}), {}", limits(by_event, shown))
         });
         let with_hazard = with_hazard.zip(bands.hazard_curves).map_or_else(String::new, |(limits_of, count)| {
             format!("; with the site's {count} hazard curves, {}", limits(limits_of, shown))

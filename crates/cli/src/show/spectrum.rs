@@ -27,12 +27,13 @@ pub(crate) fn print_spectrum(report: &SpectrumReport, result: &Path, terminal: &
 
 /// The number first, then what it is of.
 fn print_answers(out: &mut impl Write, report: &DisplacementReport) -> Result<(), CommandError> {
+    let repaired = if report.repaired { ", repaired" } else { "" };
     let of = if report.band_of == BandOf::Earthquakes { ", band by earthquake" } else { "" };
     for own in &report.displacements {
         let Displacement { site, im, strength, u_m, band_m, .. } = own;
         let displacement = metres_with_named_band(*u_m, *band_m, CONFIDENCE);
         let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
-        writeln!(out, "{displacement}  {site}, strength {strength}, {}, by {im}{capacity}{of}", risk(own))?;
+        writeln!(out, "{displacement}  {site}, strength {strength}, {}, by {im}{repaired}{capacity}{of}", risk(own))?;
     }
     Ok(())
 }

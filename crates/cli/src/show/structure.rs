@@ -44,7 +44,7 @@ pub(super) fn limits(per_year: [f64; 2]) -> String {
 
 /// The quoted band of a rate in brackets, after the rate in a sentence; nothing where there is none.
 pub(super) fn band_after(per_year: Option<Bands>) -> String {
-    per_year.map_or_else(String::new, |bands| format!(" ({})", limits(bands.quoted())))
+    per_year.map_or_else(String::new, |bands| format!(" ({}{})", limits(bands.quoted()), bands.of_whom()))
 }
 
 /// The same in the cell of a table, which is narrow.

@@ -70,7 +70,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     }
     if report.least_met < report.missed_at {
         let [met, missed] = [report.least_met, report.missed_at].map(|value| unit(value.to_string()));
-        writeln!(out, "Noise     {met} meets the target too, but {missed} misses it")?;
+        writeln!(out, "Scatter   the rate does not fall steadily: {met} meets the target, {missed} misses it")?;
     }
     let own = report.own_value.map_or_else(String::new, |own| format!("; the structure has {}", unit(short(own))));
     writeln!(out, "At        {site} by {im}; {}{own}", report.source.record_set)?;

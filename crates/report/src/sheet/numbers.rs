@@ -32,7 +32,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
             let demand = exact.rounding.demand_m.marked(two_digits);
             let band = exact.bands.as_ref().map_or_else(String::new, |bands| {
                 let [lower_m, upper_m] = bands.demand_m.quoted().map(two_digits);
-                format!(" (90 % band {lower_m} to {upper_m} m)")
+                format!(" (90 % band{} {lower_m} to {upper_m} m)", bands.demand_m.of_whom())
             });
             say(format!("{of}, the demand is {demand} m{band}{capacity}."), None);
         }
@@ -90,7 +90,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         let band = exact.bands.and_then(|bands| bands.overturning_per_year).map_or_else(String::new, |bands| {
             let [lower, upper] = bands.quoted();
             let shown = |per_year: f64| if per_year > 0.0 { power(per_year, 1) } else { "0".to_owned() };
-            format!(" 90 % band: {} to {} a year.", shown(lower), shown(upper))
+            format!(" 90 % band{}: {} to {} a year.", bands.of_whom(), shown(lower), shown(upper))
         });
         say(format!("{overturns}{band}"), None);
     }

@@ -86,8 +86,8 @@ pub(super) fn read_file(
         (_, _, Some(declared)) => declared,
         _ => {
             return Err(JobError::input(format!(
-                "{}: the table does not say its measure and unit: call its column pgv_cm_s or pga_g, \
-                 add a first line such as \"# IM: PGV [cm/s]\", or give --measure and --unit",
+                "{}: the table does not say its measure and unit: name its columns, for example pgv_cm_s,maf or \
+                 pga_g,return_period, add a first line such as \"# IM: PGV [cm/s]\", or give --measure and --unit",
                 path.display()
             ))
             .into());

@@ -142,8 +142,8 @@ fn synchronisation(
         add(
             KIND,
             format!(
-                "its components have {} and {} points, and no start times: they may not be synchronised, which \
-                 measures over all directions need",
+                "its components have {} and {} points and no start times: do not use it over all directions (RotD50, \
+                 RotD100, azimuths)",
                 h1.len(),
                 h2.len()
             ),

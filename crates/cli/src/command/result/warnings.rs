@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use uplift::alarms::alarms;
+use uplift::alarms::every_alarm;
 use uplift::result::{ResultFile, at};
 
 use crate::command::arguments::RiskArguments;
@@ -23,6 +23,6 @@ pub(crate) struct WarningsArguments {
 }
 
 pub(crate) fn warnings(arguments: &WarningsArguments) -> Result<(), CommandError> {
-    let alarms = alarms(&at(ResultFile::open(&arguments.result)?, &arguments.risk.asked())?)?;
+    let alarms = every_alarm(&at(ResultFile::open(&arguments.result)?, &arguments.risk.asked())?)?;
     if arguments.json { print_json(&alarms) } else { print_all_warnings(&alarms, &arguments.result) }
 }
