@@ -364,6 +364,10 @@ fn arrays_hold_what_the_tables_hold() {
         }
     }
     study.uplift(&["verify", "r.sites.h5"]).ok();
+    // and the maps are made of them
+    study.uplift(&["plot", "r.h5", "--only", "map", "-o", "maps"]).ok();
+    let map = read(study.path(), "maps/map-pgv-2pct.svg");
+    assert!(map.contains("strength 0.2") && map.contains("longitude, °") && map.contains("synthetic records"), "{map}");
     // without tables the arrays alone
     study.uplift(&["run", "study.toml", "-o", "alone.h5", "--set", "output.csv=false"]).ok();
     assert!(!study.path().join("alone.sites.csv").exists());

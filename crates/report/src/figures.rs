@@ -16,6 +16,7 @@ mod influence;
 mod overturning;
 mod pulses;
 mod shake_table;
+mod sites;
 mod spectra;
 mod spread;
 mod sweep;
@@ -31,6 +32,7 @@ pub use history::{block_history_figure, history_figure};
 pub use overturning::overturning_figure;
 pub use pulses::pulse_figures;
 pub use shake_table::shake_table_figures;
+use sites::site_maps;
 pub use spectra::hazard_figure;
 pub use sweep::sweep_figure;
 pub(crate) use together::together;
@@ -54,7 +56,13 @@ use uplift_plot::{Axis, Figure, Panel, Series, Tone, share_y};
 pub fn result_figures(path: &Path) -> Result<Vec<Figure>, UpliftError> {
     let file = ResultFile::open(path)?;
     match file.kind() {
-        Kind::UniformRisk => Ok(FigureSource::read(&file)?.figures(Extent::All)?.into_all()),
+        Kind::UniformRisk => {
+            let maps = site_maps(path, &file, if file.head()?.synthetic { SYNTHETIC } else { "" })?;
+            if !maps.is_empty() && file.axes()?.sites.is_empty() {
+                return Ok(maps);
+            }
+            Ok([FigureSource::read(&file)?.figures(Extent::All)?.into_all(), maps].concat())
+        }
         Kind::Displacement => displacement_figures(&file, &file.displacements()?, Extent::All),
         Kind::ShakeTable => Ok(shake_table_figures(&file.shake_table()?)),
     }

@@ -6,8 +6,8 @@ mod files;
 mod repair;
 mod slices;
 
-pub use cube::cube_path;
-pub use files::{SiteRow, SiteTableFiles, SiteTableLayout, site_table_paths};
+pub use cube::{SiteArrays, cube_path};
+pub use files::{SHOWN_ON_MAP, SiteRow, SiteTableFiles, SiteTableLayout, site_table_paths};
 pub use repair::{SiteConsistency, SiteRepair};
 pub use slices::{join, slice_path, sorted_slices, stripes_beside};
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use uplift_inputs::SiteList;
 use uplift_job::outputs::{SITES_KIND, beside, mark};
+use uplift_job::{Array, JobError};
 use uplift_labelled::{AttributeValue, GrowingArray, LabelledReader, LabelledWriter};
 use uplift_regression::ExponentialFit;
 use uplift_result::{NO_ORDINATE, flag_number};
@@ -23,6 +24,9 @@ const PER_MEASURE: [&str; 2] = ["site", MEASURE];
 const GROUPS: [&str; 2] = ["/urs", "/consistent"];
 const FLAG: &str = "/urs/flag";
 const PROBLEM: &str = "/urs/problem";
+const LONGITUDE: &str = "/longitude_deg";
+const LATITUDE: &str = "/latitude_deg";
+const YEARS: &str = "years";
 
 /// An array of each of [`GROUPS`].
 struct Quantity {
@@ -69,6 +73,54 @@ pub(super) const TABLES: &str = "tables";
 /// The file beside the result file `result`.
 pub fn cube_path(result: &Path) -> PathBuf {
     beside(result, "sites.h5")
+}
+
+/// The plain spectra of many sites, read from the file beside a result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SiteArrays {
+    /// Longitude of each site, degrees.
+    pub longitude_deg: Vec<f64>,
+    /// Latitude of each site, degrees.
+    pub latitude_deg: Vec<f64>,
+    /// Keys of the measures.
+    pub measures: Vec<String>,
+    /// Probabilities of exceedance.
+    pub poes: Vec<f64>,
+    /// Years that they refer to.
+    pub years: f64,
+    /// Uplift strengths.
+    pub strengths: Vec<f64>,
+    /// Displacement, m, `[site, measure, poe, strength]`; NaN where there is no spectrum.
+    pub u_m: Array<4>,
+}
+
+impl SiteArrays {
+    /// The arrays beside the result at `result` of this study digest; none where there is no such file, or one of
+    /// another result.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub fn read(result: &Path, digest: &str) -> Result<Option<Self>, StudiesError> {
+        let path = cube_path(result);
+        if !path.is_file() {
+            return Ok(None);
+        }
+        let reader = LabelledReader::open(&path)?;
+        if !reader.attribute_text("/", PROVENANCE)?.contains(&format!("study digest {digest};")) {
+            return Ok(None);
+        }
+        let u_m = reader.array_f64(&format!("{}/u_m", GROUPS[0]))?;
+        let shape: [usize; 4] = u_m.shape.try_into().unwrap_or_default();
+        Ok(Some(Self {
+            longitude_deg: reader.array_f64(LONGITUDE)?.values,
+            latitude_deg: reader.array_f64(LATITUDE)?.values,
+            measures: reader.axis_text(MEASURE)?,
+            poes: reader.axis_f64("poe")?,
+            years: reader.attribute_f64("/", YEARS)?,
+            strengths: reader.axis_f64("strength")?,
+            u_m: Array::new(shape, u_m.values).map_err(|error| JobError::input(error.to_string()))?,
+        }))
+    }
 }
 
 /// The file while it is being written.
@@ -220,7 +272,7 @@ impl Cube {
         writer.attribute("/", "program", mark())?;
         writer.attribute("/", "kind", SITES_KIND)?;
         writer.attribute("/", PROVENANCE, line)?;
-        writer.attribute("/", "years", study.risk.years)?;
+        writer.attribute("/", YEARS, study.risk.years)?;
         let sites = &list.sites[list.range.clone()];
         let names: Vec<String> = sites.iter().map(|site| site.name.to_string()).collect();
         writer.axis_text("site", &names, "site")?;
@@ -231,8 +283,8 @@ impl Cube {
         writer.axis_f64("strength", &strengths, "1", "uplift strength over weight")?;
         let longitudes: Vec<f64> = sites.iter().map(|site| site.longitude_deg).collect();
         let latitudes: Vec<f64> = sites.iter().map(|site| site.latitude_deg).collect();
-        writer.array_f64("/longitude_deg", &["site"], &longitudes, "degrees_east", "longitude")?;
-        writer.array_f64("/latitude_deg", &["site"], &latitudes, "degrees_north", "latitude")?;
+        writer.array_f64(LONGITUDE, &["site"], &longitudes, "degrees_east", "longitude")?;
+        writer.array_f64(LATITUDE, &["site"], &latitudes, "degrees_north", "latitude")?;
         let mut arrays = Vec::new();
         for (path, axes, unit, long_name) in shape.numbers() {
             arrays.push(writer.grow_f64(&path, axes, unit, long_name)?);

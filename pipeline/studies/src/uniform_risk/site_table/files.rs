@@ -25,8 +25,8 @@ use super::cube::{Cube, CubeRows, FINDINGS, PROVENANCE, Shape, TABLES, cube_path
 use super::repair::SiteConsistency;
 use crate::error::StudiesError;
 
-/// Strengths of which the map shows ordinates, unless the study names some.
-const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
+/// Strengths of which a map shows ordinates, unless the study names some.
+pub const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
 /// Position of the map among the three files of text.
 const MAP: usize = 2;
 /// How the line of a site on the map begins.
