@@ -24,7 +24,9 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
     match report {
         RunReport::UniformRisk(report) if terminal.shows_details() => print_details(&mut out, report, terminal)?,
         RunReport::UniformRisk(report) => {
-            for found in report.displacements.iter().chain(&report.repaired) {
+            // where no site has a repaired spectrum, a warning says so
+            let has_any = |found: &&DisplacementReport| found.displacements.iter().any(|own| !own.u_m.is_nan());
+            for found in report.displacements.iter().chain(report.repaired.iter().filter(has_any)) {
                 print_displacements(&mut out, found, terminal)?;
             }
         }
