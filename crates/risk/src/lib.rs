@@ -67,7 +67,10 @@ pub use error::RiskError;
 pub use event_risk::{BOUND_CONFIDENCE, EventRisk, at_most_per_year, share_at_most};
 pub use grid::ThresholdGrid;
 pub use lognormal::{LognormalRisk, lognormal_risk};
-pub use ordinate::{BEYOND_LIMIT, DECISIVE_SHARE, FEW_RECORDS, Ordinate, OrdinateFlag, TAIL_SHARE_LIMIT};
+pub use ordinate::{
+    BEYOND_LIMIT, COMPARED_FROM_M, DECISIVE_SHARE, FEW_RECORDS, MEASURES_APART, MEASURES_APART_DECISIVE, Ordinate,
+    OrdinateFlag, TAIL_SHARE_LIMIT,
+};
 pub use replicate_weights::{REPLICATES_AT_ONCE, ReplicateWeights};
 pub use resampling::ResamplingTable;
 pub use risk_targeted::{RiskTargetedLevel, risk_targeted_level};

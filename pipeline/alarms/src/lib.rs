@@ -44,10 +44,10 @@ pub use fit::{FitReach, reach_of_fit};
 pub use hazard::{CurvesAtSite, hazard_alarms};
 pub use inputs::{far_factors_alarm, few, few_earthquakes, study_alarms, synthetic_records};
 pub use levels::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, Counted, UpperEnd, below_first_case};
-pub use measures::COMPARED_FROM_M;
 pub use numbers::number_alarms;
 pub use structure::{OwnRisk, own_demand_alarm, own_risk_alarms, safety_factor_alarm, structure_alarms};
 use uplift_result::{Kind, ResultFile};
+pub use uplift_risk::COMPARED_FROM_M;
 
 /// The alarms in the order in which they should be read.
 pub fn ranked(mut alarms: Vec<Alarm>) -> Vec<Alarm> {

@@ -3,21 +3,13 @@
 
 use uplift_motion::IntensityMeasure;
 
-/// Where the reference curve is below this, m, a ratio says nothing: it is at the uplift displacement.
-pub const COMPARED_FROM_M: f64 = 0.003;
-
 use super::consistency;
 use super::evidence::{Evidence, Scope};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
 use uplift_job::text::{per_cent, risk_name, rounded, two_digits};
 use uplift_result::{MeasureSpectra, StoredBands};
-
-/// Ordinates that are further apart than this need no band to say so: with 105 recorded pairs 90 % bands are some 40 %
-/// wide by PGV and 120 to 170 % by PGA (docs/method.md, section 9), half of each to either side.
-const RATIO_LIMIT: f64 = 2.0;
-/// From this ratio on the measure chosen matters more than everything else in a study.
-const RATIO_DECISIVE: f64 = 3.0;
+use uplift_risk::{COMPARED_FROM_M, MEASURES_APART, MEASURES_APART_DECISIVE};
 
 /// The spectrum of one measure, with its band.
 #[derive(Debug, Clone, Copy)]
@@ -46,7 +38,7 @@ fn largest_gap(one: Side<'_>, other: Side<'_>, at: &[usize]) -> Option<Gap> {
             (Some([low_a, high_a]), Some([low_b, high_b])) => {
                 low_a[strength] > high_b[strength] || low_b[strength] > high_a[strength]
             }
-            _ => ratio.max(1.0 / ratio) > RATIO_LIMIT,
+            _ => ratio.max(1.0 / ratio) > MEASURES_APART,
         };
         (compared && apart).then_some(Gap { strength, ratio })
     };
@@ -89,7 +81,7 @@ fn case(evidence: &Evidence, subject: String, gap: Gap, banded: bool) -> Case {
         _ => String::new(),
     };
     Case {
-        severity: if times > RATIO_DECISIVE { Severity::Caution } else { Severity::Note },
+        severity: if times > MEASURES_APART_DECISIVE { Severity::Caution } else { Severity::Note },
         badness: times,
         subject,
         what: format!(
