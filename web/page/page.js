@@ -26,8 +26,7 @@ const latest = (work) => {
   return async function run() {
     if (running) { again = true; return; }
     running = true;
-    do { again = false; await work(); } while (again);
-    running = false;
+    try { do { again = false; await work(); } while (again); } finally { running = false; }
   };
 };
 
@@ -39,15 +38,16 @@ const digits = (value, most = 2) => {
   return Math.abs(whole) < 1e-4 || Math.abs(whole) >= 1e6 ? whole.toExponential() : String(whole);
 };
 // with their zeros: 0.20
-const length = (value) => {
-  const text = value.toPrecision(Math.abs(value) >= 100 ? 3 : 2);
+const length = (value, most = 2) => {
+  const text = value.toPrecision(Math.abs(value) >= 100 ? 3 : most);
   return value === 0 || /e/.test(text) ? digits(value) : text;
 };
-const metres = (value) => (value === null || value === undefined ? "no limit" : `${length(value)} m`);
+const metres = (value, most) => (value === null || value === undefined ? "no limit" : `${length(value, most)} m`);
 const band = (limits) => limits && limits[1] !== null
   ? ` (90 % band ${length(limits[0])} to ${length(limits[1])} m)`
   : limits && limits[0] !== null ? ` (90 % band from ${length(limits[0])} m, no upper limit)` : "";
-const rate = (value) => (value === 0 ? "0" : value.toExponential(1).replace("e", "·10^").replace("+", ""));
+const raised = (power) => [...power].map((own) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(own)]).join("");
+const rate = (value) => (value === 0 ? "0" : value.toExponential(1).replace(/e[+]?(.*)/, (_, power) => `·10${raised(power)}`));
 const element = (tag, attributes = {}, ...children) => {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
@@ -68,15 +68,19 @@ const FIELDS = {
   columns: "Columns", column_mass_kg: "Mass of a column, kg", deck_mass_kg: "Mass of the deck, kg", mass_kg: "Mass, kg",
   tendon_stiffness_n_m: "Stiffness of the tendon in each column, N/m; 0: none",
   uplift_displacement_m: "Displacement at uplift, m",
-  restitution: "Restitution; empty: that of the study",
+  restitution: "Restitution",
 };
+const TITLES = { uplift_displacement_m: "Elastic displacement of the top at which the base begins to lift off" };
 // without a strength of their own, spectrum and fragility are read at that of the structure; without a level, the motion
 // is scaled to that of the site
 const state = { site: null, measure: null, period: 2475, strength: null, kind: "pier", safety: 2.5, own: {},
-  extrapolate: false, level: null, record: null };
+  extrapolate: false, level: null, record: null, records: null };
 for (const [kind, fields] of Object.entries(KINDS)) state.own[kind] = { ...fields };
 let about = null;
 let motions = null;
+// the records that the page came with, and what the link was made with
+let embeddedRecords = null;
+let linked = {};
 
 // a number as it is typed; undefined where there is none
 function parsed(said, text) {
@@ -92,7 +96,8 @@ function readLink() {
   const number = (key, fallback) => {
     try { return parsed(key, link.get(key) ?? "") ?? fallback; } catch (error) { wrong.push(error.message); return fallback; }
   };
-  for (const key of ["site", "measure", "record"]) state[key] = link.get(key);
+  for (const key of ["site", "measure", "record", "records"]) state[key] = link.get(key);
+  linked = { record: state.record, records: state.records };
   for (const key of ["period", "safety"]) state[key] = number(key, state[key]);
   for (const key of ["strength", "level"]) state[key] = number(key, null);
   state.extrapolate = link.get("extrapolate") === "loglog";
@@ -103,9 +108,9 @@ function readLink() {
   return wrong.length ? `The link: ${wrong.join(" ")}` : "";
 }
 function link() {
-  const { site, measure, period, safety, kind, strength, level, record } = state;
+  const { site, measure, period, safety, kind, strength, level, record, records } = state;
   const all = { site, measure, period, safety, kind };
-  for (const [key, value] of Object.entries({ strength, level, record })) if (value !== null) all[key] = value;
+  for (const [key, value] of Object.entries({ strength, level, record, records })) if (value !== null) all[key] = value;
   if (state.extrapolate) all.extrapolate = "loglog";
   for (const [key, value] of Object.entries(state.own[kind])) if (key !== "kind") all[key] = value ?? "";
   return `#${new URLSearchParams(all)}`;
@@ -228,8 +233,17 @@ const span = (values, log) => {
 const measureOf = () => about.measures.find((own) => own.key === state.measure);
 const whereWords = () => `${state.site}, ${state.period} years, by ${measureOf().label}`;
 let siteLevel = null;
+// the records are listed after the first displacement, which does not wait for them
+let unlisted = false;
 const drawSpectrum = latest(async () => {
+  await showSpectrum();
+  if (!unlisted) return;
+  unlisted = false;
+  listMotions();
+});
+async function showSpectrum() {
   const strength = state.strength ?? window.design?.read_at_strength;
+  showStrength(strength);
   const asked = JSON.stringify(at());
   let spectrum;
   let point = null;
@@ -244,20 +258,24 @@ const drawSpectrum = latest(async () => {
     return;
   }
   try {
-    if (strength === undefined) throw new Error("The structure has no strength: correct it, or choose one.");
+    if (strength === undefined) throw new Error("The structure’s dimensions are not valid: correct them, or choose a strength.");
     point = await ask({ ask: "point", at: at(), strength });
   } catch (error) { refusal = error.message; }
   // what was asked since is drawn next
   if (JSON.stringify(at()) !== asked) return;
   window.shown = { spectrum, point };
-  showStrength(strength);
   $("figures").hidden = false;
   $("f-fragility").hidden = !point;
   const { unit, label: name } = measureOf();
   const probability = digits(100 * spectrum.risk.poe);
   const value = !point ? refusal : point.u_m === null ? "No displacement has this risk: it is exceeded more often" : metres(point.u_m) + band(point.band_m);
   const ofStrength = `strength ${digits(strength, 3)}${state.strength === null ? ` (${state.kind})` : ""}`;
-  $("answer").replaceChildren(value, element("small", {}, `${state.site}, ${point ? `${ofStrength}, ` : ""}${state.period} years (${probability} % in ${spectrum.risk.years} years), by ${name}`));
+  const covers = point && point.band_m[0] !== null ? " The band covers the choice of records, not the hazard curve." : "";
+  const doubts = (point?.alarms ?? []).filter((own) => own.severity === "caution").map((own) => `${own.what.replace(/^./, (first) => first.toUpperCase())}.`);
+  if (point && state.strength === null) doubts.push(...otherOscillator());
+  $("answer").replaceChildren(value,
+    element("small", {}, `${state.site}, ${point ? `${ofStrength}, ` : ""}${state.period} years (${probability} % in ${spectrum.risk.years} years), by ${name}.${covers}`),
+    ...doubts.map((own) => element("small", { class: "doubt" }, own)));
   const head = `${about.provenance}; ${whereWords()}`;
   const [low, high] = span([...spectrum.u_m, ...spectrum.upper_m], true);
   show("f-spectrum", {
@@ -280,7 +298,7 @@ const drawSpectrum = latest(async () => {
   });
   if (point) show("f-fragility", {
     name: "fragility", head, said: `Share of the records that exceed ${metres(point.u_m)} over ${name}`,
-    caption: point.fragility ? `Fragility: share of the records that exceed ${metres(point.u_m)} at strength ${point.fragility_of_strength}.` : "No fragility: the ordinate is not finite.",
+    caption: point.fragility ? `Fragility: share of the records that exceed ${metres(point.u_m)} at strength ${point.fragility_of_strength}${point.fragility_of_strength === strength ? "" : `, the analysed strength nearest to ${digits(strength, 3)}`}.` : "No fragility: the ordinate is not finite.",
     x: { name: `${name}, ${unit}`, from: point.levels[0], to: point.levels.at(-1), log: true },
     y: { name: "Share of the records", from: 0, to: 1 }, lines: [{ x: point.levels, y: point.fragility ?? [] }],
     columns: { [`${state.measure}_${unit.replace("/", "_")}`]: point.levels, share: point.fragility ?? point.levels.map(() => 0) },
@@ -289,9 +307,9 @@ const drawSpectrum = latest(async () => {
   if (state.level === null) drawMotion();
   const told = [...(point?.alarms ?? []), ...spectrum.alarms].map((own) => element("li", {}, element("span", { class: "kind" }, `${own.severity === "mistake" ? "mistake?" : own.severity}: `),
     `${own.subject}${own.also.length ? ` (${own.also.length} more)` : ""}: ${own.what}.`));
-  if (spectrum.alarms.length) told.push(element("li", { class: "note" }, `Warnings of the analysis concern ${about.poes.map((own) => digits(100 * own)).join(", ")} % in ${about.years} years.`));
+  if (spectrum.alarms.length) told.push(element("li", { class: "note" }, `The stored warnings were checked only for ${about.poes.map((own) => digits(100 * own)).join(", ")} % in ${about.years} years.`));
   $("alarms").replaceChildren(...(told.length ? told : [element("li", {}, about.synthetic ? "None." : "None. The program checks records and curves in more detail.")]));
-});
+}
 
 // ---- the structure --------------------------------------------------------------------------------------------------
 const own = () => state.own[state.kind];
@@ -353,7 +371,7 @@ function drawing() {
   place.firstChild.innerHTML = svg;
   const put = (key, left, height) => {
     const box = place.querySelector(`#field-${key}`);
-    box.style.left = `${(100 * left) / 460}%`;
+    box.style.left = `max(2.75rem, ${(100 * left) / 460}%)`;
     box.style.top = `${(100 * height) / 400}%`;
     if (document.activeElement !== box && !mistyped.has(key)) box.value = own()[key];
   };
@@ -387,7 +405,7 @@ function fields() {
     if (key === "columns" && state.kind === "pier") continue;
     const box = input(key, said);
     box.value = own()[key] ?? "";
-    rows.push(element("label", { for: box.id }, said), box);
+    rows.push(element("label", { for: box.id, ...(TITLES[key] && { title: TITLES[key] }) }, said), box);
   }
   const factor = element("input", { id: "safety", type: "text", inputmode: "decimal", autocomplete: "off", value: state.safety });
   factor.oninput = () => {
@@ -397,8 +415,15 @@ function fields() {
   };
   rows.push(element("label", { for: "safety" }, "Safety factor on the demand"), factor);
   $("fields").replaceChildren(...rows);
+  nameRestitution();
 }
-const rows = (...all) => element("div", { class: "table" }, element("table", {}, element("tbody", {}, ...all.filter(Boolean).map(([said, value, bad]) =>
+function nameRestitution() {
+  if (about) $("fields").querySelector("[for=field-restitution]").textContent = `Restitution (empty: ${about.restitution})`;
+}
+// a message of the module with the labels of the page
+const labelled = (message) => Object.entries({ ...FIELDS, width_m: "Width, m", height_m: "Height, m" })
+  .reduce((text, [key, said]) => text.replaceAll(new RegExp(`\`?\\b${key}\\b\`?`, "g"), said), message);
+const rows = (name, ...all) => element("div", { class: "table" }, element("table", { "aria-label": name }, element("tbody", {}, ...all.filter(Boolean).map(([said, value, bad]) =>
   element("tr", {}, element("th", { scope: "row" }, said), element("td", { class: `number${bad ? " bad" : ""}` }, value))))));
 // the rule that asks for the most; none where there are no rules
 const worst = (rules) => [...rules].sort((a, b) => (a.required_capacity_m ?? Infinity) - (b.required_capacity_m ?? Infinity)).slice(-1);
@@ -407,16 +432,22 @@ const atUpperEnd = ({ required_capacity_band_m: limits }, { capacity_m: capacity
   (limits && capacity !== null && (limits[1] === null || limits[1] > capacity)
     ? ` (not at the upper limit of the band, which ${limits[1] === null ? "no capacity meets" : `requires ${metres(limits[1])}`})` : "");
 const verdict = (rule, { capacity_m: capacity }) => (rule.overturns ? "It overturns"
-  : `Required capacity ${metres(rule.required_capacity_m)}${band(rule.required_capacity_band_m)}${capacity === null ? "" : `, available ${metres(capacity)}`}`)
+  : `Required capacity ${metres(rule.required_capacity_m, 3)}${band(rule.required_capacity_band_m)}${capacity === null ? "" : `, available ${metres(capacity, 3)}`}`)
   + `: ${rule.satisfied ? "satisfied" : "not satisfied"}`;
+// the verdict of the demand on the structure itself, where it was analysed and has a capacity
+const ownVerdict = ({ check, upper_check: upper, demand_m: demand, demand_band_m: limits }, { capacity_m: capacity }) =>
+  (check.required_capacity_m === null ? "It overturns by its own demand: not satisfied"
+    : `Required capacity ${metres(check.required_capacity_m, 3)} by its own demand of ${metres(demand)}${band(limits)}, available ${metres(capacity, 3)}: ${check.satisfied
+      ? `satisfied${upper && !upper.satisfied ? " (not at the upper limit of the band)" : ""}` : "not satisfied"}`);
 // the demand read off the spectrum is of the oscillator that the spectrum was computed for
 function otherOscillator() {
   const differing = [["uplift_displacement_m", "uplift displacement", 1000, " mm"], ["restitution", "restitution", 1, ""]]
     .filter(([key]) => own()[key] !== undefined && Math.abs(own()[key] - about[key]) > 1e-9)
     .map(([key, said, times, unit]) => `${said} ${digits(times * about[key], 3)}${unit} (structure: ${digits(times * own()[key], 3)}${unit})`);
-  return differing.length ? [element("p", { class: "note" }, `The spectrum was computed for ${differing.join(" and ")}: analyse the structure itself for its own demand.`)] : [];
+  return differing.length ? [`Computed for ${differing.join(" and ")}: analyse the structure itself for its own demand.`] : [];
 }
-const inputs = () => toml() + JSON.stringify(at());
+const inputs = () => toml() + JSON.stringify([at(), state.safety]);
+let designed = null;
 const drawDesign = latest(async () => {
   $("toml").textContent = toml();
   let told;
@@ -430,29 +461,42 @@ const drawDesign = latest(async () => {
     const keys = about.sites.find((own) => own.name === state.site).measures.filter((key) => key !== state.measure);
     others = await Promise.all(keys.map(async (key) => [about.measures.find((own) => own.key === key).label, await by(key)]));
   } catch (error) {
-    $("mistake").hidden = false;
-    $("mistake").textContent = error.message;
+    complain("mistake", labelled(error.message));
     $("design").replaceChildren();
     window.design = null;
+    designed = null;
     if (state.strength === null) drawSpectrum();
+    drawMotion();
     return;
   }
   if (inputs() !== asked) return;
   window.design = told;
+  designed = { told, others };
   if (state.strength === null) drawSpectrum();
-  $("mistake").hidden = true;
+  drawMotion();
+  complain("mistake", "");
+  showDesign();
+});
+function showDesign() {
+  const { told, others } = designed;
+  const found = window.ownDemand;
+  const own = found?.check ? found : null;
   const [most] = worst(told.rules ?? []);
   const small = (text) => text.replace(/^./, (first) => first.toLowerCase());
   // a measure that asks for more, as the program names it
   const also = others.flatMap(([name, by]) => worst(by.rules ?? []).map((rule) => [name, rule, by]))
     .filter(([, rule]) => most && !rule.satisfied && most.satisfied).map(([name, rule, by]) => ` By ${name}, ${small(verdict(rule, by))}.`);
-  $("verdict").replaceChildren(most ? `The ${state.kind}: ${small(verdict(most, told))}.` : "", element("span", { class: "bad" }, also.join("")));
+  const kind = `The ${state.kind}: `;
+  $("verdict").replaceChildren(...(own ? [element("span", own.check.satisfied ? {} : { class: "bad" }, `${kind}${small(ownVerdict(own, told))}.`)] : []),
+    most ? `${own ? " By the spectrum: " : kind}${small(verdict(most, told))}.` : "", element("span", { class: "bad" }, also.join("")));
   $("design").replaceChildren(
-    ...worst(told.rules ?? []).map((rule) => element("p", { class: "answer" },
+    ...(own ? [element("p", { class: `answer${own.check.satisfied ? "" : " bad"}` }, ownVerdict(own, told))] : []),
+    ...worst(told.rules ?? []).map((rule) => element("p", { class: "answer" }, own ? "By the spectrum: " : "",
       verdict(rule, told), element("small", {}, `By ${rule.rule.replace("-", " ")}, ${whereWords()}. ${rule.overturns ? "No capacity is enough." : `Displacement of the ${state.kind} ${metres(rule.demand_m)}${band(rule.demand_band_m)}, safety factor ${digits(rule.safety_factor, 3)}, ${digits(state.safety, 3)} required.`}`))),
     rows(
+      "Design by the spectrum",
       ["Uplift strength", `${digits(told.spectral_strength, 3)} (displacements are ${digits(told.participation, 4)} times the spectrum's)`],
-      ["Displacement capacity", told.capacity_m === null ? "none: the force does not fall after uplift" : metres(told.capacity_m)],
+      ["Displacement capacity", told.capacity_m === null ? "none: the force does not fall after uplift" : metres(told.capacity_m, 3)],
       told.ordinate_m !== undefined && ["Displacement by the spectrum", `${metres(told.ordinate_m)}${band(told.ordinate_band_m)}`],
       told.without_demand && ["Demand", told.without_demand, true],
       ...(told.rules ?? []).flatMap((rule) => [
@@ -462,18 +506,20 @@ const drawDesign = latest(async () => {
       ]),
     ),
     ...(also.length ? [element("p", { class: "bad" }, also.join("").trim())] : []),
-    ...otherOscillator(),
+    ...(most ? [element("p", { class: "note" }, "The required capacity is the safety factor times the demand that the structure would have with that capacity (Eq. 3.15). It is finite even where the structure overturns with the present one.")] : []),
     ...told.warnings.map((own) => element("p", { class: "note" }, own)),
     element("p", { class: "note" }, `${whereWords()}${about.synthetic ? ", synthetic records" : ""}. A satisfied rule is no proof: analyse the structure itself.`),
   );
-});
+}
 function changed() {
+  window.ownDemand = null;
+  if ($("state").textContent === mistypedShown) say("");
   writeLink();
   drawing();
   drawDesign();
-  drawMotion();
   $("own-demand").replaceChildren();
   $("command").textContent = `uplift run study.toml && uplift design structure.toml --urs results/study.h5 --return-period ${state.period} --measure ${state.measure}`;
+  sheet();
 }
 // the spectrum at the structure's strength is drawn when that is known
 const everything = () => { if (state.strength !== null) drawSpectrum(); changed(); };
@@ -503,19 +549,23 @@ const often = (event) => {
   if (!event.may_happen) return "cannot happen: the force does not fall after uplift";
   const limits = event.band_per_year ? ` (90 % band ${rate(event.band_per_year[0])} to ${rate(event.band_per_year[1])})` : "";
   if (event.per_year === 0) return `no record shows it; at most ${rate(event.at_most_per_year)} a year`;
-  return `${rate(event.per_year)} a year${limits}, ${digits(100 * event.probability)} % in ${about.years} years`;
+  return `${rate(event.per_year)} a year${limits}, ${digits(100 * event.probability)} % in ${about.years} years${event.alarm ? `. ${event.alarm}` : ""}`;
 };
+let mistypedShown = null;
 $("analyse").onclick = () => {
-  if (mistyped.size) return say([...mistyped.values()].join(" "));
+  if (mistyped.size) return say(mistypedShown = [...mistyped.values()].join(" "));
   const asked = inputs();
-  return analyse({ ask: "analyse-structure", text: toml(), at: at(), block: $("with-block").checked }, (found) => {
+  const question = { ask: "analyse-structure", text: toml(), at: at(), block: $("with-block").checked, safety_factor: state.safety };
+  return analyse(question, (found) => {
     if (inputs() !== asked) return "The inputs changed during the analysis: analyse again.";
     showOwn(found);
   });
 };
 function showOwn(found) {
   window.ownDemand = found;
+  if (designed) showDesign();
   $("own-demand").replaceChildren(element("h3", {}, `The structure itself: ${state.kind}, ${whereWords()}`), rows(
+    "The structure itself",
     ["Demand", found.overturns ? "overturns more often than the return period allows" : `${metres(found.demand_m)}${band(found.demand_band_m)}`, found.overturns],
     found.beyond_capacity && ["Exceeds its capacity", often(found.beyond_capacity)],
     ...found.overturning.map((event) => [`Overturns, ${event.model}`, often(event)]),
@@ -526,6 +576,15 @@ $("stop").onclick = () => worker.postMessage({ kind: "stop" });
 
 // ---- the motion -----------------------------------------------------------------------------------------------------
 let moving = null;
+// how many records exceed the demand, and which comes nearest: asked when nothing was changed for a while
+let near = {};
+let nearKey = null;
+let nearTimer = 0;
+const PAUSE_MS = 400;
+function showNear(demand) {
+  const isNearest = $("motion").value === String(near.nearest);
+  $("near").textContent = `${near.exceeding} of ${near.records} records, scaled to the same level, exceed the demand of ${metres(demand)}${isNearest ? "; this one comes nearest to it" : ""}.`;
+}
 const drawMotion = latest(async () => {
   const level = state.level ?? siteLevel;
   if (!motions?.length || level === null) return;
@@ -533,13 +592,22 @@ const drawMotion = latest(async () => {
   $("level").max = Math.max(levels.at(-1), level);
   $("level").value = level;
   $("level-site").hidden = state.level === null;
-  $("level-number").textContent = `${name} ${digits(level)} ${unit}${state.level === null ? `, exceeded at ${state.site} once in ${state.period} years` : ""}`;
+  const scaled = `${name} ${digits(level)} ${unit}${state.level === null ? `, exceeded at ${state.site} once in ${state.period} years` : ""}`;
+  $("level-number").textContent = scaled;
+  $("level").setAttribute("aria-valuetext", scaled);
   let motion;
+  // the demand by the rule that the headline has
+  const [rule] = worst(window.design?.rules ?? []);
+  const demand = rule && !rule.overturns ? rule.demand_m : null;
+  const peaks = { ask: "peaks", text: toml(), measure: state.measure, level, demand_m: demand };
+  const key = nearKey = JSON.stringify([peaks, motions]);
+  clearTimeout(nearTimer);
+  $("near").textContent = "";
   try {
     motion = await ask({ ask: "motion", text: toml(), motion: Number($("motion").value), measure: state.measure, level });
   } catch (error) {
     moving = null;
-    $("peak").textContent = error.message;
+    $("peak").textContent = labelled(error.message);
     $("stage").replaceChildren();
     $("f-trace").replaceChildren();
     return;
@@ -547,6 +615,17 @@ const drawMotion = latest(async () => {
   moving = motion;
   window.moving = motion;
   $("peak").textContent = motion.overturned ? "It overturns." : motion.peak_m === 0 ? "It does not uplift." : `Largest displacement ${metres(motion.peak_m)}.`;
+  if (near.key === key) showNear(demand);
+  else if (demand !== null) nearTimer = setTimeout(async () => {
+    const found = await ask(peaks).catch(() => null);
+    if (!found || nearKey !== key) return;
+    near = { key, ...found };
+    // a motion that is watched stays
+    const isOther = state.record === null && $("motion").value !== String(near.nearest);
+    if (!isOther || playing || Number($("time").value) > 0) return showNear(demand);
+    $("motion").value = near.nearest;
+    drawMotion();
+  }, PAUSE_MS);
   const [low, high] = span(motion.displacement_m);
   const reach = Math.max(Math.abs(low), Math.abs(high), 1e-3) * 1.1;
   show("f-trace", {
@@ -565,6 +644,7 @@ const drawMotion = latest(async () => {
 function pose(time) {
   $("time").value = time;
   $("time-number").textContent = `${time.toFixed(2)} s`;
+  $("time").setAttribute("aria-valuetext", `${time.toFixed(2)} s`);
   const of = scene();
   const colours = palette();
   let place = 0;
@@ -602,7 +682,11 @@ $("time").oninput = () => {
 async function listMotions() {
   try {
     motions = await ask({ ask: "motions" });
-    if (!motions.some((own) => own.id === state.record)) state.record = null;
+    if (!motions.some((own) => own.id === state.record)) {
+      if (linked.record && linked.record === state.record) say([$("state").textContent, `The link’s record ${state.record} is not here.`].join(" ").trim());
+      state.record = null;
+    }
+    linked.record = null;
     $("motion").replaceChildren(...motions.map((own, place) => element("option", { value: place }, `${own.id}: PGV ${digits(own.pgv_cm_s)} cm/s, PGA ${digits(own.pga_g)} g, ${digits(own.duration_s)} s`)));
     $("motion").value = Math.max(0, motions.findIndex((own) => own.id === state.record));
   } catch (error) {
@@ -646,6 +730,8 @@ async function takeCurves(file, choice) {
   const found = await ask({ ask: "curves", name: file.name, choice }, await bytes(file));
   if (found.open) open.push({ file, choices: found.open });
   const [usable, others] = [true, false].map((known) => found.curves.filter((curve) => about.measures.some((own) => own.key === curve.measure) === known));
+  // a file that is dropped again replaces its curves
+  curves = curves.filter((own) => !usable.some((other) => other.label === own.label));
   curves.push(...usable);
   offer();
   if (others.length) throw new Error(`the page has no spectra by the measure of ${others.map((curve) => curve.label).join(", ")}`);
@@ -677,6 +763,12 @@ function offer() {
 }
 // records that do not name their unit or time step are read when these are given
 let unread = [];
+let droppedFiles = [];
+const noneDropped = () => {
+  droppedFiles = [];
+  $("dropped").hidden = true;
+  $("beside").hidden = true;
+};
 async function takeRecord(file) {
   const unit = $("record-unit").value || null;
   const step_s = parsed("Time step", $("record-step").value) ?? null;
@@ -684,12 +776,16 @@ async function takeRecord(file) {
     if (/records without one/.test(error.message)) unread.push(file);
     throw error;
   });
+  droppedFiles.push(`${file.name} (${format})`);
   $("dropped").hidden = false;
-  $("dropped-count").textContent = `${records} ${records === 1 ? "record" : "records"} (${format}).`;
+  const named = `${droppedFiles.slice(0, 12).join(", ")}${droppedFiles.length > 12 ? ", …" : ""}`;
+  $("dropped-count").textContent = `${records} ${records === 1 ? "record" : "records"}: ${named}. Further files are added.`;
 }
 async function takeStripes(file) {
   const packed = await starts(file, "\u001f\u008b");
-  await settle(await ask({ ask: "stripes" }, await bytes(packed ? await unpacked(file) : file)));
+  const now = await ask({ ask: "stripes" }, await bytes(packed ? await unpacked(file) : file));
+  noneDropped();
+  await settle(now);
   say(`${file.name} is shown.`);
 }
 const unpacked = (file) => new Response(file.stream().pipeThrough(new DecompressionStream("gzip"))).blob();
@@ -727,10 +823,13 @@ async function useFound() {
 }
 $("take-found").onclick = useFound;
 $("extrapolate").onchange = () => { state.extrapolate = $("extrapolate").checked; writeLink(); if (curves.length) useFound(); };
-$("analyse-records").onclick = () => analyse({ ask: "analyse-records" }, settle);
+$("analyse-records").onclick = () => analyse({ ask: "analyse-records" }, (now) => {
+  $("beside").hidden = false;
+  return settle(now);
+});
 $("forget-records").onclick = async () => {
   await ask({ ask: "no-records" });
-  $("dropped").hidden = true;
+  noneDropped();
   await settle(await send({ kind: "restart" }));
 };
 for (const kind of ["dragover", "dragleave", "drop"]) addEventListener(kind, (event) => {
@@ -742,6 +841,7 @@ for (const kind of ["dragover", "dragleave", "drop"]) addEventListener(kind, (ev
 // ---- what is taken along --------------------------------------------------------------------------------------------
 $("save-study").onclick = async () => {
   const { files, runs_as_it_is: runs } = await ask({ ask: "study", ...at() });
+  if ("records.csv" in files) say("Put the record files beside study.toml: records.csv names them.");
   for (const [name, text] of Object.entries(files)) save(name, text);
   if (!runs) say("The study names the record files where the result had them. Put them there, or drop them here and analyse them first.");
 };
@@ -752,10 +852,27 @@ $("save-link").onclick = async () => {
   try { await navigator.clipboard.writeText(location.href); say("The link is copied."); } catch { say(location.href); }
 };
 $("print").onclick = () => print();
+// the head of the printed sheet
+function sheet() {
+  const today = new Date().toLocaleDateString("en-GB", { day: "numeric", month: "long", year: "numeric" });
+  const named = [["Project", $("project").value], ["Prepared by", $("author").value], ["Date", today]].filter(([, value]) => value);
+  $("sheet-title").textContent = `Design sheet: ${state.kind}`;
+  $("sheet-where").textContent = about ? `Site ${whereWords()}` : "";
+  $("sheet-named").textContent = named.map(([said, value]) => `${said}: ${value}`).join(" · ");
+}
+for (const id of ["project", "author"]) $(id).oninput = sheet;
+addEventListener("beforeprint", sheet);
 
 // ---- controls -------------------------------------------------------------------------------------------------------
 async function settle(now) {
   about = now;
+  embeddedRecords ??= about.record_set;
+  const lost = linked.records && linked.records !== about.record_set
+    ? `The link was made with other records (${linked.records}): drop them again. Shown: ${about.record_set}.` : "";
+  linked.records = null;
+  state.records = about.record_set === embeddedRecords ? null : about.record_set;
+  $("answer").textContent = "Computing …";
+  nameRestitution();
   const missing = state.site && !about.sites.some((own) => own.name === state.site) ? state.site : null;
   if (!about.sites.some((own) => own.name === state.site)) state.site = (about.sites.find((own) => own.name === "Athens") ?? about.sites[0])?.name;
   $("site").replaceChildren(...about.sites.map((own) => element("option", {}, own.name)));
@@ -765,9 +882,9 @@ async function settle(now) {
   $("strength").max = strengths.length - 1;
   $("synthetic").hidden = !about.synthetic;
   $("provenance").textContent = about.provenance;
+  unlisted = true;
   everything();
-  listMotions();
-  return missing ? `${missing} has no hazard curve here: drop it again. ${state.site} is shown.` : "";
+  return [missing && `${missing} has no hazard curve here: drop it again. ${state.site} is shown.`, lost].filter(Boolean).join(" ");
 }
 function measures() {
   const there = about.sites.find((own) => own.name === state.site)?.measures ?? [];
@@ -790,6 +907,7 @@ function showStrength(strength) {
   $("strength").setAttribute("aria-valuetext", text);
   $("strength-number").textContent = text;
   $("strength-own").checked = state.strength === null;
+  $("strength").disabled = false;
 }
 $("site").onchange = () => { state.site = $("site").value; measures(); everything(); };
 $("measure").onchange = () => { state.measure = $("measure").value; state.level = null; measures(); everything(); };
@@ -797,13 +915,16 @@ $("period").oninput = () => {
   state.period = Number((10 ** Number($("period").value)).toPrecision(4));
   mistyped.delete("period");
   $("period-number").value = state.period;
+  showPeriod();
   everything();
 };
 $("period-number").oninput = () => {
   const value = typed("period", "Return period, years", $("period-number").value);
   if (!mistyped.has("period")) $("period").value = Math.log10(state.period = value);
+  showPeriod();
   everything();
 };
+const showPeriod = () => $("period").setAttribute("aria-valuetext", `${state.period} years`);
 $("strength").oninput = () => { state.strength = about.strengths[Number($("strength").value)]; writeLink(); drawSpectrum(); };
 $("strength-own").onchange = () => {
   state.strength = $("strength-own").checked ? null : about.strengths[Number($("strength").value)];
@@ -828,6 +949,7 @@ function begin() {
   document.querySelector(`[name=kind][value=${state.kind}]`).checked = true;
   $("period").value = Math.log10(state.period);
   $("period-number").value = state.period;
+  showPeriod();
   fields();
   return wrong;
 }

@@ -7,12 +7,13 @@ use uplift_fragility::Stripes as Stripe;
 use uplift_ida::{Plan, StripeRecord, System, Unwatched, analyse};
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::Oscillator;
-use uplift_risk::{EventRisk, PooledDemand, RiskCurve, StripeWeights, at_most_per_year};
+use uplift_risk::{EventRisk, PooledDemand, RiskCurve, StripeWeights, TAIL_SHARE_LIMIT, at_most_per_year};
+use uplift_structure::{Check, Rule};
 use uplift_study::{Structure, UniformRiskStudy};
 
 use crate::calculator::{Answer, At, refused};
 use crate::motions::{Motion, Motions};
-use crate::stripes::{CONFIDENCE, Measure, Stripes};
+use crate::stripes::{CONFIDENCE, Measure, Stripes, per_cent};
 use crate::structure::parse;
 
 /// A threshold that nothing but overturning exceeds.
@@ -35,8 +36,8 @@ pub(crate) struct Analysis {
 enum Purpose {
     /// Stripes of the dropped records.
     Records,
-    /// The demand on a structure, and how often it overturns.
-    Structure(Box<Structure>, At),
+    /// The demand on a structure with a safety factor, and how often it overturns.
+    Structure(Box<Structure>, At, f64),
 }
 
 impl Analysis {
@@ -58,7 +59,7 @@ impl Analysis {
     pub(crate) fn of_structure(
         stripes: &Stripes,
         motions: &mut Motions,
-        (text, with_block): (&str, bool),
+        (text, with_block, safety_factor): (&str, bool, f64),
         at: &At,
     ) -> Answer<Self> {
         let structure = parse(text)?;
@@ -74,7 +75,7 @@ impl Analysis {
         }
         let measures = vec![(of.measure, of.levels.clone())];
         let records = motions.all()?.len();
-        let purpose = Purpose::Structure(Box::new(structure), at.clone());
+        let purpose = Purpose::Structure(Box::new(structure), at.clone(), safety_factor);
         // what is lost when a record ends has overturned
         Ok(Self::new(&stripes.study, (systems, measures), (records, true), purpose))
     }
@@ -127,11 +128,18 @@ impl Analysis {
                 stripes.replace(records, manifest, measures);
                 Ok(stripes.about())
             }
-            Purpose::Structure(structure, at) => self.of_structure_at(structure, stripes, at),
+            Purpose::Structure(structure, at, safety_factor) => {
+                self.of_structure_at((structure, *safety_factor), stripes, at)
+            }
         }
     }
 
-    fn of_structure_at(&self, structure: &Structure, stripes: &Stripes, at: &At) -> Answer<Value> {
+    fn of_structure_at(
+        &self,
+        (structure, safety_factor): (&Structure, f64),
+        stripes: &Stripes,
+        at: &At,
+    ) -> Answer<Value> {
         let (place, risk) = (stripes.place(at)?, stripes.risk(at)?);
         let (weights, years, factor) = (place.weights, risk.years, structure.system.participation());
         let units: Vec<Vec<usize>> = if self.records == stripes.records.len() {
@@ -155,17 +163,24 @@ impl Analysis {
             System::Oscillator(own) => Some(own.capacity_m()).filter(|capacity_m| capacity_m.is_finite()),
             System::Block(_) | System::Frame(_) => None,
         };
-        let beyond = beyond.map(|threshold_m| event(&own, (weights, &units), threshold_m, years, true)).transpose()?;
+        let ends = (levels[0], levels[levels.len() - 1], place.of.measure.unit());
+        let event = |demand: &PooledDemand, threshold_m: f64, may_happen: bool| {
+            event(demand, (weights, &units), (threshold_m, years), ends, may_happen)
+        };
+        let beyond = beyond.map(|threshold_m| event(&own, threshold_m, true)).transpose()?;
         let mut overturning = Vec::new();
         for (index, system) in self.systems.iter().enumerate() {
             let may = system.can_overturn() && (index > 0 || capacity_m.is_some());
-            let mut found = event(&demand(index)?, (weights, &units), OVERTURNING_M, years, may)?;
+            let mut found = event(&demand(index)?, OVERTURNING_M, may)?;
             found["model"] = system.kind().into();
             overturning.push(found);
         }
+        let demand_m = factor * ordinate.displacement_m;
         Ok(json!({
+            "check": own_check(structure, safety_factor, demand_m)?,
+            "upper_check": own_check(structure, safety_factor, factor * band_m[1])?,
             "analyses": self.records * self.systems.len() * levels.len(),
-            "demand_m": factor * ordinate.displacement_m,
+            "demand_m": demand_m,
             "overturns": ordinate.displacement_m.is_infinite(),
             "demand_band_m": band_m.map(|limit_m| factor * limit_m),
             "capacity_m": capacity_m,
@@ -173,6 +188,23 @@ impl Analysis {
             "overturning": overturning,
         }))
     }
+}
+
+/// The capacity of a structure held against its own demand, m, which no rule estimates: the safety factor times the
+/// demand is required, as `uplift design` has it. None where the force does not fall after uplift.
+fn own_check(structure: &Structure, safety_factor: f64, demand_m: f64) -> Answer<Value> {
+    if structure.system.capacity_m().is_none() || demand_m.is_nan() {
+        return Ok(Value::Null);
+    }
+    if demand_m.is_infinite() {
+        return Ok(json!({ "required_capacity_m": null, "safety_factor": 0.0, "satisfied": false }));
+    }
+    let check = Check::of(&structure.system, Rule::EqualDisplacement, safety_factor, demand_m).map_err(refused)?;
+    Ok(json!({
+        "required_capacity_m": check.required_capacity_m,
+        "safety_factor": check.capacity_m / demand_m,
+        "satisfied": check.is_satisfied(),
+    }))
 }
 
 /// The oscillator of a study at a strength.
@@ -183,12 +215,13 @@ fn oscillator(study: &UniformRiskStudy, strength: f64) -> Answer<System> {
     oscillator.map(System::Oscillator).map_err(refused)
 }
 
-/// How often `threshold_m` is exceeded, with its band, as `uplift overturning` has it.
+/// How often `threshold_m` is exceeded, with its band, as `uplift overturning` has it, and what of that lies outside
+/// the levels, of which the first, the last and the unit are given.
 fn event(
     demand: &PooledDemand,
     (weights, units): (&StripeWeights, &[Vec<usize>]),
-    threshold_m: f64,
-    years: f64,
+    (threshold_m, years): (f64, f64),
+    (first, last, unit): (f64, f64, &str),
     may_happen: bool,
 ) -> Answer<Value> {
     let curve = RiskCurve::new(demand, weights).map_err(refused)?;
@@ -200,7 +233,16 @@ fn event(
         risk.at_most_per_year = Some(at_most_per_year(weights, units.len() as f64));
     }
     let band = inferred_rate(demand, weights, units, (threshold_m, CONFIDENCE)).map_err(refused)?;
+    // as the program raises it
+    let outside = if risk.upper_tail_share >= risk.lower_tail_share {
+        (risk.upper_tail_share, format!("above the last level, {last} {unit}: a lower bound"))
+    } else {
+        (risk.lower_tail_share, format!("below the first level, {first} {unit}: too large"))
+    };
+    let (share, place) = outside;
+    let alarm = (share > TAIL_SHARE_LIMIT).then(|| format!("{} of the risk is {place}", per_cent(share)));
     let mut told = serde_json::to_value(risk).map_err(refused)?;
+    told["alarm"] = json!(alarm);
     told["may_happen"] = may_happen.into();
     // NaN of a single record, and 0 where no run exceeds it
     told["band_per_year"] = if band[1] > 0.0 { json!(band) } else { Value::Null };

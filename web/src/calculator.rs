@@ -47,8 +47,10 @@ enum Question {
     Motion { text: String, motion: usize, measure: String, level: f64 },
     /// Begins the analysis of the dropped records.
     AnalyseRecords,
+    /// The peaks of a structure under all motions at a level, against a demand on it.
+    Peaks { text: String, measure: String, level: f64, demand_m: f64 },
     /// Begins the analysis of a structure, and of the block that rotates as it does.
-    AnalyseStructure { text: String, at: At, block: bool },
+    AnalyseStructure { text: String, at: At, block: bool, safety_factor: f64 },
     /// Goes on with what was begun, by one record.
     Step,
     /// Ends what was begun.
@@ -166,9 +168,13 @@ impl Calculator {
                 let analysis = Analysis::of_records(stripes, &self.motions)?;
                 Ok(self.begin(analysis))
             }
-            Question::AnalyseStructure { text, at, block } => {
+            Question::Peaks { text, measure, level, demand_m } => {
+                crate::structure::peaks(&text, &mut self.motions, (&measure, level), demand_m)
+            }
+            Question::AnalyseStructure { text, at, block, safety_factor } => {
                 let stripes = self.stripes.as_mut().ok_or(NO_STRIPES)?;
-                let analysis = Analysis::of_structure(stripes, &mut self.motions, (&text, block), &at)?;
+                let asked = (&text[..], block, safety_factor);
+                let analysis = Analysis::of_structure(stripes, &mut self.motions, asked, &at)?;
                 Ok(self.begin(analysis))
             }
             Question::Step => {

@@ -58,6 +58,7 @@ impl Choice {
         let second = match self.second_column {
             None => String::new(),
             Some(Second::Rates) => ", annual rates".to_owned(),
+            Some(Second::Probabilities(1.0)) => ", probabilities in 1 year".to_owned(),
             Some(Second::Probabilities(years)) => format!(", probabilities in {years} years"),
         };
         format!("{} in {}{second}", self.measure, self.unit)

@@ -8,8 +8,8 @@ use uplift_fragility::Stripes as Stripe;
 use uplift_hazard::{ComponentDefinition, Extrapolation, HazardCurve};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{
-    BEYOND_LIMIT, DECISIVE_SHARE, FEW_RECORDS, Ordinate, OrdinateFlag, PooledDemand, RiskCurve, StrengthPlace,
-    StripeWeights, TAIL_SHARE_LIMIT,
+    BEYOND_LIMIT, COMPARED_FROM_M, DECISIVE_SHARE, FEW_RECORDS, MEASURES_APART, MEASURES_APART_DECISIVE, Ordinate,
+    OrdinateFlag, PooledDemand, RiskCurve, StrengthPlace, StripeWeights, TAIL_SHARE_LIMIT,
 };
 use uplift_study::{AnyStudy, Study, UniformRiskStudy, definition_of};
 
@@ -19,6 +19,10 @@ use crate::calculator::{Answer, At, Risk, refused};
 const FORMAT: &str = "uplift-web-1";
 /// How often a band is to hold the displacement of all records like those at hand, as `uplift spectrum` has it.
 pub(crate) const CONFIDENCE: f64 = 0.9;
+
+/// What a refused curve is told, and what the page offers for it.
+const EXTRAPOLATION_KEY: &str = "choose log-log extrapolation (risk.extrapolate = \"loglog\")";
+const EXTRAPOLATION_BOX: &str = "tick “Extrapolate curves that end too early”";
 
 #[derive(Deserialize)]
 struct Exported {
@@ -228,7 +232,8 @@ impl Stripes {
                 let unit = measure.unit();
                 notes.push(format!("{}: extrapolated below {first} and above {last} {unit}", measure.label()));
             }
-            own.push(self.site_curve(measure, curve, (alarms, extrapolate))?);
+            let curve = self.site_curve(measure, curve, (alarms, extrapolate));
+            own.push(curve.map_err(|refusal| refusal.replace(EXTRAPOLATION_KEY, EXTRAPOLATION_BOX))?);
         }
         if own.is_empty() {
             return Err("no curve was chosen".to_owned());
@@ -274,7 +279,8 @@ impl Stripes {
 
     /// Puts the stripes of records that were dropped in the place of these; what was warned of no longer holds.
     pub(crate) fn replace(&mut self, records: Vec<String>, manifest: String, measures: Vec<Measure>) {
-        let record_set = format!("{} record files, dropped on this page", records.len());
+        let plural = if records.len() == 1 { "" } else { "s" };
+        let record_set = format!("{} record file{plural}, dropped on this page", records.len());
         self.provenance.clone_from(&record_set);
         self.manifest = Some(manifest);
         // as the program has it
@@ -363,12 +369,16 @@ impl Stripes {
     }
 
     /// The ordinate at a strength, linear between those of the stripes, with its band, and the share of the records
-    /// that exceed it at each level; the stripes are those of the strength at the left.
+    /// that exceed it at each level; the stripes are those of the nearest strength.
     pub(crate) fn point(&self, at: &At, strength: f64) -> Answer<Value> {
         let (place, risk) = (self.place(at)?, self.risk(at)?);
         let (read, between, tail_shares) = self.ordinate_at(place, risk, strength)?;
-        let curve = RiskCurve::new(&place.of.demands[between.left], place.weights).map_err(refused)?;
+        let apart = |at: usize| (self.study.strengths[at] - strength).abs();
+        let nearest = if apart(between.right) < apart(between.left) { between.right } else { between.left };
+        let curve = RiskCurve::new(&place.of.demands[nearest], place.weights).map_err(refused)?;
         let fragility = if read[0].is_finite() { curve.exceedance_probabilities(read[0]).ok() } else { None };
+        let mut alarms = place.alarms_of(risk, tail_shares);
+        alarms.extend(self.apart(at, risk, between)?);
         Ok(json!({
             "risk": rarity(risk),
             "strength": strength,
@@ -376,9 +386,39 @@ impl Stripes {
             "band_m": [read[1], read[2]],
             "levels": place.of.levels,
             "fragility": fragility,
-            "fragility_of_strength": self.study.strengths[between.left],
-            "alarms": place.alarms_of(risk, tail_shares),
+            "fragility_of_strength": self.study.strengths[nearest],
+            "alarms": alarms,
         }))
+    }
+
+    /// Other measures whose spectrum is so far from this one, at the strengths that an ordinate is read between, that
+    /// the program raises it.
+    fn apart(&self, at: &At, risk: Risk, between: StrengthPlace) -> Answer<Vec<Value>> {
+        let here = self.place(at)?;
+        let mut alarms = Vec::new();
+        for other in self.site(&at.site)?.curves.iter().filter(|own| own.measure != here.of.measure) {
+            let mut at = at.clone();
+            other.measure.key().clone_into(&mut at.measure);
+            let there = self.place(&at)?;
+            let mut widest = (1.0_f64, 1.0, 0.0);
+            for strength in [between.left, between.right] {
+                let u_m = |place: Place<'_>| place.ordinate(&place.of.demands[strength], risk.per_year);
+                let [here_m, there_m] = [u_m(here)?, u_m(there)?].map(|own| own.ordinate.displacement_m);
+                let times = (there_m / here_m).max(here_m / there_m);
+                if here_m.max(there_m) > COMPARED_FROM_M && times.is_finite() && times > widest.0 {
+                    widest = (times, there_m / here_m, self.study.strengths[strength]);
+                }
+            }
+            let (times, ratio, strength) = widest;
+            if times > MEASURES_APART {
+                let severity = if times > MEASURES_APART_DECISIVE { "caution" } else { "note" };
+                let labels = [other.measure.label(), here.of.measure.label()];
+                let [larger, smaller] = if ratio > 1.0 { labels } else { [labels[1], labels[0]] };
+                let what = format!("the {larger} spectrum is {times:.1} times {smaller}'s at strength {strength}");
+                alarms.push(json!({ "severity": severity, "subject": "Here", "also": [], "what": what }));
+            }
+        }
+        Ok(alarms)
     }
 
     /// The ordinate at a strength and the limits of its band, m, between which strengths they are read, and the larger
@@ -419,7 +459,6 @@ impl Place<'_> {
             (format!("the last level, {}", ends[1]), self.weights.upper_tail_per_year())
         };
         let beyond = per_year / risk.per_year;
-        let per_cent = |share: f64| format!("{} %", (1e3 * share).round() / 10.0);
         let cases = [
             (
                 upper,
@@ -434,7 +473,10 @@ impl Place<'_> {
             (
                 beyond,
                 BEYOND_LIMIT,
-                format!("{known_to} {unit}, has {} of the target rate: it may be too small", per_cent(beyond)),
+                format!(
+                    "{known_to} {unit}, has {} the target rate: it may be too small",
+                    if beyond > 1.0 { format!("{beyond:.1} times") } else { format!("{} of", per_cent(beyond)) }
+                ),
             ),
         ];
         let raised = cases.into_iter().filter(|(share, limit, _)| share > limit);
@@ -450,6 +492,11 @@ impl Place<'_> {
         let band_m = truth_limits(demand, self.weights, &self.of.units, &[per_year], CONFIDENCE).map_err(refused)?[0];
         Ok(Banded { ordinate: ordinate.map_err(refused)?, band_m })
     }
+}
+
+/// `7.8 %`.
+pub(crate) fn per_cent(share: f64) -> String {
+    format!("{} %", (1e3 * share).round() / 10.0)
 }
 
 /// How rare, for the page.

@@ -4,12 +4,13 @@ use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 use serde_json::{Value, json};
-use uplift_frame::{GroundMotion, HistoryRow, Model, Options};
+use uplift_frame::{GroundMotion, HistoryRow, Model, Options, RockingFrame};
 use uplift_motion::Accelerogram;
 use uplift_structure::{Check, PostUpliftForce, Rule};
 use uplift_study::Structure;
 
 use crate::calculator::{Answer, At, refused};
+use crate::motions::Motions;
 use crate::stripes::{Stripes, rarity};
 
 /// Most rows of a motion that the page draws.
@@ -17,9 +18,13 @@ const MOST_ROWS: usize = 6000;
 
 /// A structure file.
 pub(crate) fn parse(text: &str) -> Answer<Structure> {
+    let with_help = |own: &uplift_study::StudyMistake| match &own.help {
+        Some(help) => format!("{own}: {help}"),
+        None => own.to_string(),
+    };
     let told = |error: uplift_study::StudyError| match error.mistakes() {
         [] => error.to_string(),
-        mistakes => mistakes.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
+        mistakes => mistakes.iter().map(with_help).collect::<Vec<_>>().join("\n"),
     };
     Structure::parse(Path::new("structure.toml"), text.to_owned()).map_err(told)
 }
@@ -71,8 +76,10 @@ pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>,
         };
         let own = check(ordinates[0])?;
         let limits: Vec<Option<Check>> = ordinates[1..].iter().map(|&limit_m| check(limit_m).ok()).collect();
-        let of_limits = |value: fn(&Check) -> f64| -> Vec<Option<f64>> {
-            limits.iter().map(|check| check.as_ref().map(value)).collect()
+        // a single record has no band
+        let is_banded = !ordinates.iter().any(|limit_m| limit_m.is_nan());
+        let of_limits = |value: fn(&Check) -> f64| -> Option<Vec<Option<f64>>> {
+            is_banded.then(|| limits.iter().map(|check| check.as_ref().map(value)).collect())
         };
         let demand_m = own.demand.displacement_m();
         rules.push(json!({
@@ -92,13 +99,37 @@ pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>,
     Ok(told)
 }
 
-/// The motion of a structure under a record, in its plane: as `uplift response --structure`.
-pub(crate) fn motion(text: &str, ground: &Accelerogram) -> Answer<Value> {
+/// What rocks, and with which restitution.
+fn rocking(text: &str) -> Answer<(RockingFrame, Options)> {
     let structure = parse(text)?;
     let frame = structure.rocking_frame().ok_or("only columns with flat ends and blocks have a motion here")?;
     let options = Options { restitution: structure.description.restitution, ..Options::default() };
+    Ok((frame.map_err(refused)?, options))
+}
+
+/// Under all records scaled to a level: how many of the largest displacements exceed the demand, m, and which record's
+/// comes nearest to it.
+pub(crate) fn peaks(text: &str, motions: &mut Motions, (measure, level): (&str, f64), demand_m: f64) -> Answer<Value> {
+    let (frame, options) = rocking(text)?;
+    let mut peaks_m = Vec::new();
+    for motion in 0..motions.all()?.len() {
+        let ground = motions.scaled(motion, measure, level)?;
+        let shaking = GroundMotion::along_x(&ground);
+        let response = uplift_frame::respond(&frame, &shaking, Model::Planar, &options).map_err(refused)?;
+        peaks_m.push(if response.overturned { f64::INFINITY } else { response.displacement.value.abs() });
+    }
+    let apart = |place: &usize| (peaks_m[*place] - demand_m).abs();
+    Ok(json!({
+        "records": peaks_m.len(),
+        "exceeding": peaks_m.iter().filter(|peak_m| **peak_m > demand_m).count(),
+        "nearest": (0..peaks_m.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))),
+    }))
+}
+
+/// The motion of a structure under a record, in its plane: as `uplift response --structure`.
+pub(crate) fn motion(text: &str, ground: &Accelerogram) -> Answer<Value> {
+    let (frame, options) = rocking(text)?;
     let shaking = GroundMotion::along_x(ground);
-    let frame = frame.map_err(refused)?;
     let (response, history) =
         uplift_frame::respond_with_history(&frame, &shaking, Model::Planar, &options).map_err(refused)?;
     let rows = &history.rows;
