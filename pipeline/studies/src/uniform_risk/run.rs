@@ -47,7 +47,7 @@ pub fn run(
     needs(study, records, site_list.as_ref()).with_rows_of(&[checkpoint_path(path)]).require(path, events)?;
     let beside = site_table::stripes_beside(study, path);
     let options = place.options;
-    let further = options.earlier.iter().chain(&options.slices).take(1 + options.earlier.len()).chain(&beside);
+    let further = options.earlier.iter().chain(options.slices.first()).chain(&beside);
     let earlier: Vec<&Path> = std::iter::once(path).chain(further.map(PathBuf::as_path)).collect();
     let work = inputs.work(study, &earlier)?;
     let total = work.analyses();
