@@ -23,34 +23,43 @@ pub struct GrowingArray<T> {
     written_rows: usize,
 }
 
+impl<T> GrowingArray<T> {
+    /// At least 1: no axis is empty.
+    fn values_of_a_row(&self) -> usize {
+        self.shape[1..].iter().product()
+    }
+}
+
 impl LabelledWriter {
     /// Begins an array over the axes `dims`, see [`LabelledWriter::array_f64`]. [`LabelledWriter::append`] gives it its
     /// values, [`LabelledWriter::complete`] ends it.
     ///
     /// # Errors
-    /// As [`LabelledWriter::array_f64`].
-    pub fn grow_f64(
+    /// As [`LabelledWriter::array_f64`]; [`LabelledError::Misuse`] also without `dims`.
+    pub fn grow<T: H5Type>(
         &mut self,
         path: &str,
         dims: &[&str],
         unit: &str,
         long_name: &str,
-    ) -> Result<GrowingArray<f64>, LabelledError> {
-        self.grow(path, dims, unit, long_name)
-    }
-
-    /// Begins an array of flags, see [`LabelledWriter::grow_f64`].
-    ///
-    /// # Errors
-    /// As [`LabelledWriter::array_f64`].
-    pub fn grow_u8(
-        &mut self,
-        path: &str,
-        dims: &[&str],
-        unit: &str,
-        long_name: &str,
-    ) -> Result<GrowingArray<u8>, LabelledError> {
-        self.grow(path, dims, unit, long_name)
+    ) -> Result<GrowingArray<T>, LabelledError> {
+        if dims.is_empty() {
+            return Err(self.misuse(path, "a single number has no rows".into()));
+        }
+        let shape = self.shape(path, dims)?;
+        self.prepare(path, dims)?;
+        let dataset = self.create_dataset::<T>(path, &shape, Some(unit), long_name)?;
+        let rows_at_once = writer::chunk_shape(&shape, size_of::<T>())[0];
+        Ok(GrowingArray {
+            path: path.to_owned(),
+            dims: dims.iter().map(ToString::to_string).collect(),
+            shape,
+            dataset,
+            hash: Sha256::new(),
+            rows_at_once,
+            waiting: Vec::new(),
+            written_rows: 0,
+        })
     }
 
     /// Appends whole rows to an array.
@@ -64,7 +73,7 @@ impl LabelledWriter {
         array: &mut GrowingArray<T>,
         values: &[T],
     ) -> Result<(), LabelledError> {
-        let row: usize = array.shape[1..].iter().product();
+        let row = array.values_of_a_row();
         let given = array.written_rows * row + array.waiting.len() + values.len();
         if given > array.shape[0] * row {
             return Err(self.misuse(&array.path, format!("{given} values for the shape {:?}", array.shape)));
@@ -73,9 +82,8 @@ impl LabelledWriter {
             value.enter(&mut array.hash);
         }
         array.waiting.extend_from_slice(values);
-        while row > 0 && array.waiting.len() >= array.rows_at_once * row {
-            let rows = array.rows_at_once;
-            self.write_rows(array, rows, row)?;
+        while array.waiting.len() >= array.rows_at_once * row {
+            self.write_rows(array, array.rows_at_once)?;
         }
         Ok(())
     }
@@ -86,10 +94,9 @@ impl LabelledWriter {
     /// [`LabelledError::Misuse`] where rows are missing; [`LabelledError::Hdf5`] where the disk is full.
     #[allow(private_bounds)]
     pub fn complete<T: H5Type + Hashed>(&mut self, mut array: GrowingArray<T>) -> Result<(), LabelledError> {
-        let row: usize = array.shape[1..].iter().product();
-        let left = array.waiting.len().checked_div(row).unwrap_or(0);
+        let left = array.waiting.len() / array.values_of_a_row();
         if left > 0 {
-            self.write_rows(&mut array, left, row)?;
+            self.write_rows(&mut array, left)?;
         }
         let rows = array.shape[0];
         if array.written_rows != rows || !array.waiting.is_empty() {
@@ -102,38 +109,9 @@ impl LabelledWriter {
         self.attach(&array.path, &dims, &array.dataset)
     }
 
-    fn grow<T: H5Type>(
-        &mut self,
-        path: &str,
-        dims: &[&str],
-        unit: &str,
-        long_name: &str,
-    ) -> Result<GrowingArray<T>, LabelledError> {
-        if dims.is_empty() {
-            return Err(self.misuse(path, "a single number has no rows".into()));
-        }
-        let shape = self.prepare(path, dims)?;
-        let dataset = self.create_dataset::<T>(path, &shape, Some(unit), long_name)?;
-        let rows_at_once = writer::chunk_shape(&shape, size_of::<T>())[0].max(1);
-        Ok(GrowingArray {
-            path: path.to_owned(),
-            dims: dims.iter().map(ToString::to_string).collect(),
-            shape,
-            dataset,
-            hash: Sha256::new(),
-            rows_at_once,
-            waiting: Vec::new(),
-            written_rows: 0,
-        })
-    }
-
-    fn write_rows<T: H5Type>(
-        &mut self,
-        array: &mut GrowingArray<T>,
-        rows: usize,
-        row: usize,
-    ) -> Result<(), LabelledError> {
-        let (from, count) = (array.written_rows, rows * row);
+    /// Writes the first so many rows of those that wait.
+    fn write_rows<T: H5Type>(&mut self, array: &mut GrowingArray<T>, rows: usize) -> Result<(), LabelledError> {
+        let (from, count) = (array.written_rows, rows * array.values_of_a_row());
         let shape: Vec<usize> = std::iter::once(rows).chain(array.shape[1..].iter().copied()).collect();
         let mut place: Vec<SliceOrIndex> = vec![(from..from + rows).into()];
         place.extend(shape[1..].iter().map(|&length| SliceOrIndex::from(0..length)));

@@ -268,29 +268,23 @@ impl LabelledWriter {
         unit: Option<&str>,
         long_name: &str,
     ) -> Result<(), LabelledError> {
-        self.check_path(path)?;
-        let shape: Vec<usize> = self.scales(path, dims)?.into_iter().map(|(length, _)| length).collect();
+        let shape = self.shape(path, dims)?;
         if shape.iter().product::<usize>() != values.len() {
             let reason = format!("{} values for the shape {shape:?} of {dims:?}", values.len());
             return Err(self.misuse(path, reason));
         }
-        let shape = self.prepare(path, dims)?;
+        self.prepare(path, dims)?;
         let dataset = self.dataset(path, &shape, values, unit, long_name)?;
         self.attach(path, dims, &dataset)
     }
 
-    /// Makes room for an array at `path`: its group, with the axes visible in it. Returns the lengths of the axes.
-    pub(super) fn prepare(&mut self, path: &str, dims: &[&str]) -> Result<Vec<usize>, LabelledError> {
-        self.check_path(path)?;
-        let shape = self.scales(path, dims)?.into_iter().map(|(length, _)| length).collect();
+    /// Makes room for an array at `path`: its group, with the axes visible in it.
+    pub(super) fn prepare(&mut self, path: &str, dims: &[&str]) -> Result<(), LabelledError> {
         let group = path.rsplit_once('/').map_or("", |(group, _)| group);
         if !group.is_empty() {
             self.group(group)?;
         }
-        for dim in dims {
-            self.link(group, dim)?;
-        }
-        Ok(shape)
+        dims.iter().try_for_each(|dim| self.link(group, dim))
     }
 
     /// Ties the array at `path` to its axes.
@@ -298,7 +292,8 @@ impl LabelledWriter {
         if dims.is_empty() {
             return Ok(());
         }
-        let scales: Vec<ObjectReference1> = self.scales(path, dims)?.into_iter().map(|(_, scale)| scale).collect();
+        let scales: Vec<ObjectReference1> =
+            dims.iter().filter_map(|dim| self.axes.get(*dim)).map(|axis| axis.reference).collect();
         self.check(dimension_scale::attach(dataset, dims, &scales), "write", path)?;
         let reference = self.check(self.file.reference(path), "refer to", path)?;
         for (dimension, dim) in (0..).zip(dims) {
@@ -309,14 +304,15 @@ impl LabelledWriter {
         Ok(())
     }
 
-    /// Lengths and references of the axes `dims`.
-    fn scales(&self, path: &str, dims: &[&str]) -> Result<Vec<(usize, ObjectReference1)>, LabelledError> {
+    /// Lengths of the axes `dims` of an array that is to lie at `path`.
+    pub(super) fn shape(&self, path: &str, dims: &[&str]) -> Result<Vec<usize>, LabelledError> {
+        self.check_path(path)?;
         if dims.iter().collect::<BTreeSet<_>>().len() < dims.len() {
             return Err(self.misuse(path, format!("an axis is named twice in {dims:?}")));
         }
         dims.iter()
             .map(|dim| match self.axes.get(*dim) {
-                Some(axis) => Ok((axis.length, axis.reference)),
+                Some(axis) => Ok(axis.length),
                 None => Err(self.misuse(path, format!("there is no axis {dim:?}: write it before the array"))),
             })
             .collect()

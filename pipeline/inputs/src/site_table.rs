@@ -25,7 +25,7 @@ use uplift_job::text::thousands;
 use uplift_study::{MeasurePlan, Repair, SiteTable, UniformRiskStudy};
 
 const SITES_NAMED: usize = 4;
-/// How the files of a table of sites are called among the inputs of a result.
+/// How the table of sites is called among the inputs of a result.
 const TABLE: &str = "site table";
 
 /// A site of the table.
@@ -145,7 +145,7 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Inpu
         let label = measure.label();
         failures.extend(list.without_hazard(label, path, index, &rows, table.within_km));
         list.notes.extend(index.notes.iter().cloned());
-        let checksum = list.checksums.get(&format!("{TABLE} {label}")).cloned().unwrap_or_default();
+        let checksum = list.checksums.get(&name_of_export(measure)).cloned().unwrap_or_default();
         let items = rows.iter().map(|row| row.map(|row| row.item)).collect();
         let path = (*path).to_owned();
         let export = SiteExport { measure, path, checksum, items, within_km: table.within_km };
@@ -167,10 +167,15 @@ pub fn site_table_checksums(study: &UniformRiskStudy) -> Result<BTreeMap<String,
     let Some(table) = &study.site_table else { return Ok(BTreeMap::new()) };
     let exports = to_be_read(study, table).filter_map(|read| {
         let path = table.export(read.measure())?;
-        Some((format!("{TABLE} {}", read.measure().label()), path))
+        Some((name_of_export(read.measure()), path))
     });
     let sites = table.sites.as_deref().map(|path| (TABLE.to_owned(), path));
     exports.chain(sites).map(|(name, path)| Ok((name, summed(path)?))).collect()
+}
+
+/// How the export of a measure is called among the inputs of a result.
+fn name_of_export(measure: IntensityMeasure) -> String {
+    format!("{TABLE} {}", measure.label())
 }
 
 /// What an export is read for.
@@ -215,6 +220,21 @@ impl SiteList {
     /// All exports, first those that have spectra.
     pub fn all_exports(&self) -> impl Iterator<Item = &SiteExport> {
         self.exports.iter().chain(&self.compared)
+    }
+
+    /// Refuses exports that are not any more what they were when the sites were found in them.
+    ///
+    /// # Errors
+    /// [`JobError::Inputs`] with the first of them; an export that cannot be read.
+    pub fn require_unchanged(&self) -> Result<(), InputsError> {
+        for export in self.all_exports() {
+            if summed(&export.path)? != export.checksum {
+                let name = export.path.display();
+                let words = format!("{name}: was changed during the run: run the study again");
+                return Err(JobError::input(words).into());
+            }
+        }
+        Ok(())
     }
 
     /// The sites in words, for a line on the screen.
@@ -310,18 +330,10 @@ impl<'a> SiteCurves<'a> {
     /// Opens the exports again for the sites at the positions of `range`.
     ///
     /// # Errors
-    /// An export that cannot be read, or is not any more what it was.
+    /// An export that cannot be read.
     pub fn open(list: &'a SiteList, range: Range<usize>) -> Result<Self, InputsError> {
-        let stream = |export: &SiteExport| {
-            if summed(&export.path)? != export.checksum {
-                return Err(JobError::input(format!(
-                    "{}: was changed during the run: run the study again",
-                    export.path.display()
-                ))
-                .into());
-            }
-            Stream::open(&export.path, export.items[range.clone()].iter().copied().flatten())
-        };
+        let stream =
+            |export: &SiteExport| Stream::open(&export.path, export.items[range.clone()].iter().copied().flatten());
         let streams = list.all_exports().map(stream).collect::<Result<_, _>>()?;
         Ok(Self { list, streams, left: range })
     }

@@ -271,7 +271,7 @@ fn rows_one_after_the_other_are_the_array_at_once() {
             writer.finish().unwrap();
             return fs::read(path).unwrap();
         };
-        let mut array = writer.grow_f64("/urs/u_m", &dims, "m", "displacement").unwrap();
+        let mut array = writer.grow::<f64>("/urs/u_m", &dims, "m", "displacement").unwrap();
         let mut begin = 0;
         for rows in parts {
             let end = begin + rows * 3 * 41;
@@ -279,7 +279,7 @@ fn rows_one_after_the_other_are_the_array_at_once() {
             begin = end;
         }
         writer.complete(array).unwrap();
-        let mut array = writer.grow_u8("/flag", &["site"], "1", "flag").unwrap();
+        let mut array = writer.grow::<u8>("/flag", &["site"], "1", "flag").unwrap();
         flags.chunks(300).for_each(|some| writer.append(&mut array, some).unwrap());
         writer.complete(array).unwrap();
         writer.finish().unwrap();
@@ -296,9 +296,9 @@ fn rows_too_many_or_too_few_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let mut writer = LabelledWriter::create(&folder.path().join("a.h5")).unwrap();
     writer.axis_u32("site", &[1, 2, 3], "1", "site").unwrap();
-    let mut array = writer.grow_f64("/u_m", &["site"], "m", "displacement").unwrap();
+    let mut array = writer.grow::<f64>("/u_m", &["site"], "m", "displacement").unwrap();
     writer.append(&mut array, &[1.0, 2.0]).unwrap();
     assert!(matches!(writer.complete(array), Err(LabelledError::Misuse { .. })));
-    let mut array = writer.grow_f64("/v_m", &["site"], "m", "displacement").unwrap();
+    let mut array = writer.grow::<f64>("/v_m", &["site"], "m", "displacement").unwrap();
     assert!(matches!(writer.append(&mut array, &[0.0; 4]), Err(LabelledError::Misuse { .. })));
 }

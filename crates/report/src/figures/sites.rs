@@ -31,11 +31,8 @@ pub(super) fn site_maps(path: &Path, file: &ResultFile, remark: &str) -> Result<
 
 fn site_map(sites: &SiteArrays, (measure, poe): (usize, usize), remark: &str) -> Figure {
     let key = &sites.measures[measure];
-    let of = |strength: usize| {
-        let values = (0..sites.longitude_deg.len()).map(|site| sites.u_m[[site, measure, poe, strength]]);
-        largest_of_cells(sites, &values.collect::<Vec<f64>>())
-    };
     let frame = frame(sites);
+    let of = |strength: usize| largest_of_cells(sites, frame, [measure, poe, strength]);
     let shown = nearest(&sites.strengths, &SHOWN_ON_MAP);
     let dots: Vec<Vec<Dot>> = shown.iter().map(|&strength| of(strength)).collect();
     let classes = Classes::new(dots.iter().flatten().map(|dot| dot.u_m));
@@ -82,12 +79,15 @@ struct Dot {
 }
 
 /// Of the sites with a value those with the largest one of their cell.
-fn largest_of_cells(sites: &SiteArrays, values_m: &[f64]) -> Vec<Dot> {
-    let [x, y] = frame(sites);
+fn largest_of_cells(sites: &SiteArrays, [x, y]: [[f64; 2]; 2], [measure, poe, strength]: [usize; 3]) -> Vec<Dot> {
     let cell = |value: f64, [from, to]: [f64; 2], cells: f64| ((value - from) / (to - from) * cells) as u32;
     let mut largest: BTreeMap<(u32, u32), Dot> = BTreeMap::new();
-    let places = sites.longitude_deg.iter().zip(&sites.latitude_deg);
-    for ((&longitude, &latitude), &u_m) in places.zip(values_m).filter(|(_, u_m)| !u_m.is_nan()) {
+    let places = sites.longitude_deg.iter().zip(&sites.latitude_deg).enumerate();
+    for (site, (&longitude, &latitude)) in places {
+        let u_m = sites.u_m[[site, measure, poe, strength]];
+        if u_m.is_nan() {
+            continue;
+        }
         let dot = Dot { place: (longitude, latitude), u_m };
         let own = (cell(longitude, x, CELLS[0]), cell(latitude, y, CELLS[1]));
         let kept = largest.entry(own).or_insert(dot);

@@ -3,11 +3,13 @@
 mod consistent;
 mod cube;
 mod files;
+mod layout;
 mod repair;
 mod slices;
 
 pub use cube::{SiteArrays, cube_path};
-pub use files::{SHOWN_ON_MAP, SiteRow, SiteTableFiles, SiteTableLayout, site_table_paths};
+pub use files::{SiteTableFiles, site_table_paths};
+pub use layout::{SHOWN_ON_MAP, SiteRow, SiteTableLayout};
 pub use repair::{SiteConsistency, SiteRepair};
 pub use slices::{join, slice_path, sorted_slices, stripes_beside};
 
@@ -93,6 +95,7 @@ pub(crate) fn compute<'a>(
     let repair = is_repaired.then(|| SiteRepair::new(question, list)).transpose()?;
     let mut files = SiteTableFiles::create(path, study, list, line)?;
     let mut tally = Tally::new(study, list);
+    list.require_unchanged()?;
     let mut curves = SiteCurves::open(list, list.range.clone())?;
     let ordinates = list.exports.len() * study.risk.poe.len() * study.strengths.len();
     let most = (BATCH_BYTES / (ORDINATE_BYTES * ordinates.max(1))).clamp(8, 512);

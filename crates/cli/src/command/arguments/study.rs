@@ -1,10 +1,11 @@
 //! A study file, and how it is run.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use uplift::RunOptions;
 use uplift::analysis::MOST_SHARDS;
+use uplift::uniform_risk::site_table::slice_path;
 use uplift_ida::Shard;
 use uplift_study::{AnyStudy, SiteSlice, Study};
 
@@ -26,10 +27,21 @@ impl StudyArguments {
         Ok(Study::load_any(&self.study, &self.overrides)?)
     }
 
-    /// The same of one slice of a table of sites, where one is asked for.
-    pub(crate) fn of_slice(&self, slice: Option<SiteSlice>) -> Self {
-        let slice = slice.map(|slice| format!("site_table.slice=\"{slice}\""));
-        Self { study: self.study.clone(), overrides: self.overrides.iter().cloned().chain(slice).collect() }
+    /// The same, of one slice of its table of sites where one is asked for, with the options of its run; the result of
+    /// a slice has a name of its own unless `output` is one.
+    pub(crate) fn load_slice(
+        &self,
+        slice: Option<SiteSlice>,
+        output: Option<&Path>,
+        force: bool,
+    ) -> Result<(AnyStudy, RunOptions), CommandError> {
+        let of_slice = slice.map(|slice| format!("site_table.slice=\"{slice}\""));
+        let overrides = self.overrides.iter().cloned().chain(of_slice).collect();
+        let own = Self { study: self.study.clone(), overrides };
+        let study = own.load_any()?;
+        let output = output.map(Path::to_owned).or_else(|| Some(slice_path(&study.output().file, slice?)));
+        let options = run_options(&own, output, force);
+        Ok((study, options))
     }
 }
 

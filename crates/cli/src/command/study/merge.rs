@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use uplift::uniform_risk::site_table::slice_path;
 use uplift_study::SiteSlice;
 
-use crate::command::arguments::{ForceArgument, RARE, StudyArguments, run_options};
+use crate::command::arguments::{ForceArgument, RARE, StudyArguments};
 use crate::error::CommandError;
 use crate::show::{print_json, print_run};
 use crate::terminal::Terminal;
@@ -34,10 +33,8 @@ pub(crate) struct MergeArguments {
 }
 
 pub(crate) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let of_slice = arguments.study.of_slice(arguments.sites);
-    let study = of_slice.load_any()?;
-    let output = arguments.output.clone().or_else(|| Some(slice_path(&study.output().file, arguments.sites?)));
-    let options = run_options(&of_slice, output, arguments.overwriting.force);
+    let output = arguments.output.as_deref();
+    let (study, options) = arguments.study.load_slice(arguments.sites, output, arguments.overwriting.force)?;
     let report = uplift::merge(&study, &arguments.shards, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
 }

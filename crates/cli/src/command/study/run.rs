@@ -4,12 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use uplift::analysis::shard_path;
-use uplift::uniform_risk::site_table::slice_path;
 use uplift::{RunOptions, run_shard};
 use uplift_ida::Shard;
 use uplift_study::SiteSlice;
 
-use crate::command::arguments::{ForceArgument, StudyArguments, run_options, shard};
+use crate::command::arguments::{ForceArgument, StudyArguments, shard};
 use crate::error::CommandError;
 use crate::show::{print_json, print_run, print_shard};
 use crate::terminal::Terminal;
@@ -44,8 +43,8 @@ pub(crate) struct RunArguments {
 }
 
 pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let of_slice = arguments.study.of_slice(arguments.sites);
-    let study = of_slice.load_any()?;
+    let output = arguments.output.as_deref();
+    let (study, options) = arguments.study.load_slice(arguments.sites, output, arguments.overwriting.force)?;
     if let Some(shard) = arguments.shard {
         let path = arguments.output.clone().unwrap_or_else(|| shard_path(&study.output().file, shard));
         if path.extension().is_some_and(|ending| ending == "h5") {
@@ -58,8 +57,6 @@ pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), C
         }
         return print_shard(&run_shard(&study, &path, shard, None, terminal)?, terminal);
     }
-    let output = arguments.output.clone().or_else(|| Some(slice_path(&study.output().file, arguments.sites?)));
-    let options = run_options(&of_slice, output, arguments.overwriting.force);
     let options = RunOptions { again: arguments.again, ..options };
     let report = uplift::run(&study, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_run(&report, terminal) }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use uplift_regression::ExponentialFit;
 
 use super::SiteConsistency;
-use super::files::{cell, number};
+use super::layout::{cell, number};
 
 /// Columns of the spectra, the last two where they have bands.
 pub(super) const SPECTRA: [&str; 3] = ["u_consistent_m", "lower_consistent_m", "upper_consistent_m"];

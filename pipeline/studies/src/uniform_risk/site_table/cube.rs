@@ -11,7 +11,7 @@ use uplift_result::{NO_ORDINATE, flag_number};
 use uplift_study::{Repair, UniformRiskStudy};
 use uplift_uniform_risk::SiteSpectra;
 
-use super::files::problem;
+use super::layout::problem;
 use super::repair::SiteConsistency;
 use crate::error::StudiesError;
 
@@ -64,7 +64,7 @@ const OF_CONSISTENCY: [OfConsistency; 3] = [
 ];
 
 /// Attribute of the root: where the numbers come from.
-pub(super) const PROVENANCE: &str = "provenance";
+const PROVENANCE: &str = "provenance";
 /// Attribute of the root: how many sites deserve which warning, as JSON.
 pub(super) const FINDINGS: &str = "findings";
 /// Attribute of the root of a slice: SHA-256 of each of its tables and of its map.
@@ -73,6 +73,11 @@ pub(super) const TABLES: &str = "tables";
 /// The file beside the result file `result`.
 pub fn cube_path(result: &Path) -> PathBuf {
     beside(result, "sites.h5")
+}
+
+/// Whether the file in `reader` says that it is of the result of this study digest.
+pub(super) fn is_of_digest(reader: &LabelledReader, digest: &str) -> Result<bool, StudiesError> {
+    Ok(reader.attribute_text("/", PROVENANCE)?.contains(&format!("study digest {digest};")))
 }
 
 /// The plain spectra of many sites, read from the file beside a result.
@@ -106,7 +111,7 @@ impl SiteArrays {
             return Ok(None);
         }
         let reader = LabelledReader::open(&path)?;
-        if !reader.attribute_text("/", PROVENANCE)?.contains(&format!("study digest {digest};")) {
+        if !is_of_digest(&reader, digest)? {
             return Ok(None);
         }
         let u_m = reader.array_f64(&format!("{}/u_m", GROUPS[0]))?;
@@ -133,15 +138,16 @@ pub(super) struct Cube {
     problems: Vec<String>,
 }
 
-/// Which arrays there are.
+/// What there is of each site.
 #[derive(Debug, Clone)]
 pub(super) struct Shape {
     measures: usize,
     poes: usize,
-    /// Positions of its strengths among those of the study.
-    strengths: Vec<usize>,
-    has_bands: bool,
-    is_repaired: bool,
+    /// Positions of the strengths that are written among those of the study.
+    pub(super) strengths: Vec<usize>,
+    pub(super) has_bands: bool,
+    /// Whether there are repaired spectra beside the plain ones.
+    pub(super) is_repaired: bool,
 }
 
 /// Some sites as they stand in the file.
@@ -155,11 +161,11 @@ pub(super) struct CubeRows {
 }
 
 impl Shape {
-    pub(super) fn new(study: &UniformRiskStudy, list: &SiteList, strengths: &[usize]) -> Self {
+    pub(super) fn new(study: &UniformRiskStudy, list: &SiteList, strengths: Vec<usize>) -> Self {
         Self {
             measures: list.exports.len(),
             poes: study.risk.poe.len(),
-            strengths: strengths.to_vec(),
+            strengths,
             has_bands: study.site_table.as_ref().is_some_and(|table| table.bands),
             is_repaired: study.consistency.repair == Repair::Weights,
         }
@@ -287,10 +293,10 @@ impl Cube {
         writer.array_f64(LATITUDE, &["site"], &latitudes, "degrees_north", "latitude")?;
         let mut arrays = Vec::new();
         for (path, axes, unit, long_name) in shape.numbers() {
-            arrays.push(writer.grow_f64(&path, axes, unit, long_name)?);
+            arrays.push(writer.grow(&path, axes, unit, long_name)?);
         }
         let words = "0 regular, 1 no exceedance, 2 censored, 3 no spectrum";
-        let flags = writer.grow_u8(FLAG, &PER_ORDINATE, "1", words)?;
+        let flags = writer.grow(FLAG, &PER_ORDINATE, "1", words)?;
         Ok(Self { path: path.to_owned(), writer, arrays, flags, problems: Vec::new() })
     }
 

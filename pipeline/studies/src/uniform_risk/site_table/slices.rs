@@ -92,7 +92,7 @@ pub fn sorted_slices(study: &UniformRiskStudy, paths: &[PathBuf]) -> Result<Vec<
         }
     } else if !counts.is_empty() {
         let counts: Vec<String> = counts.iter().map(ToString::to_string).collect();
-        mistakes.push(format!("the slices are of {} to the table: give those of one number", counts.join(" and ")));
+        mistakes.push(format!("slices of {} parts are mixed: give all of one division", counts.join(" and ")));
     }
     if mistakes.is_empty() {
         Ok(found.into_values().cloned().collect())
