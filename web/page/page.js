@@ -67,10 +67,9 @@ const KINDS = {
 const FIELDS = {
   columns: "Columns", column_mass_kg: "Mass of a column, kg", deck_mass_kg: "Mass of the deck, kg", mass_kg: "Mass, kg",
   tendon_stiffness_n_m: "Stiffness of the tendon in each column, N/m; 0: none",
-  uplift_displacement_m: "Displacement at uplift, m",
+  uplift_displacement_m: "Displacement of the top at which the base lifts off, m",
   restitution: "Restitution",
 };
-const TITLES = { uplift_displacement_m: "Elastic displacement of the top at which the base begins to lift off" };
 // without a strength of their own, spectrum and fragility are read at that of the structure; without a level, the motion
 // is scaled to that of the site
 const state = { site: null, measure: null, period: 2475, strength: null, kind: "pier", safety: 2.5, own: {},
@@ -117,7 +116,15 @@ function link() {
 }
 // a page inside a report has no address of its own
 const embedded = location.protocol === "about:";
-const writeLink = () => embedded || history.replaceState(null, "", link());
+// when nothing was changed for a while: what a drag does not wait for
+const rested = (work, pause_ms) => {
+  let timer = 0;
+  return () => {
+    clearTimeout(timer);
+    timer = setTimeout(work, pause_ms);
+  };
+};
+const writeLink = rested(() => embedded || history.replaceState(null, "", link()), 200);
 const at = () => ({ site: state.site, measure: state.measure, return_period: state.period });
 
 // ---- charts ---------------------------------------------------------------------------------------------------------
@@ -231,8 +238,15 @@ const span = (values, log) => {
 
 // ---- the spectrum ---------------------------------------------------------------------------------------------------
 const measureOf = () => about.measures.find((own) => own.key === state.measure);
-const whereWords = () => `${state.site}, ${state.period} years, by ${measureOf().label}`;
+const whereWords = (of = at()) => `${of.site}, ${of.return_period} years, by ${measureOf().label}`;
+// whether what was asked is still to be shown: an answer of a period that was passed is, while the next is awaited
+const asker = () => {
+  const [records, { site, measure }] = [about, at()];
+  return () => about === records && state.site === site && state.measure === measure;
+};
+// the level of the site, and of which period it is
 let siteLevel = null;
+let sitePeriod = null;
 // the records are listed after the first displacement, which does not wait for them
 let unlisted = false;
 const drawSpectrum = latest(async () => {
@@ -244,13 +258,15 @@ const drawSpectrum = latest(async () => {
 async function showSpectrum() {
   const strength = state.strength ?? window.design?.read_at_strength;
   showStrength(strength);
-  const asked = JSON.stringify(at());
+  const now = at();
+  const stands = asker();
+  const ofStructure = state.strength === null;
   let spectrum;
   let point = null;
   let refusal = "";
   try {
     if (mistyped.has("period")) throw new Error(mistyped.get("period"));
-    spectrum = await ask({ ask: "spectrum", ...at() });
+    spectrum = await ask({ ask: "spectrum", ...now });
   } catch (error) {
     $("answer").textContent = error.message;
     $("figures").hidden = true;
@@ -259,27 +275,27 @@ async function showSpectrum() {
   }
   try {
     if (strength === undefined) throw new Error("The structure’s dimensions are not valid: correct them, or choose a strength.");
-    point = await ask({ ask: "point", at: at(), strength });
+    point = await ask({ ask: "point", at: now, strength });
   } catch (error) { refusal = error.message; }
-  // what was asked since is drawn next
-  if (JSON.stringify(at()) !== asked) return;
+  if (!stands()) return;
+  const period = now.return_period;
   window.shown = { spectrum, point };
   $("figures").hidden = false;
   $("f-fragility").hidden = !point;
   const { unit, label: name } = measureOf();
   const probability = digits(100 * spectrum.risk.poe);
   const value = !point ? refusal : point.u_m === null ? "No displacement has this risk: it is exceeded more often" : metres(point.u_m) + band(point.band_m);
-  const ofStrength = `strength ${digits(strength, 3)}${state.strength === null ? ` (${state.kind})` : ""}`;
+  const ofStrength = `strength ${digits(strength, 3)}${ofStructure ? ` (${state.kind})` : ""}`;
   const covers = point && point.band_m[0] !== null ? " The band covers the choice of records, not the hazard curve." : "";
   const doubts = (point?.alarms ?? []).filter((own) => own.severity === "caution").map((own) => `${own.what.replace(/^./, (first) => first.toUpperCase())}.`);
-  if (point && state.strength === null) doubts.push(...otherOscillator());
+  if (point && ofStructure) doubts.push(...otherOscillator());
   $("answer").replaceChildren(value,
-    element("small", {}, `${state.site}, ${point ? `${ofStrength}, ` : ""}${state.period} years (${probability} % in ${spectrum.risk.years} years), by ${name}.${covers}`),
+    element("small", {}, `${now.site}, ${point ? `${ofStrength}, ` : ""}${period} years (${probability} % in ${spectrum.risk.years} years), by ${name}.${covers}`),
     ...doubts.map((own) => element("small", { class: "doubt" }, own)));
-  const head = `${about.provenance}; ${whereWords()}`;
+  const head = `${about.provenance}; ${whereWords(now)}`;
   const [low, high] = span([...spectrum.u_m, ...spectrum.upper_m], true);
   show("f-spectrum", {
-    name: "spectrum", head, said: `Displacement over uplift strength, ${whereWords()}: ${value}${point ? ` at ${ofStrength}` : ""}`,
+    name: "spectrum", head, said: `Displacement over uplift strength, ${whereWords(now)}: ${value}${point ? ` at ${ofStrength}` : ""}`,
     caption: `Uniform risk spectrum${spectrum.lower_m.some((own) => own !== null) ? ` with its ${Math.round(100 * spectrum.confidence)} % band` : ""}, ${about.records} ${about.synthetic ? "synthetic " : ""}${about.records === 1 ? "record" : "records"}.`,
     x: { name: "Uplift strength η", from: spectrum.strengths.find((own) => own > 0), to: spectrum.strengths.at(-1), log: true },
     y: { name: "Displacement, m", from: Math.max(low * 0.8, high * 1e-4), to: high * 1.25, log: true },
@@ -289,22 +305,23 @@ async function showSpectrum() {
   });
   const { levels, maf_per_year: rates, level } = spectrum.hazard;
   show("f-hazard", {
-    name: "hazard", head, said: `Hazard curve of ${state.site}: ${level === null ? "no level" : `${digits(level)} ${unit}`} once in ${state.period} years`,
-    caption: `Hazard curve. The point is ${level === null ? "outside the curve" : `${digits(level)} ${unit}, exceeded`} once in ${state.period} years.`,
+    name: "hazard", head, said: `Hazard curve of ${now.site}: ${level === null ? "no level" : `${digits(level)} ${unit}`} once in ${period} years`,
+    caption: `Hazard curve. The point is ${level === null ? "outside the curve" : `${digits(level)} ${unit}, exceeded`} once in ${period} years.`,
     x: { name: `${name}, ${unit}`, from: levels[0], to: levels.at(-1), log: true },
     y: { name: "Annual rate of exceedance", from: Math.max(Math.min(...rates), 1e-7), to: Math.max(...rates), log: true },
-    lines: [{ x: levels, y: rates }], points: [{ x: level, y: 1 / state.period }],
-    columns: { [`${state.measure}_${unit.replace("/", "_")}`]: levels, maf_per_year: rates },
+    lines: [{ x: levels, y: rates }], points: [{ x: level, y: 1 / period }],
+    columns: { [`${now.measure}_${unit.replace("/", "_")}`]: levels, maf_per_year: rates },
   });
   if (point) show("f-fragility", {
     name: "fragility", head, said: `Share of the records that exceed ${metres(point.u_m)} over ${name}`,
     caption: point.fragility ? `Fragility: share of the records that exceed ${metres(point.u_m)} at strength ${point.fragility_of_strength}${point.fragility_of_strength === strength ? "" : `, the analysed strength nearest to ${digits(strength, 3)}`}.` : "No fragility: the ordinate is not finite.",
     x: { name: `${name}, ${unit}`, from: point.levels[0], to: point.levels.at(-1), log: true },
     y: { name: "Share of the records", from: 0, to: 1 }, lines: [{ x: point.levels, y: point.fragility ?? [] }],
-    columns: { [`${state.measure}_${unit.replace("/", "_")}`]: point.levels, share: point.fragility ?? point.levels.map(() => 0) },
+    columns: { [`${now.measure}_${unit.replace("/", "_")}`]: point.levels, share: point.fragility ?? point.levels.map(() => 0) },
   });
-  siteLevel = level ?? (1 / state.period < Math.min(...rates) ? levels.at(-1) : levels[0]);
-  if (state.level === null) drawMotion();
+  sitePeriod = period;
+  siteLevel = level ?? (1 / period < Math.min(...rates) ? levels.at(-1) : levels[0]);
+  if (state.level === null) drawMotionAfter();
   const told = [...(point?.alarms ?? []), ...spectrum.alarms].map((own) => element("li", {}, element("span", { class: "kind" }, `${own.severity === "mistake" ? "mistake?" : own.severity}: `),
     `${own.subject}${own.also.length ? ` (${own.also.length} more)` : ""}: ${own.what}.`));
   if (spectrum.alarms.length) told.push(element("li", { class: "note" }, `The stored warnings were checked only for ${about.poes.map((own) => digits(100 * own)).join(", ")} % in ${about.years} years.`));
@@ -405,7 +422,7 @@ function fields() {
     if (key === "columns" && state.kind === "pier") continue;
     const box = input(key, said);
     box.value = own()[key] ?? "";
-    rows.push(element("label", { for: box.id, ...(TITLES[key] && { title: TITLES[key] }) }, said), box);
+    rows.push(element("label", { for: box.id }, said), box);
   }
   const factor = element("input", { id: "safety", type: "text", inputmode: "decimal", autocomplete: "off", value: state.safety });
   factor.oninput = () => {
@@ -425,12 +442,11 @@ const labelled = (message) => Object.entries({ ...FIELDS, width_m: "Width, m", h
   .reduce((text, [key, said]) => text.replaceAll(new RegExp(`\`?\\b${key}\\b\`?`, "g"), said), message);
 const rows = (name, ...all) => element("div", { class: "table" }, element("table", { "aria-label": name }, element("tbody", {}, ...all.filter(Boolean).map(([said, value, bad]) =>
   element("tr", {}, element("th", { scope: "row" }, said), element("td", { class: `number${bad ? " bad" : ""}` }, value))))));
-// the rule that asks for the most; none where there are no rules
-const worst = (rules) => [...rules].sort((a, b) => (a.required_capacity_m ?? Infinity) - (b.required_capacity_m ?? Infinity)).slice(-1);
+// the rule that requires the most; none where there are no rules
+const governing = ({ rules, governing: place }) => (rules ? [rules[place]] : []);
 // a verdict that holds for the best estimate alone
-const atUpperEnd = ({ required_capacity_band_m: limits }, { capacity_m: capacity }) =>
-  (limits && capacity !== null && (limits[1] === null || limits[1] > capacity)
-    ? ` (not at the upper limit of the band, which ${limits[1] === null ? "no capacity meets" : `requires ${metres(limits[1])}`})` : "");
+const atUpperEnd = ({ required_capacity_band_m: limits, upper_satisfied: satisfied }) => (satisfied === false
+  ? ` (not at the upper limit of the band, which ${limits[1] === null ? "no capacity meets" : `requires ${metres(limits[1])}`})` : "");
 const verdict = (rule, { capacity_m: capacity }) => (rule.overturns ? "It overturns"
   : `Required capacity ${metres(rule.required_capacity_m, 3)}${band(rule.required_capacity_band_m)}${capacity === null ? "" : `, available ${metres(capacity, 3)}`}`)
   + `: ${rule.satisfied ? "satisfied" : "not satisfied"}`;
@@ -452,47 +468,50 @@ const drawDesign = latest(async () => {
   $("toml").textContent = toml();
   let told;
   let others = [];
-  const asked = inputs();
-  $("verdict").textContent = "";
+  const now = at();
+  const stands = asker();
+  const { kind, safety } = state;
   try {
     if (mistyped.size) throw new Error([...mistyped.values()].join("\n"));
-    const by = (measure) => ask({ ask: "structure", text: toml(), at: { ...at(), measure }, safety_factor: state.safety });
-    told = await by(state.measure);
-    const keys = about.sites.find((own) => own.name === state.site).measures.filter((key) => key !== state.measure);
+    const text = toml();
+    const by = (measure) => ask({ ask: "structure", text, at: { ...now, measure }, safety_factor: safety });
+    told = await by(now.measure);
+    const keys = about.sites.find((own) => own.name === now.site).measures.filter((key) => key !== now.measure);
     others = await Promise.all(keys.map(async (key) => [about.measures.find((own) => own.key === key).label, await by(key)]));
   } catch (error) {
     complain("mistake", labelled(error.message));
+    $("verdict").textContent = "";
     $("design").replaceChildren();
     window.design = null;
     designed = null;
     if (state.strength === null) drawSpectrum();
-    drawMotion();
+    drawMotionAfter();
     return;
   }
-  if (inputs() !== asked) return;
+  if (!stands() || state.kind !== kind) return;
   window.design = told;
-  designed = { told, others };
+  designed = { told, others, now, safety };
   if (state.strength === null) drawSpectrum();
-  drawMotion();
+  drawMotionAfter();
   complain("mistake", "");
   showDesign();
 });
 function showDesign() {
-  const { told, others } = designed;
+  const { told, others, now, safety } = designed;
   const found = window.ownDemand;
   const own = found?.check ? found : null;
-  const [most] = worst(told.rules ?? []);
+  const [most] = governing(told);
   const small = (text) => text.replace(/^./, (first) => first.toLowerCase());
   // a measure that asks for more, as the program names it
-  const also = others.flatMap(([name, by]) => worst(by.rules ?? []).map((rule) => [name, rule, by]))
+  const also = others.flatMap(([name, by]) => governing(by).map((rule) => [name, rule, by]))
     .filter(([, rule]) => most && !rule.satisfied && most.satisfied).map(([name, rule, by]) => ` By ${name}, ${small(verdict(rule, by))}.`);
   const kind = `The ${state.kind}: `;
   $("verdict").replaceChildren(...(own ? [element("span", own.check.satisfied ? {} : { class: "bad" }, `${kind}${small(ownVerdict(own, told))}.`)] : []),
     most ? `${own ? " By the spectrum: " : kind}${small(verdict(most, told))}.` : "", element("span", { class: "bad" }, also.join("")));
   $("design").replaceChildren(
     ...(own ? [element("p", { class: `answer${own.check.satisfied ? "" : " bad"}` }, ownVerdict(own, told))] : []),
-    ...worst(told.rules ?? []).map((rule) => element("p", { class: "answer" }, own ? "By the spectrum: " : "",
-      verdict(rule, told), element("small", {}, `By ${rule.rule.replace("-", " ")}, ${whereWords()}. ${rule.overturns ? "No capacity is enough." : `Displacement of the ${state.kind} ${metres(rule.demand_m)}${band(rule.demand_band_m)}, safety factor ${digits(rule.safety_factor, 3)}, ${digits(state.safety, 3)} required.`}`))),
+    ...governing(told).map((rule) => element("p", { class: "answer" }, own ? "By the spectrum: " : "",
+      verdict(rule, told), element("small", {}, `By ${rule.rule.replace("-", " ")}, ${whereWords(now)}. ${rule.overturns ? "No capacity is enough." : `Displacement of the ${state.kind} ${metres(rule.demand_m)}${band(rule.demand_band_m)}, safety factor ${digits(rule.safety_factor, 3)}, ${digits(safety, 3)} required.`}`))),
     rows(
       "Design by the spectrum",
       ["Uplift strength", `${digits(told.spectral_strength, 3)} (displacements are ${digits(told.participation, 4)} times the spectrum's)`],
@@ -502,13 +521,13 @@ function showDesign() {
       ...(told.rules ?? []).flatMap((rule) => [
         [`Demand, rule of ${rule.rule.replace("-", " ")}`, rule.overturns ? "overturns" : `${metres(rule.demand_m)}${band(rule.demand_band_m)}`, rule.overturns],
         [`Required capacity, ${rule.rule.replace("-", " ")}`, rule.required_capacity_m === null ? "no finite one" : `${metres(rule.required_capacity_m)}${band(rule.required_capacity_band_m)}`],
-        [`Verdict, ${rule.rule.replace("-", " ")}`, rule.satisfied ? `satisfied: safety factor ${digits(rule.safety_factor, 3)}${atUpperEnd(rule, told)}` : `not satisfied: safety factor ${digits(rule.safety_factor, 3)}, ${digits(state.safety, 3)} required`, !rule.satisfied],
+        [`Verdict, ${rule.rule.replace("-", " ")}`, rule.satisfied ? `satisfied: safety factor ${digits(rule.safety_factor, 3)}${atUpperEnd(rule)}` : `not satisfied: safety factor ${digits(rule.safety_factor, 3)}, ${digits(safety, 3)} required`, !rule.satisfied],
       ]),
     ),
     ...(also.length ? [element("p", { class: "bad" }, also.join("").trim())] : []),
     ...(most ? [element("p", { class: "note" }, "The required capacity is the safety factor times the demand that the structure would have with that capacity (Eq. 3.15). It is finite even where the structure overturns with the present one.")] : []),
     ...told.warnings.map((own) => element("p", { class: "note" }, own)),
-    element("p", { class: "note" }, `${whereWords()}${about.synthetic ? ", synthetic records" : ""}. A satisfied rule is no proof: analyse the structure itself.`),
+    element("p", { class: "note" }, `${whereWords(now)}${about.synthetic ? ", synthetic records" : ""}. A satisfied rule is no proof: analyse the structure itself.`),
   );
 }
 function changed() {
@@ -518,8 +537,7 @@ function changed() {
   drawing();
   drawDesign();
   $("own-demand").replaceChildren();
-  $("command").textContent = `uplift run study.toml && uplift design structure.toml --urs results/study.h5 --return-period ${state.period} --measure ${state.measure}`;
-  sheet();
+  $("command").textContent = `uplift run study.toml && uplift bootstrap results/study.h5 && uplift design structure.toml --urs results/study.h5 --return-period ${state.period} --measure ${state.measure}`;
 }
 // the spectrum at the structure's strength is drawn when that is known
 const everything = () => { if (state.strength !== null) drawSpectrum(); changed(); };
@@ -592,12 +610,12 @@ const drawMotion = latest(async () => {
   $("level").max = Math.max(levels.at(-1), level);
   $("level").value = level;
   $("level-site").hidden = state.level === null;
-  const scaled = `${name} ${digits(level)} ${unit}${state.level === null ? `, exceeded at ${state.site} once in ${state.period} years` : ""}`;
+  const scaled = `${name} ${digits(level)} ${unit}${state.level === null ? `, exceeded at ${state.site} once in ${sitePeriod} years` : ""}`;
   $("level-number").textContent = scaled;
   $("level").setAttribute("aria-valuetext", scaled);
   let motion;
   // the demand by the rule that the headline has
-  const [rule] = worst(window.design?.rules ?? []);
+  const [rule] = governing(window.design ?? {});
   const demand = rule && !rule.overturns ? rule.demand_m : null;
   const peaks = { ask: "peaks", text: toml(), measure: state.measure, level, demand_m: demand };
   const key = nearKey = JSON.stringify([peaks, motions]);
@@ -617,8 +635,13 @@ const drawMotion = latest(async () => {
   $("peak").textContent = motion.overturned ? "It overturns." : motion.peak_m === 0 ? "It does not uplift." : `Largest displacement ${metres(motion.peak_m)}.`;
   if (near.key === key) showNear(demand);
   else if (demand !== null) nearTimer = setTimeout(async () => {
-    const found = await ask(peaks).catch(() => null);
-    if (!found || nearKey !== key) return;
+    let found;
+    // a record at a time, and no further once something was changed
+    do {
+      found = await ask(peaks).catch(() => null);
+      if (!found || nearKey !== key) return;
+      $("near").textContent = `Records compared with the demand: ${found.done} of ${found.of}.`;
+    } while (found.done !== undefined);
     near = { key, ...found };
     // a motion that is watched stays
     const isOther = state.record === null && $("motion").value !== String(near.nearest);
@@ -641,6 +664,7 @@ const drawMotion = latest(async () => {
   $("time").max = motion.time_s.at(-1) ?? 0;
   pose(0);
 });
+const drawMotionAfter = rested(drawMotion, 150);
 function pose(time) {
   $("time").value = time;
   $("time-number").textContent = `${time.toFixed(2)} s`;
@@ -733,12 +757,12 @@ async function takeCurves(file, choice) {
   // a file that is dropped again replaces its curves
   curves = curves.filter((own) => !usable.some((other) => other.label === own.label));
   curves.push(...usable);
-  offer();
+  await offer();
   if (others.length) throw new Error(`the page has no spectra by the measure of ${others.map((curve) => curve.label).join(", ")}`);
 }
-function offer() {
+// lists the curves, and shows the site that the marked ones make: the last of each measure, until another is chosen
+async function offer() {
   $("found").hidden = !curves.length && !open.length;
-  $("take-found").disabled = !curves.length;
   $("extrapolate").checked = state.extrapolate;
   const asked = open.map((of) => {
     const select = element("select", {}, element("option", { value: "" }, "Choose …"), ...of.choices.map((own, place) => element("option", { value: place }, own.label)));
@@ -752,6 +776,7 @@ function offer() {
   const radio = (key, value, said, checked) => {
     const box = element("input", { type: "radio", name: `curve-${key}`, value });
     box.checked = checked;
+    box.onchange = useFound;
     return element("div", {}, element("label", {}, box, ` ${said}`));
   };
   $("found-list").replaceChildren(...asked, ...keys.flatMap((key) => {
@@ -760,6 +785,7 @@ function offer() {
     const boxes = own.map((curve) => radio(key, curve.place, `${curve.label}, ${curve.points} points, ${curve.unit}`, curve === own.at(-1)));
     return [element("div", { role: "radiogroup", "aria-label": name }, ...boxes, ...(keys.length > 1 ? [radio(key, "", `no curve of ${name}`, false)] : []))];
   }));
+  if (curves.length) await useFound();
 }
 // records that do not name their unit or time step are read when these are given
 let unread = [];
@@ -821,7 +847,6 @@ async function useFound() {
     say(notes.join(". "));
   } catch (error) { complain("found-mistake", error.message); }
 }
-$("take-found").onclick = useFound;
 $("extrapolate").onchange = () => { state.extrapolate = $("extrapolate").checked; writeLink(); if (curves.length) useFound(); };
 $("analyse-records").onclick = () => analyse({ ask: "analyse-records" }, (now) => {
   $("beside").hidden = false;
@@ -848,8 +873,8 @@ $("save-study").onclick = async () => {
 $("save-structure").onclick = () => save("structure.toml", toml());
 $("save-link").hidden = embedded;
 $("save-link").onclick = async () => {
-  writeLink();
-  try { await navigator.clipboard.writeText(location.href); say("The link is copied."); } catch { say(location.href); }
+  const { href } = new URL(link(), location.href);
+  try { await navigator.clipboard.writeText(href); say("The link is copied."); } catch { say(href); }
 };
 $("print").onclick = () => print();
 // the head of the printed sheet
@@ -860,7 +885,6 @@ function sheet() {
   $("sheet-where").textContent = about ? `Site ${whereWords()}` : "";
   $("sheet-named").textContent = named.map(([said, value]) => `${said}: ${value}`).join(" · ");
 }
-for (const id of ["project", "author"]) $(id).oninput = sheet;
 addEventListener("beforeprint", sheet);
 
 // ---- controls -------------------------------------------------------------------------------------------------------

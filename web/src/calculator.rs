@@ -9,6 +9,7 @@ use crate::analysis::Analysis;
 use crate::curves::{Choice, DroppedCurve, Found};
 use crate::motions::Motions;
 use crate::stripes::Stripes;
+use crate::structure::Peaks;
 
 /// Why a question has no answer: the message of the crate that refused, or of the page's own.
 pub(crate) type Answer<T> = Result<T, String>;
@@ -47,7 +48,7 @@ enum Question {
     Motion { text: String, motion: usize, measure: String, level: f64 },
     /// Begins the analysis of the dropped records.
     AnalyseRecords,
-    /// The peaks of a structure under all motions at a level, against a demand on it.
+    /// The peaks of a structure under all motions at a level, against a demand on it: goes on by one record.
     Peaks { text: String, measure: String, level: f64, demand_m: f64 },
     /// Begins the analysis of a structure, and of the block that rotates as it does.
     AnalyseStructure { text: String, at: At, block: bool, safety_factor: f64 },
@@ -106,6 +107,7 @@ pub struct Calculator {
     curves: Vec<DroppedCurve>,
     motions: Motions,
     analysis: Option<Analysis>,
+    peaks: Option<Peaks>,
 }
 
 impl Calculator {
@@ -129,7 +131,7 @@ impl Calculator {
             Question::Stripes => {
                 let stripes = Stripes::read(file)?;
                 self.motions = Motions::of(&stripes);
-                self.analysis = None;
+                (self.analysis, self.peaks) = (None, None);
                 let about = stripes.about();
                 self.stripes = Some(stripes);
                 Ok(about)
@@ -151,8 +153,12 @@ impl Calculator {
                 let chosen = chosen.into_iter().map(|own| own.curve.clone()).collect();
                 self.stripes.as_mut().ok_or(NO_STRIPES)?.add_site(&name, chosen, extrapolate)
             }
-            Question::Record { name, unit, step_s } => self.motions.add((file, &name), (unit, step_s)),
+            Question::Record { name, unit, step_s } => {
+                self.peaks = None;
+                self.motions.add((file, &name), (unit, step_s))
+            }
             Question::NoRecords => {
+                self.peaks = None;
                 self.motions.forget();
                 Ok(Value::Null)
             }
@@ -169,7 +175,8 @@ impl Calculator {
                 Ok(self.begin(analysis))
             }
             Question::Peaks { text, measure, level, demand_m } => {
-                crate::structure::peaks(&text, &mut self.motions, (&measure, level), demand_m)
+                let peaks = Peaks::new(self.peaks.take(), text, measure, level);
+                self.peaks.insert(peaks).step(&mut self.motions, demand_m)
             }
             Question::AnalyseStructure { text, at, block, safety_factor } => {
                 let stripes = self.stripes.as_mut().ok_or(NO_STRIPES)?;

@@ -68,7 +68,7 @@ pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>,
         told["without_demand"] = "the force rises after uplift: the rules do not apply".into();
         return Ok(told);
     }
-    let mut rules = Vec::new();
+    let (mut rules, mut required_m) = (Vec::new(), Vec::new());
     for rule in [Rule::EqualDisplacement, Rule::EqualEnergy] {
         let check = |ordinate_m: f64| -> Answer<Check> {
             let demand_m = system.zero_stiffness_demand_m(ordinate_m).map_err(refused)?;
@@ -93,8 +93,11 @@ pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>,
             "margin_m": own.margin_m(),
             "safety_factor": own.safety_factor(),
             "satisfied": own.is_satisfied(),
+            "upper_satisfied": is_banded.then(|| limits[1].as_ref().is_some_and(Check::is_satisfied)),
         }));
+        required_m.push(own.required_capacity_m);
     }
+    told["governing"] = (0..rules.len()).max_by(|&a, &b| required_m[a].total_cmp(&required_m[b])).into();
     told["rules"] = rules.into();
     Ok(told)
 }
@@ -107,23 +110,41 @@ fn rocking(text: &str) -> Answer<(RockingFrame, Options)> {
     Ok((frame.map_err(refused)?, options))
 }
 
-/// Under all records scaled to a level: how many of the largest displacements exceed the demand, m, and which record's
-/// comes nearest to it.
-pub(crate) fn peaks(text: &str, motions: &mut Motions, (measure, level): (&str, f64), demand_m: f64) -> Answer<Value> {
-    let (frame, options) = rocking(text)?;
-    let mut peaks_m = Vec::new();
-    for motion in 0..motions.all()?.len() {
-        let ground = motions.scaled(motion, measure, level)?;
-        let shaking = GroundMotion::along_x(&ground);
-        let response = uplift_frame::respond(&frame, &shaking, Model::Planar, &options).map_err(refused)?;
-        peaks_m.push(if response.overturned { f64::INFINITY } else { response.displacement.value.abs() });
+/// The largest displacements of a structure under all records scaled to a level, found a record at a time, so that the
+/// page answers other questions in between.
+pub(crate) struct Peaks {
+    text: String,
+    measure: String,
+    level: f64,
+    found_m: Vec<f64>,
+}
+
+impl Peaks {
+    /// Those of `before` where they are of the same, else none yet.
+    pub(crate) fn new(before: Option<Self>, text: String, measure: String, level: f64) -> Self {
+        let is_same = |own: &Self| own.text == text && own.measure == measure && own.level == level;
+        before.filter(is_same).unwrap_or(Self { text, measure, level, found_m: Vec::new() })
     }
-    let apart = |place: &usize| (peaks_m[*place] - demand_m).abs();
-    Ok(json!({
-        "records": peaks_m.len(),
-        "exceeding": peaks_m.iter().filter(|peak_m| **peak_m > demand_m).count(),
-        "nearest": (0..peaks_m.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))),
-    }))
+
+    /// Runs the next record. When there is none, how many of the peaks exceed the demand, m, and which record's comes
+    /// nearest to it.
+    pub(crate) fn step(&mut self, motions: &mut Motions, demand_m: f64) -> Answer<Value> {
+        let (done, records) = (self.found_m.len(), motions.all()?.len());
+        if done < records {
+            let (frame, options) = rocking(&self.text)?;
+            let ground = motions.scaled(done, &self.measure, self.level)?;
+            let shaking = GroundMotion::along_x(&ground);
+            let response = uplift_frame::respond(&frame, &shaking, Model::Planar, &options).map_err(refused)?;
+            self.found_m.push(if response.overturned { f64::INFINITY } else { response.displacement.value.abs() });
+            return Ok(json!({ "done": done + 1, "of": records }));
+        }
+        let apart = |place: &usize| (self.found_m[*place] - demand_m).abs();
+        Ok(json!({
+            "records": records,
+            "exceeding": self.found_m.iter().filter(|peak_m| **peak_m > demand_m).count(),
+            "nearest": (0..records).min_by(|a, b| apart(a).total_cmp(&apart(b))),
+        }))
+    }
 }
 
 /// The motion of a structure under a record, in its plane: as `uplift response --structure`.

@@ -5,7 +5,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use uplift_bootstrap::{
-    BootstrapError, Replicates, ResamplingPlan, inferred_limits, repaired_limits, weighted_replicates,
+    BootstrapError, Replicates, ResamplingPlan, inferred_limits, repaired_limits, truth_limits, weighted_replicates,
 };
 use uplift_fragility::Stripes;
 use uplift_hazard::{Extrapolation, HazardCurve};
@@ -89,6 +89,9 @@ fn benchmarks(criterion: &mut Criterion) {
     group.sample_size(20);
     group.bench_function("records that count alike", |bencher| {
         bencher.iter(|| inferred_limits(&demand, &weights, &units, black_box(&TARGETS), asked).unwrap());
+    });
+    group.bench_function("records that count alike, of the truth alone", |bencher| {
+        bencher.iter(|| truth_limits(&demand, &weights, &units, black_box(&TARGETS[1..2]), 0.9).unwrap());
     });
     group.bench_function("weighted records", |bencher| {
         bencher.iter(|| repaired_limits(&demand, &alike, &units, black_box(&TARGETS), asked).unwrap());

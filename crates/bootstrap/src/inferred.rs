@@ -3,11 +3,13 @@
 use uplift_risk::{PooledDemand, RiskError, RunWeights, StripeWeights};
 
 use crate::shared_rates::SharedRates;
-use crate::skewed_mean::{LEAST_FREEDOM, SkewedMean, StudentQuantiles};
+use crate::skewed_mean::{Deviates, LEAST_FREEDOM, SkewedMean, StudentQuantiles};
 use crate::unit_rates::UnitRates;
 
 /// Where the deviate of a target is less, that of a larger target is below −1, whatever rounding leaves of either.
 const SURELY_BELOW: f64 = -1.0 - 1e-9;
+/// Further than this from a quantile, a deviate is on its side whatever rounding leaves of either.
+const MARGIN: f64 = 1e-6;
 
 /// Limits of an ordinate beyond the set that it was computed with.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -147,12 +149,41 @@ fn searches<const KINDS: usize>(
     // the least first: where the band of a target has not been reached, those of larger ones have not
     let mut rising: Vec<(f64, usize)> = targets_per_year.iter().copied().zip(0..).collect();
     rising.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let (least_target, largest_quantile) =
-        (rising.first().map_or(0.0, |own| own.0), quantiles.at(LEAST_FREEDOM.min(all - 1)));
+    let least_target = rising.first().map_or(0.0, |own| own.0);
+    let [smallest_quantile, largest_quantile] = [all - 1, LEAST_FREEDOM.min(all - 1)].map(|at| quantiles.at(at));
     let mut look = |rates: &Rates, from_m: f64, to_m: f64| {
         // a fall begins far above every band, where the mean alone tells; with other sizes it does not
         if KINDS == 1 && rates.is_far_below(least_target, largest_quantile) {
             return true;
+        }
+        // as far from all quantiles as most steps are, a deviate needs none of them
+        if KINDS == 1
+            && let Some(deviates) = rates.deviates()
+        {
+            let (mut is_clear, mut is_open) = (true, false);
+            for &(target, row) in &rising {
+                let search = &mut searches[row][0];
+                if search.was_beyond {
+                    continue;
+                }
+                let deviate = deviates.of(target);
+                is_clear = deviate.abs() < smallest_quantile - MARGIN || deviate.abs() > largest_quantile + MARGIN;
+                if !is_clear {
+                    break;
+                }
+                search.see(
+                    deviate / if deviate.abs() < smallest_quantile { smallest_quantile } else { largest_quantile },
+                    from_m,
+                    to_m,
+                );
+                is_open |= !search.was_beyond;
+                if deviate < 0.0 && deviate < -largest_quantile {
+                    break;
+                }
+            }
+            if is_clear {
+                return is_open;
+            }
         }
         let mean = rates.mean();
         let of_units = |units: usize, root| (mean.deviates(root), quantiles.at(mean.degrees_of_freedom(units)));
@@ -319,6 +350,14 @@ impl Rates {
         match self {
             Self::Alike(rates) => rates.mean(),
             Self::Shared(rates) => rates.mean(),
+        }
+    }
+
+    /// The deviates of [`mean`](Self::mean), to rounding, where they are to be had in less time.
+    fn deviates(&self) -> Option<Deviates> {
+        match self {
+            Self::Alike(rates) => rates.deviates(),
+            Self::Shared(_) => None,
         }
     }
 

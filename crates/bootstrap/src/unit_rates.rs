@@ -1,6 +1,7 @@
 //! The rates that single records, or earthquakes, bring, summed while the displacement falls.
 
 use crate::SkewedMean;
+use crate::skewed_mean::{Deviates, QuickDeviates};
 
 /// The rates W of the units above a displacement that falls, with the sums that their mean and scatter need.
 ///
@@ -16,6 +17,7 @@ pub(crate) struct UnitRates {
     rates: Vec<f64>,
     /// Σ W^j n^k, `[j][k]`, for j + k up to 4.
     sums: [[f64; 5]; 5],
+    quick: QuickDeviates,
 }
 
 impl UnitRates {
@@ -26,7 +28,8 @@ impl UnitRates {
         for (power, sum) in (0_i32..).zip(&mut sums[0]) {
             *sum = records.iter().map(|n| n.powi(power)).sum();
         }
-        Self { unit_of: unit_of(units), rates: vec![0.0; records.len()], records, sums }
+        let quick = QuickDeviates::new(sums[0][0] / sums[0][1], records.len());
+        Self { unit_of: unit_of(units), rates: vec![0.0; records.len()], records, sums, quick }
     }
 
     /// How many units.
@@ -74,6 +77,18 @@ impl UnitRates {
         let moments =
             [power(2, &[1.0, 2.0, 1.0]), power(3, &[1.0, 3.0, 3.0, 1.0]), power(4, &[1.0, 4.0, 6.0, 4.0, 1.0])];
         SkewedMean::new(mean, moments, self.count())
+    }
+
+    /// The deviates of that mean, to rounding, without what the kurtosis is needed for; none where hardly any unit
+    /// scatters.
+    pub(crate) fn deviates(&self) -> Option<Deviates> {
+        let [[_, records, n2, n3, _], [w, w_n, w_n2, ..], [w2, w2_n, ..], [w3, ..], _] = self.sums;
+        let mean = w / records;
+        let square = mean * mean;
+        // Σ (W − mean n)² and Σ (W − mean n)³
+        let second = w2 - 2.0 * mean * w_n + square * n2;
+        let third = w3 - mean * (3.0 * w2_n - 3.0 * mean * w_n2 + square * n3);
+        self.quick.of(mean, [second, third])
     }
 }
 

@@ -72,7 +72,8 @@ fn plain_limits(edp_m: &[f64], units: &[Vec<usize>], target: f64, (size, confide
 
 fn demands() -> impl Strategy<Value = Vec<f64>> {
     let demand = prop_oneof![1 => Just(0.0), 1 => Just(0.5), 1 => Just(f64::INFINITY), 8 => 0.001..3.0_f64];
-    (4_usize..9).prop_flat_map(move |records| prop::collection::vec(demand.clone(), records * LEVELS.len()))
+    let records = prop_oneof![4 => 4_usize..9, 1 => 30_usize..60];
+    records.prop_flat_map(move |records| prop::collection::vec(demand.clone(), records * LEVELS.len()))
 }
 
 proptest! {
