@@ -356,6 +356,10 @@ fn curves_and_levels_in_other_units_are_named() {
     let failed = study.uplift(&["check", "study.toml"]).fails(4, &words);
     assert!(!failed.stderr.contains("extrapolation"), "no remedy for a unit: {}", failed.stderr);
     study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.unit=m/s"]).ok();
+    // extrapolated, it is not refused, and told all the same
+    let extrapolated = ["check", "study.toml", "--json", "--set", "risk.extrapolate=loglog"];
+    let odd = alarm(&json(&study, &extrapolated), "hazard-implausible").clone();
+    assert!(odd["severity"] == "mistake" && text(&odd, "what_to_do").starts_with("are its numbers in m/s?"), "{odd}");
     // two files that were taken for each other are no matter of units
     let interchanged = ["--set", "sites.Here.pgv=pga.csv", "--set", "sites.Here.pga=pgv.csv"];
     study.write("pgv.csv", &curve_times("athens/pgv.csv", 1.0));

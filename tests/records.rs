@@ -203,7 +203,7 @@ fn synthetic_records_are_made_listed_shown_and_chosen() {
     assert!(shown.contains("SYN001_H1.AT2") && shown.contains("rotd100"), "{shown}");
     let shown = uplift(at, &["records", "show", "set/SYN001_H1.AT2"]).ok().stdout;
     assert!(shown.contains("at2 format, 1 component") && shown.contains("PGD"), "{shown}");
-    uplift(at, &["records", "show", "set/manifest.csv", "SYN999"]).fails(4, &["SYN999", "records list"]);
+    uplift(at, &["records", "show", "set/manifest.csv", "SYN01"]).fails(4, &["did you mean `SYN001`?", "records list"]);
 
     let rows_of = |name: &str| rows(&at.join(name));
     let magnitudes = |rows: &[BTreeMap<String, String>]| -> Vec<f64> {

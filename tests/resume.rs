@@ -119,6 +119,7 @@ fn an_interrupted_run_reports_its_progress_and_resumes() {
     run.wait_until("a few rows", || std::fs::metadata(&checkpoint).is_ok_and(|file| file.len() >= 20_000));
     run.interrupt();
     run.end().fails(5, &["analyses are in the checkpoint", "study.h5.part"]);
+    study.uplift(&["spectrum", "results/study.h5"]).fails(4, &["its run was interrupted: repeat it to resume it"]);
 
     for input in ["results/study.h5", "study.toml"] {
         let status = study.uplift(&["status", input]).ok().stdout;

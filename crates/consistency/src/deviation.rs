@@ -69,15 +69,19 @@ impl Verdict {
     /// Every verdict, the best first.
     pub const ALL: [Self; 3] = [Self::Consistent, Self::Off, Self::Inconsistent];
 
+    /// Least and largest bias, and the largest |D|; the worst has none.
+    pub fn limits(self) -> Option<([f64; 2], f64)> {
+        match self {
+            Self::Consistent => Some(([0.9, 1.1], 0.15)),
+            Self::Off => Some(([0.75, 1.33], 0.4)),
+            Self::Inconsistent => None,
+        }
+    }
+
     /// Of a bias and the largest |D|.
     pub fn of(bias: f64, max: f64) -> Self {
-        if (0.9..=1.1).contains(&bias) && max <= 0.15 {
-            Self::Consistent
-        } else if (0.75..=1.33).contains(&bias) && max <= 0.4 {
-            Self::Off
-        } else {
-            Self::Inconsistent
-        }
+        let holds = |([least, most], largest): ([f64; 2], f64)| (least..=most).contains(&bias) && max <= largest;
+        Self::ALL.into_iter().find(|own| own.limits().is_some_and(holds)).unwrap_or(Self::Inconsistent)
     }
 
     /// Its name in tables and options: consistent, off, inconsistent.

@@ -1,6 +1,6 @@
 //! Hazard curves by which the extreme shaking is frequent, or the faintest rare.
 
-use uplift_inputs::{hardly_possible, units_that_make_possible};
+use uplift_inputs::{hardly_possible, unit_that_covers, units_that_make_possible};
 use uplift_job::alarm::{Case, Severity};
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::USUAL_GRAVITY;
@@ -15,7 +15,16 @@ pub(super) fn case(study: &UniformRiskStudy, curves: &CurvesAtSite<'_>) -> Optio
     if measure != IntensityMeasure::Pgv && !USUAL_GRAVITY.contains(study.gravity_m_s2) {
         return None;
     }
-    let found = curves.first_that(|curve| hardly_possible(curve, measure).is_some())?;
+    let Some(found) = curves.first_that(|curve| hardly_possible(curve, measure).is_some()) else {
+        let what_to_do = unit_that_covers(study, (curves.site, measure), curves.curve)?;
+        return Some(Case {
+            severity: Severity::Mistake,
+            badness: 1.0,
+            subject: curves.subject(),
+            what: "the hazard curve is extrapolated far".to_owned(),
+            what_to_do,
+        });
+    };
     let odd = hardly_possible(found.curve, measure)?;
     Some(Case {
         severity: Severity::Mistake,

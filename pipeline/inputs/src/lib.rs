@@ -31,7 +31,9 @@ pub use file_options::FileOptions;
 pub use hardly_possible::hardly_possible;
 pub use hazard::{BranchHazard, HazardInput, OtherHazard, SiteHazard, read_hazard, read_other_hazard};
 pub use made::made_pairs;
-pub use other_unit::{POE, curve_line, file_of, unit_of_branch, unit_that_explains, units_that_make_possible};
+pub use other_unit::{
+    POE, curve_line, file_of, unit_of_branch, unit_that_covers, unit_that_explains, units_that_make_possible,
+};
 pub use record_set::{Record, RecordSet, read_measured, read_records, read_with_pairs};
 pub use record_sets::{NamedSet, RecordSets, SetRecord, is_numbered, read_record_sets, read_sets};
 pub use rocking_frame::{TORSION, model_of, rocking_frame};

@@ -181,6 +181,17 @@ pub(super) fn of_outside(
     ))
 }
 
+/// What is said where the `curve` of a site is extrapolated far, and would cover the levels in another unit: as
+/// [`read_hazard`](crate::read_hazard) refuses it where it is not to be extrapolated.
+pub fn unit_that_covers(
+    study: &UniformRiskStudy,
+    (site, measure): (&str, IntensityMeasure),
+    curve: &HazardCurve,
+) -> Option<String> {
+    let plan = study.measures.iter().find(|plan| plan.measure == measure)?;
+    of_outside(study, (site, file_of(study, site, measure)?), plan, curve)
+}
+
 /// What to do where the curve of PGA of a site is `too_high` times what goes with its curve of PGV, and another unit of
 /// one of them, or of both, explains it; none where none does.
 pub fn unit_that_explains(study: &UniformRiskStudy, site: &str, too_high: f64) -> Option<String> {

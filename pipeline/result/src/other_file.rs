@@ -16,7 +16,13 @@ pub(super) fn no_result(path: &Path, error: LabelledError) -> ResultError {
     let ends = |ending: &str| path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending));
     let told = match &error {
         LabelledError::File(FileError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {
-            Some("there is no such file: `uplift run STUDY.toml` writes results, results/STUDY.h5 by default")
+            let mut checkpoint = path.as_os_str().to_owned();
+            checkpoint.push(".part");
+            Some(if Path::new(&checkpoint).exists() {
+                "its run was interrupted: repeat it to resume it; `uplift status FILE` shows how far it is"
+            } else {
+                "there is no such file: `uplift run STUDY.toml` writes results, results/STUDY.h5 by default"
+            })
         }
         LabelledError::NotHdf5 { .. } if ends("toml") => Some(if Structure::load(path).is_ok() {
             "is a structure, not a result: `uplift design` and `overturning` take it, with --urs RESULT"

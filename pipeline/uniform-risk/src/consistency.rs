@@ -36,4 +36,5 @@ pub use report::{
 };
 pub use reweighing::{RepairedAnalysis, Reweighed, ReweighedBranch, Reweighing};
 pub use spectra::{Repairs, repaired_spectra, repairs_of};
+pub use uplift_consistency::Verdict;
 pub use write::{Keep, add, columns, consistency_path, replaced};

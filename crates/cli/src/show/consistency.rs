@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::alarms::synthetic_records;
-use uplift::consistency::{ConsistencyReport, ConsistencyRow, RepairRow};
+use uplift::consistency::{ConsistencyReport, ConsistencyRow, RepairRow, Verdict};
 use uplift::text::{Table, per_cent, risk_name, risks_in_words};
 
 use super::alarms::{DETAILS, print_shown, warning};
@@ -45,7 +45,11 @@ fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
         .right("have times the site's", |row| format!("{} {}", number(row.bias, 2), row.shows))
         .right("verdict", |row| row.verdict.unwrap_or("-"))
         .when(is_repaired, |table| table.right("repaired, effective records", repair));
-    Ok(writeln!(out, "{table}")?)
+    writeln!(out, "{table}")?;
+    let limits = Verdict::ALL.iter().filter_map(|verdict| Some((verdict, verdict.limits()?.0)));
+    let limits: Vec<String> =
+        limits.map(|(verdict, [least, most])| format!("{verdict}: {least} to {most} times")).collect();
+    Ok(writeln!(out, "{}", limits.join("; "))?)
 }
 
 fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {

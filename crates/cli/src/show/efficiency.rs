@@ -47,10 +47,14 @@ fn number(value: f64, digits: usize) -> String {
     if value.is_finite() { format!("{value:.digits$}") } else { "-".to_owned() }
 }
 
+/// The name of the measure, marked where the study has no levels of it.
+fn label(row: &EfficiencyRow) -> String {
+    format!("{}{}", row.im, if row.is_told() { " +" } else { "" })
+}
+
 impl Shown<'_> {
     /// A table with a row a measure and a column a strength shown.
     fn table(&self, cell: impl Fn(&EfficiencyRow) -> String) -> Table {
-        let label = |row: &EfficiencyRow| if row.is_told() { format!("{} +", row.im) } else { row.im.to_owned() };
         Table::of(&self.measures)
             .left("measure", |rows| label(&rows[0]))
             .each(&self.strengths, |table, &at| {
@@ -115,9 +119,6 @@ impl Shown<'_> {
         ] {
             writeln!(out, "{}", self.most_efficient(what, of))?;
         }
-        let label = |rows: &[EfficiencyRow]| {
-            if rows[0].is_told() { format!("{} +", rows[0].im) } else { rows[0].im.to_owned() }
-        };
         let mean = |rows: &[EfficiencyRow], of: fn(&EfficiencyRow) -> f64| {
             let known: Vec<f64> =
                 self.strengths.iter().map(|&at| of(&rows[at])).filter(|value| value.is_finite()).collect();
@@ -132,13 +133,13 @@ impl Shown<'_> {
             if names.is_empty() { "none".to_owned() } else { names.join(", ") }
         };
         let table = Table::of(&self.measures)
-            .left("measure", |rows| label(rows))
+            .left("measure", |rows| label(&rows[0]))
             .right("scatter, displacement", |rows| mean(rows, |row| row.dispersion_level))
             .right("scatter, initiation", |rows| mean(rows, |row| row.dispersion_initiation))
             .right("trend with", |rows| insufficient(rows));
         writeln!(out, "\n{table}")?;
         if let Some(told) = self.rows().find(|row| row.is_told()) {
-            writeln!(out, "+ in runs of records scaled to {}", told.scaled_to)?;
+            writeln!(out, "+ has no hazard curve here: read in runs scaled to {}", told.scaled_to)?;
         }
         if self.report.records < 30 {
             writeln!(out, "With {} records only strong trends are found.", self.report.records)?;
@@ -151,18 +152,18 @@ impl Shown<'_> {
         let best = |&index: &usize| {
             let known = self.measures.iter().filter(|rows| of(&rows[index]).is_finite());
             let least = known.min_by(|a, b| of(&a[index]).total_cmp(&of(&b[index])))?;
-            Some(least[index].im)
+            Some(label(&least[index]))
         };
-        let winners: Vec<(&str, f64)> =
+        let winners: Vec<(String, f64)> =
             self.strengths.iter().filter_map(|index| Some((best(index)?, self.report.strengths[*index]))).collect();
         let wins = |name: &str| winners.iter().filter(|(of, _)| *of == name).count();
         // of as many wins the first
-        let Some(&(first, _)) = winners.iter().rev().max_by_key(|(name, _)| wins(name)) else {
+        let Some((first, _)) = winners.iter().rev().max_by_key(|(name, _)| wins(name)) else {
             return format!("Best for {what}: these stripes do not show it");
         };
         let others: Vec<String> = winners
             .chunk_by(|a, b| a.0 == b.0)
-            .filter(|of| of[0].0 != first)
+            .filter(|of| of[0].0 != *first)
             .map(|of| {
                 let strengths: Vec<String> = of.iter().map(|(_, strength)| rounded(*strength, 3).to_string()).collect();
                 format!("; {} at strength {}", of[0].0, strengths.join(", "))

@@ -1,6 +1,7 @@
 //! The ways out to the terminal: texts from files do not command it.
 
 use std::io::{self, Stderr, StdoutLock, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use uplift::text::{is_obeyed, visible};
 
@@ -21,12 +22,32 @@ pub(crate) fn visible_json(json: &str) -> String {
     text
 }
 
-pub(crate) fn output() -> Visible<StdoutLock<'static>> {
-    Visible(io::stdout().lock())
+pub(crate) fn output() -> Visible<Answer<StdoutLock<'static>>> {
+    Visible(Answer(io::stdout().lock(), &HAS_BEGUN))
 }
 
 pub(crate) fn error_output() -> Visible<Stderr> {
     Visible(io::stderr())
+}
+
+/// Whether anything was answered.
+static HAS_BEGUN: AtomicBool = AtomicBool::new(false);
+
+/// An answer, which begins on the first line: a paragraph that leaves one free above itself may be the first.
+pub(crate) struct Answer<W>(W, &'static AtomicBool);
+
+impl<W: Write> Write for Answer<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let skipped =
+            if self.1.load(Ordering::Relaxed) { 0 } else { bytes.iter().take_while(|byte| **byte == b'\n').count() };
+        self.1.fetch_or(skipped < bytes.len(), Ordering::Relaxed);
+        self.0.write_all(&bytes[skipped..])?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
 }
 
 impl<W: Write> Write for Visible<W> {
@@ -44,6 +65,16 @@ impl<W: Write> Write for Visible<W> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+
+    #[test]
+    fn an_answer_begins_on_the_first_line() {
+        static BEGUN: AtomicBool = AtomicBool::new(false);
+        let mut out = Answer(Vec::new(), &BEGUN);
+        write!(out, "\n").unwrap();
+        writeln!(out, "\nSpectra").unwrap();
+        writeln!(out, "\nWarnings").unwrap();
+        assert_eq!(String::from_utf8(out.0).unwrap(), "Spectra\n\nWarnings\n");
+    }
 
     #[test]
     fn what_a_terminal_would_obey_is_spelt_out() {

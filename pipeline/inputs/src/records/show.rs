@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use uplift_job::JobError;
 use uplift_motion::{Accelerogram, Combination, Orientation, ReadOptions, RecordPair, Recording, read_record_file};
+use uplift_study::did_you_mean;
 
 use crate::FileOptions;
 use crate::error::InputsError;
@@ -150,9 +151,12 @@ fn file(path: &Path, files: FileOptions) -> Result<FileReport, InputsError> {
 
 fn record(set: &Path, id: &str, gravity_m_s2: f64) -> Result<RecordReport, InputsError> {
     let rows = manifest::read(set, None).map_err(JobError::Inputs)?;
+    let known: Vec<&str> = rows.iter().map(|row| &*row.id).collect();
+    let meant = did_you_mean(id, &known);
     let Some(row) = rows.into_iter().find(|row| row.id == *id) else {
+        let meant = meant.map_or_else(String::new, |meant| format!("{meant} "));
         return Err(JobError::input(format!(
-            "{} has no record {id:?}; uplift records list shows its records",
+            "{} has no record {id:?}; {meant}uplift records list shows its records",
             set.display()
         ))
         .into());
