@@ -70,6 +70,28 @@ fn a_case_known_by_hand() {
     let of_block = fits.iter().find(|row| row["kind"] == "block" && row["im"] == "pga" && row["of"] == "rocking");
     assert!(of_block.unwrap()["median"].is_empty() && format!("{of_block:?}").contains("exceedances begin at level"));
     assert_eq!(rows(&folder.path().join("out/surfaces.csv")).len(), 3);
+
+    let model = std::fs::read_to_string(folder.path().join("out/fragility.xml")).unwrap();
+    assert!(model.contains("<limitStates>rocking overturning</limitStates>"), "{model}");
+    let of = |id: &str, element: &str| {
+        let function = model.split(&format!("id=\"{id}\"")).nth(1).unwrap_or_else(|| panic!("{id}: {model}"));
+        let text = function.split(&format!("<{element}>")).nth(1).unwrap().split('<').next().unwrap();
+        text.split(' ').map(|number| number.parse().unwrap()).collect::<Vec<f64>>()
+    };
+    let near = |found: Vec<f64>, expected: &[f64]| {
+        assert!(found.len() == expected.len(), "{found:?}");
+        assert!(found.iter().zip(expected).all(|(a, b)| (a / b - 1.0).abs() < 1e-12), "{found:?} {expected:?}");
+    };
+    // PGA in g and PGV in cm/s, of a level 1: g tan α, and g tan α/p
+    let (tangent, p_rad_s) = (0.1_f64.tan(), (0.75 * 9.806_65_f64).sqrt());
+    let block = "block_R_1_m_alpha_0p1_rad_r_0p9";
+    near(of(&format!("{block}_pga"), "imls imt=\"PGA\""), &[0.99 * tangent, 1.01 * tangent]);
+    near(of(&format!("{block}_pgv"), "imls imt=\"PGV\""), &[0.001 * 980.665 * tangent / p_rad_s]);
+    assert_eq!(of(&format!("{block}_pga"), "poes ls=\"rocking\""), [0.0, 1.0]);
+    assert_eq!(of(&format!("{block}_pga"), "poes ls=\"overturning\""), [0.0, 0.5]);
+    let constant = "oscillator_eta_0p1_u_up_0p0005_m_r_0p95_pga";
+    assert_eq!(of(constant, "poes ls=\"overturning\""), [0.0, 0.0], "it cannot overturn");
+    assert!(!model.contains("_lognormal"), "half of the motions at one level have no fit: {model}");
 }
 
 // The same block under the same records, whose components are the same motion: PGA is then that of the component.
@@ -80,7 +102,7 @@ fn shares_are_those_of_overturning() {
     let row = |record: u32| format!("SYN{record:03},set/SYN{record:03}_H1.AT2,set/SYN{record:03}_H1.AT2\n");
     let text: String = (1..=12).map(row).collect();
     folder.write("twice.csv", &format!("record_id,file_h1,file_h2\n{text}"));
-    let (alpha, levels) = (0.1_f64, [1.5, 2.5, 4.0, 6.0, 9.0]);
+    let (alpha, levels) = (0.1_f64, [0.9, 1.5, 2.5, 4.0, 6.0, 9.0]);
     let records = "[records]\nmanifest = \"twice.csv\"\nduplicates = \"keep\"\n";
     folder.write(
         "library.toml",
@@ -88,10 +110,15 @@ fn shares_are_those_of_overturning() {
     );
     folder.uplift(&["library", "library.toml", "-o", "one", "--threads", "1", "-q"]).ok();
     folder.uplift(&["library", "library.toml", "-o", "two", "--threads", "2", "-q"]).ok();
-    for name in ["levels.csv", "fits.csv", "surfaces.csv"] {
+    for name in ["levels.csv", "fits.csv", "surfaces.csv", "fragility.xml", "block-pga.svg", "block-pgv.svg"] {
         let [one, two] = ["one", "two"].map(|out| std::fs::read(folder.path().join(out).join(name)).unwrap());
         assert!(one == two, "{name} depends on the number of threads");
     }
+    // a block rocks above PGA = g tan α: the step has a lognormal function as steep as the levels are near
+    let model = std::fs::read_to_string(folder.path().join("one/fragility.xml")).unwrap();
+    let parameters = model.split("_pga_lognormal").nth(1).unwrap().split("\"rocking\" mean=\"").nth(1).unwrap();
+    let mean: f64 = parameters.split('"').next().unwrap().parse().unwrap();
+    assert!(mean > 0.9 * alpha.tan() && mean < 1.5 * alpha.tan(), "{parameters}");
     let found: Vec<f64> = rows(&folder.path().join("one/levels.csv"))
         .iter()
         .filter(|row| row["im"] == "pga")
@@ -114,7 +141,7 @@ fn shares_are_those_of_overturning() {
     let records = block["records"].as_f64().unwrap();
     let counts = block["overturned"].as_array().unwrap().iter();
     let expected: Vec<f64> = counts.map(|count| count.as_f64().unwrap() / records).collect();
-    assert!(expected[0] < 0.5 && expected[4] > 0.3, "{expected:?}");
+    assert!(expected[1] < 0.5 && expected[5] > 0.3, "{expected:?}");
     assert_eq!(found, expected);
 }
 
@@ -133,6 +160,12 @@ fn the_answer_is_short_and_mistakes_are_reported_before_the_work() {
     std::fs::create_dir(folder.path().join("mine")).unwrap();
     folder.write("mine/fits.csv", "a,b\n1,2\n");
     folder.uplift(&["library", "library.toml", "-o", "mine"]).fails(2, &["mine/fits.csv", "--force"]);
+    for (place, name, other) in [("a", "oscillator-pga.svg", "<svg/>"), ("b", "fragility.xml", "<nrml/>")] {
+        assert!(folder.path().join("results/library").join(name).is_file(), "{said}");
+        std::fs::create_dir(folder.path().join(place)).unwrap();
+        folder.write(&format!("{place}/{name}"), other);
+        folder.uplift(&["library", "library.toml", "-o", place]).fails(2, &[name, "--force"]);
+    }
     folder.uplift(&["library", "library.toml", "-o", "out.csv"]).fails(2, &["-o names a folder"]);
     folder.write("bad.toml", "[block]\nsize_m = 0\nslenderness_rad = 2\n[levels]\nsa = 1\n");
     folder.uplift(&["library", "bad.toml"]).fails(3, &["bad.toml", "size_m", "slenderness_rad", "`sa`"]);

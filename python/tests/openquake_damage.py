@@ -8,10 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import openquake_handover as handover
+import pandas
 from openquake.calculators.base import run_calc
 from openquake.calculators.export import export
 from openquake.commonlib import datastore
+from openquake.hazardlib import nrml
 from openquake_handover import NRML, SITES, YEARS
+from scipy.stats import norm
 
 import uplift_urs as uplift
 
@@ -42,6 +45,16 @@ pgv = "first.csv"
 name = "Second"
 pgv = "second.csv"
 """
+G_M_S2 = 9.80665
+LIBRARY = """[records.synthetic]
+pairs = 12
+[block]
+size_m = 1
+slenderness_rad = 0.2
+[oscillator]
+[strengths]
+values = 0.2
+"""
 EXPOSURE = """<exposureModel id="exposure" category="buildings" taxonomySource="uplift">
   <description>a structure a site</description>
   <conversions>
@@ -65,6 +78,33 @@ def ours(folder, program):
     call("export", "r.h5", "--fragility", "openquake", "--structure", "block.toml", "-o", "fragility.xml", "-q")
     found = json.loads(call("overturning", "block.toml", "--urs", "r.h5", "--json", "-q"))
     return {row["model"]: [site["per_year"] for site in row["sites"]] for row in found["overturning"]}
+
+
+def library(folder, program):
+    """The engine reads the functions of a library: at its levels they are its tables."""
+    (folder / "library.toml").write_text(LIBRARY, encoding="utf-8")
+    subprocess.run([program, "library", "library.toml", "-o", "library", "-q"], cwd=folder, check=True)
+    model = nrml.to_python(str(folder / "library" / "fragility.xml"))
+    assert model.limitStates == ["rocking", "overturning"]
+    functions = {key[1]: function.build(model.limitStates) for key, function in model.items()}
+    levels, fits = (pandas.read_csv(folder / "library" / f"{name}.csv") for name in ("levels", "fits"))
+    compared = set()
+    for (kind, im), rows in levels.groupby(["kind", "im"]):
+        uplift_m_s2 = G_M_S2 * rows.uplift_acceleration_g
+        unit = uplift_m_s2 / G_M_S2 if im == "pga" else 100 * uplift_m_s2 / rows.p_rad_s
+        (counted,) = [functions[name] for name in functions if name.startswith(kind) and name.endswith(f"_{im}")]
+        for function, event in zip(counted, model.limitStates, strict=True):
+            np.testing.assert_allclose(function((rows.level * unit).to_numpy()), rows[f"share_{event}"], atol=1e-9)
+        fitted = next((f for name, f in functions.items() if name.startswith(kind) and f"_{im}_" in name), [])
+        for function, event in zip(fitted, model.limitStates, strict=False):
+            fit = fits[(fits.kind == kind) & (fits.im == im) & (fits.of == event)].iloc[0]
+            if np.isfinite(fit["median"]):
+                expected = norm.cdf(np.log(rows.level / fit["median"]) / fit.dispersion)
+            else:  # a block rocks above PGA = g tan alpha
+                expected = rows.level > 1
+            np.testing.assert_allclose(function((rows.level * unit).to_numpy()), expected, atol=2e-3)
+            compared.add((kind, im, event))
+    assert {("block", "pga", "rocking"), ("block", "pga", "overturning"), ("block", "pgv", "overturning")} <= compared
 
 
 def damage(folder, taxonomies):
@@ -109,6 +149,7 @@ def main(folder, program):
             probability = damage_of["overturning"]
             np.testing.assert_allclose(-np.log1p(-float(probability)) / YEARS, per_year, rtol=RTOL, err_msg=taxonomy)
             assert per_year > 1e-6, "a case in which something overturns"
+    library(folder, program)
     # the lognormal function is read too, and is near the counts
     for site in range(len(SITES)):
         counted, fitted = (found[f"block_block_pgv{form}-{site}"]["overturning"] for form in ("", "_lognormal"))

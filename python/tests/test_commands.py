@@ -96,6 +96,31 @@ def test_variants_are_results(folder, tmp_path):
         uplift.sweep(folder / "study.toml", {"oscillator.restitution": [2]}, output=tmp_path / "wrong")
 
 
+def test_a_library_is_tables_figures_and_fragilities(folder, tmp_path):
+    study = {
+        "records": {"synthetic": {"pairs": 4}},
+        "block": {"size_m": [1, 2], "slenderness_rad": 0.2},
+        "levels": {"pga": [0.9, 1.1, 3, 6, 9], "pgv": [0.3, 0.9]},
+    }
+    found = uplift.library(study, output=tmp_path / "out", **{"block.size_m": 1})
+    assert len(found.report["systems"]) == 1 and found.folder == tmp_path / "out"
+    levels = found.to_pandas()
+    by_pga = levels[levels.im == "pga"]
+    assert by_pga.share_rocking.tolist() == [0, 1, 1, 1, 1] and set(by_pga.motions) == {8}
+    assert by_pga.response_84.max() == float("inf")
+    (system,) = found.report["systems"]
+    assert levels.share_overturning.tolist() == [
+        level["overturned"] / 8 for measure in system["measures"] for level in measure["levels"]
+    ]
+    assert set(found.to_pandas("fits").of) == {"rocking", "overturning"} and len(found.to_pandas("surfaces")) == 1
+    assert found.plot("block-pga").svg.startswith("<svg") and (found.folder / "fragility.xml").is_file()
+    (tmp_path / "library.toml").write_text(uplift._toml.document(study))
+    again = uplift.library(tmp_path / "library.toml", output=tmp_path / "again", block={"size_m": 1}, threads=1)
+    assert again.report["systems"] == found.report["systems"]
+    with pytest.raises(uplift.StudyError, match="slenderness_rad"):
+        uplift.library({"block": {"slenderness_rad": 2}}, output=tmp_path / "wrong")
+
+
 def test_answers_are_kept_in_the_file(folder):
     result = uplift.run(folder / "study.toml", output=folder / "kept.h5")
     told = result.compute_overturning(folder / "frame.toml")

@@ -14,6 +14,7 @@ program ``uplift``, to the bit.
 
 from ._figure import Figure
 from ._groups import Arrays
+from ._library import Library, library
 from ._native import (
     Bands,
     Block,
@@ -73,6 +74,7 @@ __all__ = [
     "FrameResponse",
     "HazardCurve",
     "History",
+    "Library",
     "Mistake",
     "Overturning",
     "Pushover",
@@ -95,6 +97,7 @@ __all__ = [
     "fit",
     "fragility",
     "ida",
+    "library",
     "open_result",
     "overturning",
     "read_hazard_export",

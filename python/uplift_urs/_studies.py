@@ -59,7 +59,7 @@ def run(
         If h5py is not installed.
     """
     optional("h5py", "results")  # before anything is computed
-    arguments, text = _arguments(study, overrides)
+    arguments, text = study_arguments(study, overrides)
     options = [*(["-o", os.fspath(output)] if output is not None else []), *(["--force"] if force else [])]
     options += [f"--threads={threads}"] if threads is not None else []
     summary = json.loads(call(["run", "--json", *options, *arguments], progress=progress, text=text))
@@ -84,12 +84,12 @@ def check(study: str | os.PathLike[str] | Mapping[str, Any], **overrides: Any) -
     StudyError, OSError
         As for `run`.
     """
-    arguments, text = _arguments(study, overrides)
+    arguments, text = study_arguments(study, overrides)
     plan: dict[str, Any] = json.loads(call(["check", "--json", *arguments], text=text))
     return plan
 
 
-def _arguments(
+def study_arguments(
     study: str | os.PathLike[str] | Mapping[str, Any], overrides: Mapping[str, Any]
 ) -> tuple[list[str], str]:
     """The arguments that name a study, and its standard input."""

@@ -12,6 +12,7 @@
 //! Beside it, never instead of it, [`fit_lognormal`] gives the maximum-likelihood lognormal fragility, and
 //! [`fit_zero_inflated`] one for demands of which many are zero; [`Goodness`] has their agreement with the counts,
 //! [`lognormal_spread`] the uncertainty of the parameters. [`fit_surface`] takes two intensity measures together.
+//! [`nrml_model`] writes fragilities for `OpenQuake`.
 //!
 //! ```
 //! use uplift_fragility::{Stripes, exceedance_probabilities};
@@ -33,6 +34,7 @@ mod error;
 mod goodness;
 mod lognormal;
 mod normal;
+mod nrml;
 mod quantile;
 mod spread;
 mod stripes;
@@ -45,6 +47,7 @@ pub use error::FragilityError;
 pub use goodness::Goodness;
 pub use lognormal::{LognormalFit, LognormalFragility, StripeCount, fit_lognormal, fits_without_each, stripe_counts};
 pub use normal::{ln_normal_cdf, normal_cdf, normal_quantile};
+pub use nrml::{NrmlFunction, NrmlState, nrml_id, nrml_model};
 pub use quantile::{quantile, weighted_quantile};
 pub use spread::{FitSpread, lognormal_spread};
 pub use stripes::Stripes;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use uplift::events::Events;
 use uplift::hazard_curves::{CurveOptions, read as read_curves};
+use uplift::library::LibraryReport;
 use uplift::outputs::{self, Output, beside, provide_folder};
 use uplift::pulses::{PULSE_FIGURES, PulseReport};
 use uplift::response::{BlockResponseReport, FrameResponseReport, ResponseReport, ShakenBy};
@@ -13,10 +14,11 @@ use uplift::structure::{FrameRiskReport, OverturningReport};
 use uplift::sweep::SweepReport;
 use uplift::validate::ValidateReport;
 use uplift::{JobError, UpliftError};
+use uplift_plot::Figure;
 
 use crate::figures::{
-    block_history_figure, distributions_figure, frame_figure, frame_risk_figure, hazard_figure, history_figure,
-    overturning_figure, pairs_figure, pulse_figures, result_figures, sweep_figure,
+    LIBRARY_FIGURES, block_history_figure, distributions_figure, frame_figure, frame_risk_figure, hazard_figure,
+    history_figure, library_figures, overturning_figure, pairs_figure, pulse_figures, result_figures, sweep_figure,
 };
 use crate::files::{FigureOptions, check_figure_file, write_figure_file};
 
@@ -94,10 +96,35 @@ pub fn check_pulse_figures(folder: &Path, figures: FigureOptions, force: bool) -
 /// # Errors
 /// A folder that cannot be written.
 pub fn plot_pulses(report: &PulseReport, folder: &Path, figures: FigureOptions) -> Result<Vec<PathBuf>, UpliftError> {
+    write_figures(&pulse_figures(&report.plan, &report.spectra), folder, figures)
+}
+
+/// Refuses a `folder` where the figures of [`plot_library`] would replace something else, before anything is computed.
+///
+/// # Errors
+/// As [`outputs::check`].
+pub fn check_library_figures(folder: &Path, figures: FigureOptions, force: bool) -> Result<(), UpliftError> {
+    let nothing: [&Path; 0] = [];
+    Ok(outputs::check(&figures.outputs(LIBRARY_FIGURES.into_iter(), folder), &nothing, force)?)
+}
+
+/// Draws shares and median responses of a library into `folder`; the files written.
+///
+/// # Errors
+/// A folder that cannot be written.
+pub fn plot_library(
+    report: &LibraryReport,
+    folder: &Path,
+    figures: FigureOptions,
+) -> Result<Vec<PathBuf>, UpliftError> {
+    write_figures(&library_figures(report), folder, figures)
+}
+
+fn write_figures(drawn: &[Figure], folder: &Path, figures: FigureOptions) -> Result<Vec<PathBuf>, UpliftError> {
     provide_folder(folder)?;
     let mut files = Vec::new();
-    for figure in pulse_figures(&report.plan, &report.spectra) {
-        files.extend(figures.write(&figure, folder, &outputs::mark())?);
+    for figure in drawn {
+        files.extend(figures.write(figure, folder, &outputs::mark())?);
     }
     Ok(files)
 }

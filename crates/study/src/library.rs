@@ -43,7 +43,7 @@ const STRENGTHS: Key<GridRule> = grid("values", GridRule { unit: "", each: STREN
     .meaning("uplift strengths η = f_up/(m g) of the oscillators, a grid");
 const STRENGTH: Rule = Rule::From(1e-4, 100.0, "from 0.0001 to 100; levels are multiples of it");
 const PGA: Key<GridRule> = grid("pga", LEVELS)
-    .with_default(&["0.5", "1.01", "1.25:0.25:3", "3.5:0.5:6", "7:1:12"])
+    .with_default(&["0.5", "0.99", "1.01", "1.25:0.25:3", "3.5:0.5:6", "7:1:12"])
     .meaning("levels of PGA/(g tan α) of a block, PGA/(η g) of an oscillator, a grid");
 const PGV: Key<GridRule> = grid("pgv", LEVELS)
     .with_default(&["0.05", "0.1:0.1:1", "1.2:0.2:3"])
@@ -90,12 +90,12 @@ pub struct BlockGrid {
 }
 
 impl LibraryStudy {
-    /// Reads the file `file`, applies the `overrides`, each `key=value`, and checks it all.
+    /// Reads the file `file`, of `-` standard input, applies the `overrides`, each `key=value`, and checks it all.
     ///
     /// # Errors
     /// [`StudyError`] with every mistake in the file and the overrides; those of TOML syntax come alone.
     pub fn load(file: &Path, overrides: &[String]) -> Result<Self, StudyError> {
-        let study = Study::read(file)?.resolve_by(overrides, read)?;
+        let study = Study::read_or_input(file)?.resolve_by(overrides, read)?;
         Ok(Self { file: file.to_owned(), ..study })
     }
 

@@ -41,9 +41,12 @@ impl Study {
     ///
     /// As [`load`](Self::load).
     pub fn load_any(file: &Path, overrides: &[String]) -> Result<AnyStudy, StudyError> {
-        let study =
-            if file == Path::new(STANDARD_INPUT) { Self::parse(file, input_text()?)? } else { Self::read(file)? };
-        study.resolve_any(overrides)
+        Self::read_or_input(file)?.resolve_any(overrides)
+    }
+
+    /// As [`read`](Self::read); the file `-` is standard input.
+    pub(crate) fn read_or_input(file: &Path) -> Result<Self, StudyError> {
+        if file == Path::new(STANDARD_INPUT) { Self::parse(file, input_text()?) } else { Self::read(file) }
     }
 
     /// The study of a result, from the text that [`AnyStudy::to_toml`] made of it.

@@ -2,7 +2,6 @@
 
 mod curves;
 mod measures;
-mod nrml;
 mod pelicun;
 mod table;
 
@@ -10,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_design::{LimitOptions, independent_records, limit_stripes};
-use uplift_fragility::Stripes as Stripe;
+use uplift_fragility::{NrmlFunction, Stripes as Stripe, nrml_model};
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind, beside};
@@ -156,7 +155,8 @@ pub fn export_fragility(options: &FragilityOptions, events: &dyn Events) -> Resu
     let mut report = FragilityReport { files: vec![path.clone()], notes: Vec::new() };
     match options.format {
         FragilityFormat::OpenQuake => {
-            let (text, notes) = nrml::model(&fragilities, &line);
+            let functions: Vec<NrmlFunction> = fragilities.iter().filter_map(Fragility::nrml).collect();
+            let (text, notes) = nrml_model(&functions, &line);
             report.notes = notes;
             write_atomically(&path, text.as_bytes())?;
         }

@@ -3,6 +3,7 @@
 
 mod compute;
 mod fits;
+mod fragilities;
 mod run;
 mod systems;
 mod tables;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use uplift::library::{LibraryOptions, library as compute};
+use uplift_report::{FigureOptions, check_library_figures, plot_library};
 use uplift_study::LibraryStudy;
 
 use super::arguments::{ForceArgument, require_folder};
@@ -15,12 +16,12 @@ use crate::terminal::Terminal;
 #[command(after_help = "Example:\n  uplift library configs/rocking-library.toml -o results/library\n\n\
                   Keys and tables: docs/rocking-library.md")]
 pub(super) struct LibraryArguments {
-    /// Library file
+    /// Library file; - reads standard input
     library: PathBuf,
     /// Set a key of the file, e.g. records.first=20
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
-    /// Folder for the tables
+    /// Folder for tables, figures and fragilities
     #[arg(short, long, value_name = "FOLDER", default_value = "results/library")]
     output: PathBuf,
     /// Print JSON
@@ -31,9 +32,11 @@ pub(super) struct LibraryArguments {
 }
 
 pub(super) fn library(arguments: &LibraryArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    require_folder(&arguments.output, "tables")?;
+    let (folder, force, figures) = (&arguments.output, arguments.overwriting.force, FigureOptions::default());
+    require_folder(folder, "tables")?;
     let study = LibraryStudy::load(&arguments.library, &arguments.overrides)?;
-    let options = LibraryOptions { folder: Some(arguments.output.clone()), force: arguments.overwriting.force };
-    let report = compute(&study, &options, terminal)?;
+    check_library_figures(folder, figures, force)?;
+    let mut report = compute(&study, &LibraryOptions { folder: Some(folder.clone()), force }, terminal)?;
+    report.files.extend(plot_library(&report, folder, figures)?);
     if arguments.json { print_json(&report) } else { print_library(&report, terminal) }
 }

@@ -2,12 +2,14 @@
 
 use uplift_design::LimitState;
 use uplift_fragility::{
-    FitSpread, FragilityError, Goodness, LognormalFragility, StripeCount, Stripes, ZeroInflatedFragility,
-    exceedance_probabilities, fit_lognormal, fit_zero_inflated, lognormal_spread, stripe_counts,
+    FitSpread, FragilityError, Goodness, LognormalFragility, NrmlFunction, NrmlState, StripeCount, Stripes,
+    ZeroInflatedFragility, exceedance_probabilities, fit_lognormal, fit_zero_inflated, lognormal_spread, nrml_id,
+    stripe_counts,
 };
 use uplift_job::JobError;
 use uplift_motion::IntensityMeasure;
 
+use super::measures::{Foreign, openquake};
 use crate::error::ExportsError;
 
 /// The limit states of one system, under records scaled to the levels of one measure.
@@ -89,9 +91,24 @@ impl Fragility {
 
     /// Its name in other programs: letters, digits, hyphens and underscores.
     pub(super) fn id(&self) -> String {
-        let words = format!("{}_{}", self.system, self.measure.key()).replace('.', "p");
-        let plain = |letter: char| if letter.is_ascii_alphanumeric() || letter == '-' { letter } else { '_' };
-        words.chars().map(plain).collect()
+        nrml_id(&format!("{}_{}", self.system, self.measure.key()))
+    }
+
+    /// As `OpenQuake` takes it; none of a measure that it does not have.
+    pub(super) fn nrml(&self) -> Option<NrmlFunction> {
+        let Foreign { name, factor, .. } = openquake(self.measure)?;
+        let scaled = |fit: &LognormalFragility| LognormalFragility::new(factor * fit.median(), fit.dispersion()).ok();
+        let state = |state: &StateFragility| NrmlState {
+            name: state.name.clone(),
+            shares: state.shares.clone(),
+            lognormal: state.lognormal.as_ref().ok().and_then(|(fit, _)| scaled(fit)),
+        };
+        Some(NrmlFunction {
+            id: self.id(),
+            imt: name,
+            levels: self.levels.iter().map(|level| level * factor).collect(),
+            states: self.states.iter().map(state).collect(),
+        })
     }
 }
 

@@ -5,22 +5,27 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_alarms::study_alarms;
+use uplift_fragility::nrml_model;
 use uplift_inputs::{RecordSets, read_sets};
 use uplift_job::alarm::Alarm;
 use uplift_job::events::{Events, Progress};
 use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::table::write_table;
+use uplift_job::table::{write_atomically, write_table};
 use uplift_study::LibraryStudy;
 
 use super::compute::{Motions, SystemReport, measures, system_report};
+use super::fragilities::functions;
 use super::systems::systems;
 use super::tables::{TABLES, tables};
 use crate::error::LaboratoryError;
 
+/// The fragilities for `OpenQuake`, beside the tables.
+const FRAGILITIES: &str = "fragility.xml";
+
 /// Where the tables of a library go.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LibraryOptions {
-    /// Folder for the tables; none for no tables.
+    /// Folder for tables and fragilities; none for no files.
     pub folder: Option<PathBuf>,
     /// Whether existing files are overwritten.
     pub force: bool,
@@ -51,7 +56,8 @@ pub struct LibraryReport {
     pub files: Vec<PathBuf>,
 }
 
-/// Shakes every block and oscillator of `study` by every motion at every level, and writes what they do as tables.
+/// Shakes every block and oscillator of `study` by every motion at every level, and writes what they do as tables
+/// and as fragilities for `OpenQuake`.
 ///
 /// # Errors
 /// Records that cannot be used; a system that cannot be followed; files that would overwrite something else, or cannot
@@ -63,7 +69,9 @@ pub fn library(
 ) -> Result<LibraryReport, LaboratoryError> {
     if let Some(folder) = &options.folder {
         let table = |(name, column)| Output::new(folder.join(name), OutputKind::Table(column));
-        outputs::check(&TABLES.map(table), &study.inputs(), options.force)?;
+        let mut outputs = TABLES.map(table).to_vec();
+        outputs.push(Output::new(folder.join(FRAGILITIES), OutputKind::Nrml));
+        outputs::check(&outputs, &study.inputs(), options.force)?;
     }
     let systems = systems(study)?;
     let records = read_sets(&study.records, &[], study.gravity_m_s2, events)?;
@@ -127,5 +135,10 @@ fn write(report: &LibraryReport, folder: &Path) -> Result<Vec<PathBuf>, Laborato
         write_table(&file, &line, columns)?;
         files.push(file);
     }
+    let file = folder.join(FRAGILITIES);
+    // the fits that are missing are in the table of fits
+    let (text, _) = nrml_model(&functions(&report.systems, report.gravity_m_s2), &line);
+    write_atomically(&file, text.as_bytes())?;
+    files.push(file);
     Ok(files)
 }

@@ -1,0 +1,114 @@
+//! A fragility model of `OpenQuake`, NRML 0.5: discrete functions of counted shares, continuous ones of lognormal fits.
+
+use crate::LognormalFragility;
+
+/// What the functions of one system show: how often its limit states are exceeded at each level.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NrmlFunction {
+    /// Letters, digits, `-` and `_`: the taxonomy of its assets.
+    pub id: String,
+    /// Intensity measure type, as `PGA`.
+    pub imt: String,
+    /// Levels in the unit of the engine, ascending.
+    pub levels: Vec<f64>,
+    /// Its limit states, from the first that is exceeded to the last.
+    pub states: Vec<NrmlState>,
+}
+
+/// How often one limit state is exceeded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NrmlState {
+    /// Name in the model.
+    pub name: String,
+    /// Shares at the levels.
+    pub shares: Vec<f64>,
+    /// A lognormal function over the intensity in the unit of the engine; none where there is no fit.
+    pub lognormal: Option<LognormalFragility>,
+}
+
+/// What other programs accept as a name: all but letters, digits and `-` of `words` becomes `_`, a point `p`.
+pub fn nrml_id(words: &str) -> String {
+    let plain = |letter: char| if letter.is_ascii_alphanumeric() || letter == '-' { letter } else { '_' };
+    words.replace('.', "p").chars().map(plain).collect()
+}
+
+/// The model as a document, and what it leaves out; `line` says where the numbers come from.
+///
+/// All functions of a model have the same limit states: those that all systems have. A system with a fit of each has a
+/// second function, `…_lognormal`.
+pub fn nrml_model(functions: &[NrmlFunction], line: &str) -> (String, Vec<String>) {
+    let mut notes = Vec::new();
+    let names = common_states(functions, &mut notes);
+    let mut lines = Vec::new();
+    for NrmlFunction { id, imt, levels, states } in functions {
+        let states: Vec<&NrmlState> = states.iter().filter(|own| names.contains(&&*own.name)).collect();
+        lines.push(format!("    <fragilityFunction id=\"{id}\" format=\"discrete\">"));
+        lines.push(format!("      <imls imt=\"{imt}\">{}</imls>", numbers(levels)));
+        let poes = |state: &&NrmlState| format!("      <poes ls=\"{}\">{}</poes>", state.name, numbers(&state.shares));
+        lines.extend(states.iter().map(poes));
+        lines.push("    </fragilityFunction>".to_owned());
+        let missing: Vec<&str> = states.iter().filter(|own| moments(own).is_none()).map(|own| &*own.name).collect();
+        if !missing.is_empty() {
+            notes.push(format!("{id}: no lognormal function: {} has no fit", missing.join(", ")));
+            continue;
+        }
+        let (first, last) = (levels.first().copied().unwrap_or(0.0), levels.last().copied().unwrap_or(0.0));
+        let attributes = "format=\"continuous\" shape=\"logncdf\"";
+        lines.push(format!("    <fragilityFunction id=\"{id}_lognormal\" {attributes}>"));
+        lines.push(format!("      <imls imt=\"{imt}\" minIML=\"{first}\" maxIML=\"{last}\"/>"));
+        let parameters = |state: &&NrmlState| {
+            let [mean, deviation] = moments(state)?;
+            Some(format!("      <params ls=\"{}\" mean=\"{mean}\" stddev=\"{deviation}\"/>", state.name))
+        };
+        lines.extend(states.iter().filter_map(parameters));
+        lines.push("    </fragilityFunction>".to_owned());
+    }
+    let text = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n  \
+         <fragilityModel id=\"uplift\" assetCategory=\"structures\" lossCategory=\"structural\">\n    \
+         <description>{}</description>\n    \
+         <limitStates>{}</limitStates>\n{}\n  </fragilityModel>\n</nrml>\n",
+        escaped(line),
+        names.join(" "),
+        lines.join("\n")
+    );
+    (text, notes)
+}
+
+/// The limit states that all systems have; `notes` gets the others.
+fn common_states<'a>(functions: &'a [NrmlFunction], notes: &mut Vec<String>) -> Vec<&'a str> {
+    let has = |of: &NrmlFunction, name: &str| of.states.iter().any(|state| state.name == name);
+    let mut all: Vec<&str> = Vec::new();
+    for state in functions.iter().flat_map(|of| &of.states) {
+        if !all.contains(&&*state.name) {
+            all.push(&state.name);
+        }
+    }
+    let (common, others): (Vec<&str>, Vec<&str>) =
+        all.into_iter().partition(|name| functions.iter().all(|of| has(of, name)));
+    for name in others {
+        let without: Vec<&str> = functions.iter().filter(|of| !has(of, name)).map(|of| of.id.as_str()).collect();
+        notes.push(format!("limit state {name} is left out: {} has none", without.join(", ")));
+    }
+    common
+}
+
+/// Mean and standard deviation of the intensity of a lognormal function, as `OpenQuake` takes them; none where there is
+/// no fit, or its dispersion is beyond all numbers.
+fn moments(state: &NrmlState) -> Option<[f64; 2]> {
+    let fragility = state.lognormal?;
+    let variance = fragility.dispersion().powi(2);
+    let mean = fragility.median() * (0.5 * variance).exp();
+    let deviation = mean * variance.exp_m1().sqrt();
+    deviation.is_finite().then_some([mean, deviation])
+}
+
+fn numbers(values: &[f64]) -> String {
+    values.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
+}
+
+/// `text` between tags.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
