@@ -6,13 +6,14 @@ const bytesOf = (id) => Uint8Array.from(atob($(id).textContent.trim()), (letter)
 const worker = new Worker(URL.createObjectURL(new Blob([$("worker").textContent], { type: "text/javascript" })));
 const waiting = new Map();
 let number = 0;
-worker.onmessage = ({ data: { id, answer, error, progress, isBug } }) => {
+worker.onmessage = ({ data: { id, answer, error, progress, isBug, about: restarted } }) => {
   const own = waiting.get(id);
   if (!own) return;
   if (progress) return own.progress?.(progress);
   waiting.delete(id);
   if (error === undefined) own.resolve(answer);
   else own.reject(Object.assign(new Error(error), { isBug }));
+  if (restarted) begunAgain(restarted);
 };
 const send = (message, progress) => new Promise((resolve, reject) => {
   waiting.set(++number, { resolve, reject, progress });
@@ -102,7 +103,7 @@ function readLink() {
   state.extrapolate = link.get("extrapolate") === "loglog";
   if (KINDS[link.get("kind")]) state.kind = link.get("kind");
   for (const key of Object.keys({ ...FIELDS, width_m: 0, height_m: 0 })) {
-    if (link.has(key) && (key in KINDS[state.kind] || key === "restitution")) state.own[state.kind][key] = number(key, undefined);
+    if (link.has(key) && (key in KINDS[state.kind] || key === "restitution")) state.own[state.kind][key] = number(key, KINDS[state.kind][key]);
   }
   return wrong.length ? `The link: ${wrong.join(" ")}` : "";
 }
@@ -438,7 +439,7 @@ function nameRestitution() {
   if (about) $("fields").querySelector("[for=field-restitution]").textContent = `Restitution (empty: ${about.restitution})`;
 }
 // a message of the module with the labels of the page
-const labelled = (message) => Object.entries({ ...FIELDS, width_m: "Width, m", height_m: "Height, m" })
+const labelled = (message) => Object.entries({ ...FIELDS, width_m: "Width, m", height_m: "Height, m", safety_factor: "Safety factor" })
   .reduce((text, [key, said]) => text.replaceAll(new RegExp(`\`?\\b${key}\\b\`?`, "g"), said), message);
 const rows = (name, ...all) => element("div", { class: "table" }, element("table", { "aria-label": name }, element("tbody", {}, ...all.filter(Boolean).map(([said, value, bad]) =>
   element("tr", {}, element("th", { scope: "row" }, said), element("td", { class: `number${bad ? " bad" : ""}` }, value))))));
@@ -447,9 +448,9 @@ const governing = ({ rules, governing: place }) => (rules ? [rules[place]] : [])
 // a verdict that holds for the best estimate alone
 const atUpperEnd = ({ required_capacity_band_m: limits, upper_satisfied: satisfied }) => (satisfied === false
   ? ` (not at the upper limit of the band, which ${limits[1] === null ? "no capacity meets" : `requires ${metres(limits[1])}`})` : "");
-const verdict = (rule, { capacity_m: capacity }) => (rule.overturns ? "It overturns"
-  : `Required capacity ${metres(rule.required_capacity_m, 3)}${band(rule.required_capacity_band_m)}${capacity === null ? "" : `, available ${metres(capacity, 3)}`}`)
-  + `: ${rule.satisfied ? "satisfied" : "not satisfied"}`;
+const judged = (rule) => (rule.satisfied ? `satisfied${atUpperEnd(rule)}` : "not satisfied");
+const verdict = (rule, { capacity_m: capacity }) => `${rule.overturns ? "It overturns: required" : "Required"} capacity ${rule.required_capacity_m === null ? "infinite"
+  : metres(rule.required_capacity_m, 3) + band(rule.required_capacity_band_m)}${capacity === null ? "" : `, available ${metres(capacity, 3)}`}: ${judged(rule)}`;
 // the verdict of the demand on the structure itself, where it was analysed and has a capacity
 const ownVerdict = ({ check, upper_check: upper, demand_m: demand, demand_band_m: limits }, { capacity_m: capacity }) =>
   (check.required_capacity_m === null ? "It overturns by its own demand: not satisfied"
@@ -471,6 +472,8 @@ const drawDesign = latest(async () => {
   const now = at();
   const stands = asker();
   const { kind, safety } = state;
+  // that of another site, measure or kind is not shown meanwhile
+  if (!designed?.stands() || designed.kind !== kind) for (const id of ["verdict", "design"]) $(id).replaceChildren();
   try {
     if (mistyped.size) throw new Error([...mistyped.values()].join("\n"));
     const text = toml();
@@ -490,7 +493,7 @@ const drawDesign = latest(async () => {
   }
   if (!stands() || state.kind !== kind) return;
   window.design = told;
-  designed = { told, others, now, safety };
+  designed = { told, others, now, safety, stands, kind };
   if (state.strength === null) drawSpectrum();
   drawMotionAfter();
   complain("mistake", "");
@@ -511,7 +514,7 @@ function showDesign() {
   $("design").replaceChildren(
     ...(own ? [element("p", { class: `answer${own.check.satisfied ? "" : " bad"}` }, ownVerdict(own, told))] : []),
     ...governing(told).map((rule) => element("p", { class: "answer" }, own ? "By the spectrum: " : "",
-      verdict(rule, told), element("small", {}, `By ${rule.rule.replace("-", " ")}, ${whereWords(now)}. ${rule.overturns ? "No capacity is enough." : `Displacement of the ${state.kind} ${metres(rule.demand_m)}${band(rule.demand_band_m)}, safety factor ${digits(rule.safety_factor, 3)}, ${digits(safety, 3)} required.`}`))),
+      verdict(rule, told), element("small", {}, `By ${rule.rule.replace("-", " ")}, ${whereWords(now)}. ${rule.overturns ? "" : `Displacement of the ${state.kind} ${metres(rule.demand_m)}${band(rule.demand_band_m)}, safety factor ${digits(rule.safety_factor, 3)}, ${digits(safety, 3)} required.`}`))),
     rows(
       "Design by the spectrum",
       ["Uplift strength", `${digits(told.spectral_strength, 3)} (displacements are ${digits(told.participation, 4)} times the spectrum's)`],
@@ -521,18 +524,18 @@ function showDesign() {
       ...(told.rules ?? []).flatMap((rule) => [
         [`Demand, rule of ${rule.rule.replace("-", " ")}`, rule.overturns ? "overturns" : `${metres(rule.demand_m)}${band(rule.demand_band_m)}`, rule.overturns],
         [`Required capacity, ${rule.rule.replace("-", " ")}`, rule.required_capacity_m === null ? "no finite one" : `${metres(rule.required_capacity_m)}${band(rule.required_capacity_band_m)}`],
-        [`Verdict, ${rule.rule.replace("-", " ")}`, rule.satisfied ? `satisfied: safety factor ${digits(rule.safety_factor, 3)}${atUpperEnd(rule)}` : `not satisfied: safety factor ${digits(rule.safety_factor, 3)}, ${digits(safety, 3)} required`, !rule.satisfied],
+        [`Verdict, ${rule.rule.replace("-", " ")}`, `${judged(rule)}: safety factor ${digits(rule.safety_factor, 3)}, ${digits(safety, 3)} required`, !rule.satisfied],
       ]),
     ),
     ...(also.length ? [element("p", { class: "bad" }, also.join("").trim())] : []),
     ...(most ? [element("p", { class: "note" }, "The required capacity is the safety factor times the demand that the structure would have with that capacity (Eq. 3.15). It is finite even where the structure overturns with the present one.")] : []),
-    ...told.warnings.map((own) => element("p", { class: "note" }, own)),
+    ...[...otherOscillator(), ...told.warnings].map((own) => element("p", { class: "note" }, own)),
     element("p", { class: "note" }, `${whereWords(now)}${about.synthetic ? ", synthetic records" : ""}. A satisfied rule is no proof: analyse the structure itself.`),
   );
 }
 function changed() {
   window.ownDemand = null;
-  if ($("state").textContent === mistypedShown) say("");
+  if ($("progress").hidden) say("");
   writeLink();
   drawing();
   drawDesign();
@@ -569,9 +572,13 @@ const often = (event) => {
   if (event.per_year === 0) return `no record shows it; at most ${rate(event.at_most_per_year)} a year`;
   return `${rate(event.per_year)} a year${limits}, ${digits(100 * event.probability)} % in ${about.years} years${event.alarm ? `. ${event.alarm}` : ""}`;
 };
-let mistypedShown = null;
+// what is typed wrong is neither analysed nor saved
+function isMistyped() {
+  if (mistyped.size) say([...mistyped.values()].join(" "));
+  return mistyped.size > 0;
+}
 $("analyse").onclick = () => {
-  if (mistyped.size) return say(mistypedShown = [...mistyped.values()].join(" "));
+  if (isMistyped()) return undefined;
   const asked = inputs();
   const question = { ask: "analyse-structure", text: toml(), at: at(), block: $("with-block").checked, safety_factor: state.safety };
   return analyse(question, (found) => {
@@ -587,7 +594,7 @@ function showOwn(found) {
     ["Demand", found.overturns ? "overturns more often than the return period allows" : `${metres(found.demand_m)}${band(found.demand_band_m)}`, found.overturns],
     found.beyond_capacity && ["Exceeds its capacity", often(found.beyond_capacity)],
     ...found.overturning.map((event) => [`Overturns, ${event.model}`, often(event)]),
-    ["Analyses", String(found.analyses)],
+    ["Analyses", `${found.analyses}, of ${found.records} records`],
   ));
 }
 $("stop").onclick = () => worker.postMessage({ kind: "stop" });
@@ -613,6 +620,12 @@ const drawMotion = latest(async () => {
   const scaled = `${name} ${digits(level)} ${unit}${state.level === null ? `, exceeded at ${state.site} once in ${sitePeriod} years` : ""}`;
   $("level-number").textContent = scaled;
   $("level").setAttribute("aria-valuetext", scaled);
+  if (mistyped.size) {
+    moving = null;
+    $("peak").textContent = [...mistyped.values()].join(" ");
+    for (const id of ["near", "stage", "f-trace"]) $(id).replaceChildren();
+    return;
+  }
   let motion;
   // the demand by the rule that the headline has
   const [rule] = governing(window.design ?? {});
@@ -747,8 +760,11 @@ function complain(id, text) {
   $(id).hidden = !text;
   $(id).textContent = text;
 }
+const OWN_SITE = "Your site";
 let curves = [];
 let open = [];
+// the curves of the own site that is shown
+let used = [];
 // a table that does not say its unit is read when the unit is chosen
 async function takeCurves(file, choice) {
   const found = await ask({ ask: "curves", name: file.name, choice }, await bytes(file));
@@ -772,7 +788,7 @@ async function offer() {
     };
     return element("div", {}, element("label", {}, `${of.file.name} does not say what it holds: `, select));
   });
-  const keys = [...new Set(curves.map((curve) => curve.measure))];
+  const keys = [...new Set(curves.map((curve) => curve.measure))].filter((key) => about.measures.some((own) => own.key === key));
   const radio = (key, value, said, checked) => {
     const box = element("input", { type: "radio", name: `curve-${key}`, value });
     box.checked = checked;
@@ -809,10 +825,8 @@ async function takeRecord(file) {
 }
 async function takeStripes(file) {
   const packed = await starts(file, "\u001f\u008b");
-  const now = await ask({ ask: "stripes" }, await bytes(packed ? await unpacked(file) : file));
-  noneDropped();
-  await settle(now);
-  say(`${file.name} is shown.`);
+  const told = await exchanged(await ask({ ask: "stripes" }, await bytes(packed ? await unpacked(file) : file)));
+  say(`${file.name} is shown. ${told}`.trim());
 }
 const unpacked = (file) => new Response(file.stream().pipeThrough(new DecompressionStream("gzip"))).blob();
 // what a dropped file is: an exported result, a hazard curve, else a record, or what a curve may be without a word
@@ -831,21 +845,52 @@ async function take(files) {
   });
   if (records) await listMotions();
 }
-$("files-hazard").onchange = (event) => each(event.target.files, (file) => takeCurves(file));
+// a file that was corrected may be chosen again
+const chosen = (id, work) => {
+  $(id).onchange = async () => {
+    await work([...$(id).files]);
+    $(id).value = "";
+  };
+};
+chosen("files-hazard", (files) => each(files, (file) => takeCurves(file)));
 const takeRecords = (files) => each(files, takeRecord).then(listMotions);
-$("files-records").onchange = (event) => takeRecords(event.target.files);
-for (const id of ["record-unit", "record-step"]) $(id).onchange = () => { if (unread.length) takeRecords(unread.splice(0)); };
-$("files-stripes").onchange = (event) => each(event.target.files, takeStripes);
+chosen("files-records", takeRecords);
+for (const id of ["record-unit", "record-step"]) $(id).onchange = () => {
+  try {
+    parsed("Time step", $("record-step").value);
+    if (unread.length) takeRecords(unread.splice(0));
+  } catch (error) { complain("own-mistake", error.message); }
+};
+chosen("files-stripes", (files) => each(files, takeStripes));
 $("take-paste").onclick = () => each([new File([$("paste").value], "pasted curve")], (file) => takeCurves(file));
 async function useFound() {
   const places = [...$("found-list").querySelectorAll("input:checked")].map((box) => box.value).filter(Boolean).map(Number);
   try {
-    const { notes, about: now } = await ask({ ask: "site", name: "Your site", curves: places, extrapolate: state.extrapolate });
-    state.site = "Your site";
+    const { notes, about: now } = await ask({ ask: "site", name: OWN_SITE, curves: places, extrapolate: state.extrapolate });
+    state.site = OWN_SITE;
+    used = curves.filter((own) => places.includes(own.place)).map((own) => own.label);
     await settle(now);
     complain("found-mistake", "");
     say(notes.join(". "));
-  } catch (error) { complain("found-mistake", error.message); }
+  } catch (error) {
+    complain("found-mistake", `${error.message}${state.site === OWN_SITE && used.length ? `\nShown as before: ${used.join(", ")}.` : ""}`);
+  }
+}
+// other stripes: the own site is made again of its curves
+async function exchanged(now) {
+  noneDropped();
+  const isOwn = state.site === OWN_SITE && used.length > 0;
+  if (isOwn) state.site = null;
+  const told = await settle(now);
+  if (isOwn) await useFound();
+  return told;
+}
+// after a bug nothing is left of what was dropped
+async function begunAgain(now) {
+  [curves, open, used] = [[], [], []];
+  await exchanged(now);
+  await offer();
+  say("What was dropped on this page is lost: drop it again.");
 }
 $("extrapolate").onchange = () => { state.extrapolate = $("extrapolate").checked; writeLink(); if (curves.length) useFound(); };
 $("analyse-records").onclick = () => analyse({ ask: "analyse-records" }, (now) => {
@@ -854,8 +899,7 @@ $("analyse-records").onclick = () => analyse({ ask: "analyse-records" }, (now) =
 });
 $("forget-records").onclick = async () => {
   await ask({ ask: "no-records" });
-  noneDropped();
-  await settle(await send({ kind: "restart" }));
+  say(await exchanged(await send({ kind: "embedded" })));
 };
 for (const kind of ["dragover", "dragleave", "drop"]) addEventListener(kind, (event) => {
   event.preventDefault();
@@ -865,14 +909,17 @@ for (const kind of ["dragover", "dragleave", "drop"]) addEventListener(kind, (ev
 
 // ---- what is taken along --------------------------------------------------------------------------------------------
 $("save-study").onclick = async () => {
+  if (isMistyped()) return;
+  if (droppedFiles.length && $("beside").hidden) return void say("The dropped records are not analysed yet: analyse or forget them first.");
   const { files, runs_as_it_is: runs } = await ask({ ask: "study", ...at() });
   if ("records.csv" in files) say("Put the record files beside study.toml: records.csv names them.");
   for (const [name, text] of Object.entries(files)) save(name, text);
   if (!runs) say("The study names the record files where the result had them. Put them there, or drop them here and analyse them first.");
 };
-$("save-structure").onclick = () => save("structure.toml", toml());
+$("save-structure").onclick = () => isMistyped() || save("structure.toml", toml());
 $("save-link").hidden = embedded;
 $("save-link").onclick = async () => {
+  if (isMistyped()) return;
   const { href } = new URL(link(), location.href);
   try { await navigator.clipboard.writeText(href); say("The link is copied."); } catch { say(href); }
 };
@@ -882,7 +929,7 @@ function sheet() {
   const today = new Date().toLocaleDateString("en-GB", { day: "numeric", month: "long", year: "numeric" });
   const named = [["Project", $("project").value], ["Prepared by", $("author").value], ["Date", today]].filter(([, value]) => value);
   $("sheet-title").textContent = `Design sheet: ${state.kind}`;
-  $("sheet-where").textContent = about ? `Site ${whereWords()}` : "";
+  $("sheet-where").textContent = about ? `${whereWords()}${state.site === OWN_SITE ? `, hazard of ${used.join(", ")}` : ""}` : "";
   $("sheet-named").textContent = named.map(([said, value]) => `${said}: ${value}`).join(" · ");
 }
 addEventListener("beforeprint", sheet);
@@ -908,7 +955,7 @@ async function settle(now) {
   $("provenance").textContent = about.provenance;
   unlisted = true;
   everything();
-  return [missing && `${missing} has no hazard curve here: drop it again. ${state.site} is shown.`, lost].filter(Boolean).join(" ");
+  return [missing && `${missing} has no hazard curve here${missing === OWN_SITE ? ": drop it again" : ""}. ${state.site} is shown.`, lost].filter(Boolean).join(" ");
 }
 function measures() {
   const there = about.sites.find((own) => own.name === state.site)?.measures ?? [];

@@ -59,8 +59,8 @@ onmessage = async ({ data: { id, kind, question, file, module, stripes } }) => {
     if (kind === "start") {
       [bytesOfModule, bytesOfStripes] = await Promise.all([unzip(module), unzip(stripes)]);
       answer = await start();
-    } else if (kind === "restart") {
-      answer = await start();
+    } else if (kind === "embedded") {
+      answer = ask({ ask: "stripes" }, bytesOfStripes);
     } else if (kind === "analyse") {
       answer = await analyse(question, (state) => postMessage({ id, progress: state }));
     } else {
@@ -70,7 +70,7 @@ onmessage = async ({ data: { id, kind, question, file, module, stripes } }) => {
   } catch (error) {
     const isBug = error instanceof WebAssembly.RuntimeError;
     // what trapped is in no known state: another one takes its place, with the embedded stripes
-    if (isBug) await start();
-    postMessage({ id, error: isBug ? `a bug of this page: ${error.message}` : error.message, isBug });
+    const about = isBug ? await start() : undefined;
+    postMessage({ id, error: isBug ? `a bug of this page: ${error.message}` : error.message, isBug, about });
   }
 };

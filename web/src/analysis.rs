@@ -180,6 +180,7 @@ impl Analysis {
             "check": own_check(structure, safety_factor, demand_m)?,
             "upper_check": own_check(structure, safety_factor, factor * band_m[1])?,
             "analyses": self.records * self.systems.len() * levels.len(),
+            "records": self.records,
             "demand_m": demand_m,
             "overturns": ordinate.displacement_m.is_infinite(),
             "demand_band_m": band_m.map(|limit_m| factor * limit_m),

@@ -92,7 +92,11 @@ impl At {
             (Some(poe), _) => poe,
             (None, Some(period)) => {
                 RETURN_PERIOD.check("return period", period).map_err(refused)?;
-                probability_from_rate(1.0 / period, years).map_err(refused)?
+                let poe = probability_from_rate(1.0 / period, years).map_err(refused)?;
+                if poe == 1.0 {
+                    return Err(format!("a return period of {period} years is too short for {years} years"));
+                }
+                poe
             }
             (None, None) => return Err("give a return period or a probability".to_owned()),
         };
@@ -175,11 +179,13 @@ impl Calculator {
                 Ok(self.begin(analysis))
             }
             Question::Peaks { text, measure, level, demand_m } => {
+                self.motions.are_those_of(self.stripes.as_ref().ok_or(NO_STRIPES)?)?;
                 let peaks = Peaks::new(self.peaks.take(), text, measure, level);
                 self.peaks.insert(peaks).step(&mut self.motions, demand_m)
             }
             Question::AnalyseStructure { text, at, block, safety_factor } => {
                 let stripes = self.stripes.as_mut().ok_or(NO_STRIPES)?;
+                self.motions.are_those_of(stripes)?;
                 let asked = (&text[..], block, safety_factor);
                 let analysis = Analysis::of_structure(stripes, &mut self.motions, asked, &at)?;
                 Ok(self.begin(analysis))

@@ -141,6 +141,17 @@ impl Motions {
         self.dropped.clear();
     }
 
+    /// Refuses records that were dropped and are not those of the stripes: what is said of them would stand beside a
+    /// spectrum of others.
+    pub(crate) fn are_those_of(&self, stripes: &Stripes) -> Answer<()> {
+        let are_others = if stripes.manifest.is_some() {
+            self.dropped.len() != stripes.records.len()
+        } else {
+            self.recipe.is_some() && !self.dropped.is_empty()
+        };
+        if are_others { Err("analyse the dropped records first, or forget them".to_owned()) } else { Ok(()) }
+    }
+
     /// Those that were dropped.
     pub(crate) fn dropped(&self) -> &[Motion] {
         &self.dropped
@@ -153,7 +164,7 @@ impl Motions {
         }
         if self.made.is_empty() {
             let no_records =
-                "the page has not the records of this result: drop them here, and they shake the structure";
+                "the records of this result are not in the page: drop them here to analyse the structure itself";
             let (options, which, wanted) = self.recipe.as_ref().ok_or(no_records)?;
             let pairs: Vec<RecordPair> =
                 Pairs::of(options).and_then(Iterator::collect::<Result<_, MotionError>>).map_err(refused)?;

@@ -474,7 +474,7 @@ impl Place<'_> {
                 beyond,
                 BEYOND_LIMIT,
                 format!(
-                    "{known_to} {unit}, has {} the target rate: it may be too small",
+                    "{known_to} {unit}, is exceeded at {} the target rate: the displacement may be too small",
                     if beyond > 1.0 { format!("{beyond:.1} times") } else { format!("{} of", per_cent(beyond)) }
                 ),
             ),

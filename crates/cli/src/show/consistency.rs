@@ -46,6 +46,9 @@ fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
         .right("verdict", |row| row.verdict.unwrap_or("-"))
         .when(is_repaired, |table| table.right("repaired, effective records", repair));
     writeln!(out, "{table}")?;
+    if is_repaired {
+        return Ok(());
+    }
     let limits = Verdict::ALL.iter().filter_map(|verdict| Some((verdict, verdict.limits()?.0)));
     let limits: Vec<String> =
         limits.map(|(verdict, [least, most])| format!("{verdict}: {least} to {most} times")).collect();
