@@ -4,6 +4,7 @@
 use uplift_labelled::LabelledReader;
 
 use crate::common::{SmallStudy, repository};
+use crate::site_table::{PGV_LEVELS, openquake, read};
 
 const HEAD: &str = r#"seed = 3
 [records]
@@ -302,4 +303,66 @@ fn a_verdict_that_depends_on_the_curve_is_reported() {
     let told = format!("satisfied by curves of 40 % of the weight, with margins from {least_m:+.4} to {most_m:+.4} m");
     assert!(notes(&factor).contains(&format!("equal energy depends on the hazard curve: {told}")), "{told}");
     assert!(!notes("1").contains("depends on the hazard curve"), "{}", notes("1"));
+}
+
+/// Realizations of a logic tree for the sites of a table: the spread of each is that of a site with these branches.
+#[test]
+fn a_table_of_sites_has_the_spread_of_its_realizations() {
+    let sites = |factors: [f64; 3]| {
+        let [here, sea, there] = factors;
+        [("here", 10.0, 45.0, 0.1 * here), ("sea", 11.0, 45.0, sea), ("there", 12.0, 45.5, 0.1 * there)]
+    };
+    let head = HEAD.split("[[sites]]").next().unwrap();
+    let branches = "branches = [{ file = \"one.csv\", weight = 0.3 }, { file = \"two.csv\", weight = 0.7 }]";
+    let table = format!("[site_table]\npgv = {{ file = \"mean.csv\", {branches} }}\n");
+    let study = SmallStudy::with(&format!("{head}{table}"));
+    let exports = [("mean", [1.7, 0.0, 0.51]), ("one", [1.0, 0.0, 1.0]), ("two", [2.0, 0.0, 0.3])];
+    for (name, factors) in exports {
+        let text = openquake("PGV", &PGV_LEVELS, &sites(factors));
+        study.write("own.csv", &text);
+        for site in ["here", "there"] {
+            let import = ["hazard", "import", "own.csv", "-o", &format!("{name}-{site}"), "--name", site];
+            study.uplift(&[&import[..], &["--component", "geometric mean"]].concat()).ok();
+        }
+        let kind = if name == "mean" { "mean" } else { "rlz-000" };
+        study.write(&format!("{name}.csv"), &text.replace("kind='mean'", &format!("kind='{kind}'")));
+    }
+    let of_site = |site: &str| {
+        let branches = branches.replace(".csv", &format!("-{site}/pgv.csv"));
+        format!("[[sites]]\nname = \"{site}\"\npgv = {{ file = \"mean-{site}/pgv.csv\", {branches} }}\n")
+    };
+    study.write("alone.toml", &format!("{head}{}{}", of_site("here"), of_site("there")));
+    study.uplift(&["run", "alone.toml", "-o", "alone.h5", "-q"]).ok();
+    let said = study.uplift(&["run", "study.toml", "-o", "many.h5"]).ok();
+    assert!(!said.stderr.contains("not those of the mean hazard"), "{}", said.stderr);
+    let [poes, strengths] = [2, 8];
+    let quantities = [("mean_hazard_m", "mean_m"), ("u05_hazard_m", "u05_m"), ("u84_hazard_m", "u84_m")];
+    for (theirs, own) in quantities {
+        let many = array(&study, "many.sites.h5", &format!("/urs/{theirs}"));
+        assert_eq!(many.len(), 3 * poes * strengths);
+        let [here, sea, there] = [0, 1, 2].map(|site| many[site * poes * strengths..][..poes * strengths].to_vec());
+        assert_eq!(here, array(&study, "alone.h5", &format!("/epistemic/pgv/here/{own}")), "{own}");
+        assert_eq!(there, array(&study, "alone.h5", &format!("/epistemic/pgv/there/{own}")), "{own}");
+        assert!(sea.iter().all(|value| value.is_nan()), "{sea:?}");
+    }
+    let text = read(study.path(), "many.sites.csv");
+    let header = text.lines().next().unwrap();
+    assert!(header.ends_with(",flag,mean_hazard_m,u05_hazard_m,u16_hazard_m,u50_hazard_m,u84_hazard_m,u95_hazard_m"));
+    assert_eq!(text.lines().count(), 1 + 2 * poes * strengths);
+    // slices joined
+    for slice in ["1/2", "2/2"] {
+        study.uplift(&["run", "study.toml", "--set", "output.file=\"part.h5\"", "--sites", slice, "-q"]).ok();
+    }
+    study.uplift(&["merge", "study.toml", "part.slice-1-of-2.h5", "part.slice-2-of-2.h5", "-o", "joined.h5"]).ok();
+    assert_eq!(read(study.path(), "joined.sites.csv"), text);
+    // mistakes
+    study.write("two.csv", &openquake("PGA", &PGV_LEVELS, &sites([1.0, 1.0, 1.0])));
+    study.uplift(&["check", "study.toml"]).fails(4, &["two.csv", "no PGV"]);
+    let wrong = |from: &str, to: &str, words: &[&str]| {
+        study.write("wrong.toml", &format!("{head}{}", table.replace(from, to)));
+        study.uplift(&["check", "wrong.toml"]).fails(3, words);
+    };
+    wrong("weight = 0.7", "weight = 0.6", &["the weights add up to 0.8999999999999999"]);
+    wrong("file = \"mean.csv\",", "", &["no export of the mean hazard"]);
+    wrong("pgv = {", "pgv = \"mean.csv\"\npga = {", &["the study has no spectra by PGA"]);
 }

@@ -1,6 +1,8 @@
 """What other packages have, handed over: streams of ObsPy, OpenQuake's datastore, tables of pandas."""
 
+import math
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +13,7 @@ import pandas
 import pytest
 
 import uplift_urs as uplift
+from conftest import REPOSITORY, skip_or_fail
 
 YEARS = 50.0
 # of a calculation of OpenQuake, which takes about ten: nothing is to hang where it waits for something
@@ -43,6 +46,38 @@ def peaks():
 
 def spectra_of(curves):
     return uplift.urs(*peaks(), curves, extrapolate="loglog").u_m
+
+
+def test_the_map_of_many_sites_is_geoparquet(program, tmp_path, monkeypatch):
+    try:
+        import geopandas
+    except ImportError:
+        skip_or_fail("geopandas", "pip install --no-deps -r python/tests/requirements-openquake.txt")
+    levels = [0.5, 2, 20, 300]
+    head = "#,,\"generated_by='OpenQuake engine 3.26.2', kind='mean', investigation_time=1.0, imt='PGV'\"\n"
+    head += "custom_site_id,lon,lat,depth," + ",".join(f"poe-{level:.7f}" for level in levels) + "\n"
+    places = {"sea": (-11.5, 45.25, 0.0), "hill": (12.0, 45.5, 0.1)}
+    rows = [
+        ",".join([name, str(longitude), str(latitude), "0", *(repr(-math.expm1(-k0 / level**2)) for level in levels)])
+        for name, (longitude, latitude, k0) in places.items()
+    ]
+    (tmp_path / "pgv.csv").write_text(head + "\n".join(rows) + "\n")
+    study = "[records.synthetic]\npairs = 3\n[strengths]\nvalues = [0.05, 0.1, 0.2, 0.4]\n"
+    (tmp_path / "many.toml").write_text(study + '[pgv]\nlevels_cm_s = [1, 5, 20, 60]\n[site_table]\npgv = "pgv.csv"\n')
+    program(tmp_path, "run", "many.toml", "-q")
+    monkeypatch.chdir(tmp_path)
+    page = (REPOSITORY / "docs" / "many-sites.md").read_text(encoding="utf-8")
+    (block,) = (block for block in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "to_parquet" in block)
+    exec(block, {})
+    found = geopandas.read_parquet("many.parquet").set_index("name")
+    assert {name: (point.x, point.y) for name, point in found.geometry.items()} == {
+        name: place[:2] for name, place in places.items()
+    }
+    assert found.crs.is_geographic and "no hazard" in found.loc["sea", "problem"]
+    (ordinate,) = (name for name in found.columns if name.startswith("pgv_2pct") and name.endswith("u_m_at_0.2"))
+    table = pandas.read_csv("results/many.sites.csv")
+    same = table[(table.site == "hill") & (table.poe == 0.02) & (table.strength == 0.2)]
+    assert found.loc["hill", ordinate] == pytest.approx(same.u_m.item(), rel=1e-4)
 
 
 def test_a_table_of_a_hundred_sites():

@@ -85,8 +85,8 @@ pub use shake_table::{DesignSpectrumPlan, FrameModel, LevelPlan, ShakeTableStudy
 pub use structure::{ColumnShape, RestrainerFile, Structure};
 pub use study::Study;
 pub use uniform_risk::{
-    Bootstrap, Branch, Consistency, Contour, Conversion, CurveFile, CurveKind, Hazard, MeasurePlan, Oscillator,
-    Records, Regression, Repair, Risk, Site, SiteSlice, SiteTable, UniformRiskStudy, definition_of, levels_key,
-    levels_place, levels_within, lower_starts, usual_top_level,
+    Bootstrap, Branch, Consistency, Contour, Conversion, CurveFile, CurveKind, ExportFiles, Hazard, MeasurePlan,
+    Oscillator, Records, Regression, Repair, Risk, Site, SiteSlice, SiteTable, UniformRiskStudy, definition_of,
+    levels_key, levels_place, levels_within, lower_starts, usual_top_level,
 };
 pub use warning::Warning;

@@ -58,7 +58,7 @@ pub(crate) use oscillator::{FREE_VIBRATION, RESTITUTION};
 pub use records::Records;
 pub use regression::Regression;
 pub use risk::{Contour, Risk};
-pub use site_table::{SiteSlice, SiteTable};
+pub use site_table::{ExportFiles, SiteSlice, SiteTable};
 pub use sites::Site;
 pub use warnings::usual_top_level;
 
@@ -156,7 +156,7 @@ impl UniformRiskStudy {
     pub fn further_measures(&self) -> Vec<IntensityMeasure> {
         let analysed = self.measures.iter().map(|plan| plan.measure);
         let of_sites = self.sites.iter().flat_map(|site| site.curves.iter().map(|curve| curve.measure));
-        let of_table = self.site_table.iter().flat_map(|table| table.exports.iter().map(|(measure, _)| *measure));
+        let of_table = self.site_table.iter().flat_map(|table| table.exports.iter().map(|own| own.measure));
         let all: BTreeSet<IntensityMeasure> = analysed.chain(of_sites).chain(of_table).collect();
         all.into_iter().filter(|measure| !measure.is_of_chapter_4()).collect()
     }

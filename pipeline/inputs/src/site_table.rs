@@ -22,7 +22,7 @@ use crate::error::InputsError;
 use uplift_job::JobError;
 use uplift_job::checksum::checksum_of_file;
 use uplift_job::text::thousands;
-use uplift_study::{MeasurePlan, Repair, SiteTable, UniformRiskStudy};
+use uplift_study::{Branch, MeasurePlan, Repair, SiteTable, UniformRiskStudy};
 
 const SITES_NAMED: usize = 4;
 /// How the table of sites is called among the inputs of a result.
@@ -61,10 +61,23 @@ pub struct SiteList {
     pub exports: Vec<SiteExport>,
     /// Where the study repairs, those of other measures: what the records bring is held against them.
     pub compared: Vec<SiteExport>,
+    /// Those of the weighted realizations of the analysed measures, all of one measure together.
+    pub branches: Vec<BranchExport>,
     /// What to know: sites without spectra, what was taken for granted.
     pub notes: Vec<String>,
     /// Name to SHA-256 of each file read.
     pub checksums: BTreeMap<String, String>,
+}
+
+/// The export of one realization of a logic tree.
+#[derive(Debug, Clone)]
+pub struct BranchExport {
+    /// Position of its measure among [`SiteList::exports`].
+    pub of: usize,
+    /// Its weight.
+    pub weight: f64,
+    /// The export.
+    pub export: SiteExport,
 }
 
 /// The export with the hazard of one measure.
@@ -128,7 +141,8 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Inpu
         let words = format!("site_table.slice: the table has {most} sites: at most {most} slices");
         return Err(JobError::input(words).into());
     }
-    let mut list = SiteList { sites, range, carried, exports: Vec::new(), compared: Vec::new(), notes, checksums };
+    let (exports, compared, branches) = (Vec::new(), Vec::new(), Vec::new());
+    let mut list = SiteList { sites, range, carried, exports, compared, branches, notes, checksums };
     let mut failures = Vec::new();
     let mut any_works = false;
     for (number, (read, path, index)) in found.iter().enumerate() {
@@ -156,7 +170,32 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Inpu
         return Err(JobError::Inputs(failures).into());
     }
     list.notes.splice(0..0, failures);
+    read_branches(study, table, &mut list)?;
     Ok(Some(list))
+}
+
+/// Finds the sites of `list` in the exports of the realizations.
+fn read_branches(study: &UniformRiskStudy, table: &SiteTable, list: &mut SiteList) -> Result<(), InputsError> {
+    let mut mistakes = Vec::new();
+    for (of, plan) in study.measures.iter().filter(|plan| table.export(plan.measure).is_some()).enumerate() {
+        let measure = plan.measure;
+        for branch in table.exports_of(measure).into_iter().flat_map(|own| &own.branches) {
+            let Some(index) = noted(Index::read(study, Read::Analysed(plan), &branch.file, false), &mut mistakes)
+            else {
+                continue;
+            };
+            let near = |site: &ListedSite| {
+                let found = index.nearest(site.longitude_deg, site.latitude_deg, table.within_km);
+                found.map(|(row, _)| row.item)
+            };
+            let items = list.sites.par_iter().map(near).collect();
+            let checksum = list.checksums.get(&name_of_branch(measure, branch)).cloned().unwrap_or_default();
+            let path = branch.file.clone();
+            let export = SiteExport { measure, path, checksum, items, within_km: table.within_km };
+            list.branches.push(BranchExport { of, weight: branch.weight, export });
+        }
+    }
+    if mistakes.is_empty() { Ok(()) } else { Err(JobError::Inputs(mistakes).into()) }
 }
 
 /// Name to SHA-256 of each file of the study's table of sites that is read.
@@ -169,13 +208,21 @@ pub fn site_table_checksums(study: &UniformRiskStudy) -> Result<BTreeMap<String,
         let path = table.export(read.measure())?;
         Some((name_of_export(read.measure()), path))
     });
+    let branches =
+        study.measures.iter().filter_map(|plan| table.exports_of(plan.measure)).flat_map(|own| {
+            own.branches.iter().map(|branch| (name_of_branch(own.measure, branch), branch.file.as_path()))
+        });
     let sites = table.sites.as_deref().map(|path| (TABLE.to_owned(), path));
-    exports.chain(sites).map(|(name, path)| Ok((name, summed(path)?))).collect()
+    exports.chain(branches).chain(sites).map(|(name, path)| Ok((name, summed(path)?))).collect()
 }
 
 /// How the export of a measure is called among the inputs of a result.
 fn name_of_export(measure: IntensityMeasure) -> String {
     format!("{TABLE} {}", measure.label())
+}
+
+fn name_of_branch(measure: IntensityMeasure, branch: &Branch) -> String {
+    format!("{} {}", name_of_export(measure), branch.name)
 }
 
 /// What an export is read for.
@@ -200,7 +247,7 @@ impl Read<'_> {
 fn to_be_read<'a>(study: &'a UniformRiskStudy, table: &'a SiteTable) -> impl Iterator<Item = Read<'a>> {
     let is_repaired = study.consistency.repair == Repair::Weights;
     let is_other = |measure: &IntensityMeasure| study.measures.iter().all(|plan| plan.measure != *measure);
-    let others = table.exports.iter().map(|(measure, _)| *measure).filter(move |own| is_repaired && is_other(own));
+    let others = table.exports.iter().map(|own| own.measure).filter(move |own| is_repaired && is_other(own));
     study.measures.iter().map(Read::Analysed).chain(others.map(Read::Compared))
 }
 
@@ -217,9 +264,14 @@ fn count(number: usize) -> String {
 }
 
 impl SiteList {
-    /// All exports, first those that have spectra.
+    /// All exports of the mean hazard, first those that have spectra.
     pub fn all_exports(&self) -> impl Iterator<Item = &SiteExport> {
         self.exports.iter().chain(&self.compared)
+    }
+
+    /// Those, and after them those of the realizations.
+    fn all_files(&self) -> impl Iterator<Item = &SiteExport> {
+        self.all_exports().chain(self.branches.iter().map(|branch| &branch.export))
     }
 
     /// Refuses exports that are not any more what they were when the sites were found in them.
@@ -227,7 +279,7 @@ impl SiteList {
     /// # Errors
     /// [`JobError::Inputs`] with the first of them; an export that cannot be read.
     pub fn require_unchanged(&self) -> Result<(), InputsError> {
-        for export in self.all_exports() {
+        for export in self.all_files() {
             if summed(&export.path)? != export.checksum {
                 let name = export.path.display();
                 let words = format!("{name}: was changed during the run: run the study again");
@@ -315,7 +367,8 @@ impl SiteList {
 pub struct BatchSite {
     /// Its position in the list.
     pub site: usize,
-    /// The curve as exported, or why there is none, for each of [`SiteList::all_exports`].
+    /// The curve as exported, or why there is none, for each of [`SiteList::all_exports`], and after them for each of
+    /// the [`SiteList::branches`].
     pub curves: Vec<SharedCurve>,
 }
 
@@ -334,7 +387,7 @@ impl<'a> SiteCurves<'a> {
     pub fn open(list: &'a SiteList, range: Range<usize>) -> Result<Self, InputsError> {
         let stream =
             |export: &SiteExport| Stream::open(&export.path, export.items[range.clone()].iter().copied().flatten());
-        let streams = list.all_exports().map(stream).collect::<Result<_, _>>()?;
+        let streams = list.all_files().map(stream).collect::<Result<_, _>>()?;
         Ok(Self { list, streams, left: range })
     }
 
@@ -346,7 +399,7 @@ impl<'a> SiteCurves<'a> {
         let end = self.left.end.min(self.left.start + most);
         let batch = (self.left.start..end)
             .map(|site| {
-                let curves = self.list.all_exports().zip(&mut self.streams).map(|(export, stream)| {
+                let curves = self.list.all_files().zip(&mut self.streams).map(|(export, stream)| {
                     match export.items.get(site).copied().flatten() {
                         Some(item) => stream.take(item),
                         None => {

@@ -2,12 +2,15 @@
 
 use rayon::prelude::*;
 use uplift_bootstrap::{repaired_truth_limits, truth_limits};
+use uplift_job::Array;
 use uplift_regression::ExponentialFit;
+use uplift_result::{FRACTILES, Spread};
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, RunWeights, StripeWeights};
 use uplift_study::UniformRiskStudy;
 
 use crate::coefficients::fit_spectrum;
 use crate::displacement::CONFIDENCE;
+use crate::epistemic::spread;
 use crate::error::UniformRiskError;
 use crate::spectra::{Reading, pooled_demand};
 use crate::stripes::Stripes;
@@ -39,7 +42,13 @@ pub struct SiteSpectra {
     /// 90 % bands, lower limit first, m, over `[poe, strength]` of the strengths of
     /// [`SiteRisk::with_bands`]; empty without.
     pub bands_m: Vec<[f64; 2]>,
+    /// Mean and [`FRACTILES`](uplift_result::FRACTILES) over weighted hazard curves, m, over `[poe, strength]` of the
+    /// strengths of [`SiteRisk::spread_m`]; empty without.
+    pub spread_m: Vec<SiteSpread>,
 }
+
+/// Mean and fractiles of an ordinate over weighted hazard curves, m.
+pub type SiteSpread = [f64; 1 + FRACTILES.len()];
 
 impl SiteSpectra {
     /// The ordinates and the bands at the position of a probability.
@@ -47,6 +56,12 @@ impl SiteSpectra {
         let poes = self.fits.len();
         let [ordinates, bands] = [self.ordinates.len() / poes, self.bands_m.len() / poes];
         (&self.ordinates[poe * ordinates..][..ordinates], &self.bands_m[poe * bands..][..bands])
+    }
+
+    /// Mean and fractiles over weighted hazard curves at the position of a probability; empty where there are none.
+    pub fn spread_at_poe(&self, poe: usize) -> &[SiteSpread] {
+        let strengths = self.spread_m.len() / self.fits.len();
+        &self.spread_m[poe * strengths..][..strengths]
     }
 }
 
@@ -102,6 +117,36 @@ impl<'a> SiteRisk<'a> {
         self.of_curves(|demand| RiskCurve::weighted(demand, weights), limits)
     }
 
+    /// Mean and fractiles over weighted hazard curves, over `[poe, strength]` of the strengths of these positions: to
+    /// the bit those of a site with these branches.
+    ///
+    /// - `branches`: weight of each curve, and what it makes the stripes weigh.
+    ///
+    /// # Errors
+    /// Weights of another number of levels.
+    pub fn spread_m(&self, branches: &[(f64, StripeWeights)], strengths: &[usize]) -> Result<Vec<SiteSpread>, String> {
+        let poes = self.reading.targets.len();
+        let mut spectra_m = Vec::with_capacity(branches.len() * poes * strengths.len());
+        for (_, weights) in branches {
+            let ordinates = |&strength: &usize| {
+                let curve = RiskCurve::new(&self.demands[strength], weights)?;
+                self.reading.ordinates(&curve)
+            };
+            let by_strength: Vec<Vec<Ordinate>> =
+                strengths.iter().map(ordinates).collect::<Result<_, _>>().map_err(|error| error.to_string())?;
+            spectra_m.extend((0..poes).flat_map(|poe| by_strength.iter().map(move |own| own[poe].displacement_m)));
+        }
+        let spectra_m = Array::new([branches.len(), poes, strengths.len()], spectra_m).map_err(|e| e.to_string())?;
+        let weights: Vec<f64> = branches.iter().map(|(weight, _)| *weight).collect();
+        let Spread { mean_m, fractiles_m } = spread(&weights, &spectra_m);
+        let of = |place: usize| {
+            let mut own = [mean_m.values()[place]; 1 + FRACTILES.len()];
+            own[1..].iter_mut().zip(&fractiles_m).for_each(|(own, fractile_m)| *own = fractile_m.values()[place]);
+            own
+        };
+        Ok((0..poes * strengths.len()).map(of).collect())
+    }
+
     fn of_curves<'d>(
         &'d self,
         curve: impl Fn(&'d PooledDemand) -> Result<RiskCurve<'d>, RiskError>,
@@ -123,6 +168,6 @@ impl<'a> SiteRisk<'a> {
         }
         let of_poe = |poe: usize| limits_by_strength.iter().map(move |limits| limits[poe]);
         let bands_m = (0..poes).flat_map(of_poe).collect();
-        Ok(SiteSpectra { ordinates, fits, bands_m })
+        Ok(SiteSpectra { ordinates, fits, bands_m, spread_m: Vec::new() })
     }
 }

@@ -15,7 +15,9 @@ const RISING: &str = "[pga]\n[oscillator]\npost_uplift_stiffness_per_s2 = 0.5\n[
 const BRANCHES: &str = "[pgv]\n[output]\nfile = \"x.h5\"\n[[sites]]\nname = \"a\"\n[sites.pgv]\nkind = \"poe\"\n\
     years = 50\n\
     branches = [{ file = \"pgv.csv\", weight = 0.25 }, { name = \"B\", file = \"pga.csv\", weight = 0.75 }]\n\
-    [sites.pga]\nfile = \"pga.csv\"\nunit = \"cm/s2\"\n[site_table]\npgv = \"pgv.csv\"\n";
+    [sites.pga]\nfile = \"pga.csv\"\nunit = \"cm/s2\"\n[site_table]\nwithin_km = 2\n\
+    pgv = { file = \"pgv.csv\", branches = [{ file = \"pgv.csv\", weight = 0.25 }, { name = \"B\", file = \"pga.csv\", \
+    weight = 0.75 }] }\n";
 
 const SETS: &str = "[pgv]\n[records]\nat_level = \"pgv.csv\"\n[output]\nfile = \"x.h5\"";
 

@@ -14,7 +14,7 @@ use crate::keys::{Choice, Declared, File, Key, Number, Special, choice, file, nu
 use crate::reading::{Field, Paths, Rule, Section, Value};
 
 pub(super) const KEYS: &[&dyn Declared] = &[&FILE, &UNIT, &KIND, &OF_YEARS, &BRANCHES];
-const FILE: Key<File> =
+pub(super) const FILE: Key<File> =
     file("file").without_default("needed without `branches`").meaning("the curve").note("existing file");
 const UNIT: Key<Special> = special("unit", || json!({ "type": "string", "minLength": 1 }))
     .without_default(
@@ -30,7 +30,7 @@ const OF_YEARS: Key<Number> = number("years", "yr", Rule::Within(YEARS))
     .without_default("needed for `\"poe\"`")
     .meaning("time that the probabilities refer to, yr")
     .note("only for `\"poe\"`");
-const BRANCHES: Key<Special> = special("branches", || json!({ "minItems": 2, "maxItems": MOST_BRANCHES }))
+pub(super) const BRANCHES: Key<Special> = special("branches", || json!({ "minItems": 2, "maxItems": MOST_BRANCHES }))
     .without_default("none")
     .meaning(
         "epistemic uncertainty: a list of weighted curves, realizations of a logic tree for instance, in the same \

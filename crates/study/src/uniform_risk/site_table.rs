@@ -6,13 +6,15 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use serde::{Serialize, Serializer};
+use serde_json::json;
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::DISTANCE;
 
-use super::measures;
+use super::branches::{self, Branch};
+use super::{curve, measures};
 use crate::grid::{Grid, GridRule};
-use crate::keys::{Boolean, File, Key, Number, SectionKeys, Text, boolean, file, grid, number, text};
-use crate::reading::{Field, Paths, Rule, Section, optional, quantity};
+use crate::keys::{Boolean, File, Key, Number, SectionKeys, Special, Text, boolean, file, grid, number, special, text};
+use crate::reading::{Field, Paths, Rule, Section, Value, optional, quantity};
 use crate::sections::strengths;
 
 pub(super) const KEYS: SectionKeys =
@@ -24,15 +26,16 @@ const SITES: Key<File> = file("sites")
          are carried into the results",
     )
     .note("existing file");
-const EXPORT: Key<File> = file("pgv")
+const EXPORT: Key<Special> = special("pgv", || json!({ "type": ["string", "object"] }))
     .also(&["pga", "sa_1s"])
     .without_default("one of a measure that is switched on is needed")
     .meaning(
         "export of mean hazard curves of a measure, named by its key: OpenQuake's CSV, NRML or the JSON of the USGS, \
          PGV in cm/s and PGA in g as they write them; a repair (`consistency.repair`) uses the curves of a second \
-         measure even if the study is not analysed by it",
+         measure even if the study is not analysed by it. Or a table: `file`, and `branches` as a site's, an export a \
+         realization",
     )
-    .note("existing file");
+    .note("existing file, or a table");
 const WITHIN_KM: Key<Number> = number("within_km", "km", Rule::Within(DISTANCE))
     .with_default(1.0)
     .meaning("largest distance from a site to the nearest site of the export, whose curve it gets; km");
@@ -96,7 +99,7 @@ pub struct SiteTable {
     pub sites: Option<PathBuf>,
     /// An engine's export of hazard curves for each measure that has one, in the order of the measures.
     #[serde(flatten, serialize_with = "write_exports")]
-    pub exports: Vec<(IntensityMeasure, PathBuf)>,
+    pub exports: Vec<ExportFiles>,
     /// Farthest distance between a site and the site of an export that is taken for it \[km\].
     pub within_km: f64,
     /// Strengths whose ordinates are written, all of them strengths of the study; if none, all into tables and a few
@@ -111,15 +114,38 @@ pub struct SiteTable {
     pub slice: Option<SiteSlice>,
 }
 
+/// The exports of one measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExportFiles {
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// That of the mean hazard, absolute.
+    pub file: PathBuf,
+    /// Epistemic uncertainty: an export of each realization; none, or two and more whose weights add up to 1.
+    pub branches: Vec<Branch>,
+}
+
+impl ExportFiles {
+    /// Every file that is read.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        std::iter::once(&self.file).chain(self.branches.iter().map(|own| &own.file)).map(PathBuf::as_path)
+    }
+}
+
 impl SiteTable {
-    /// The export of `measure`.
+    /// The exports of `measure`.
+    pub fn exports_of(&self, measure: IntensityMeasure) -> Option<&ExportFiles> {
+        self.exports.iter().find(|own| own.measure == measure)
+    }
+
+    /// The export of the mean hazard of `measure`.
     pub fn export(&self, measure: IntensityMeasure) -> Option<&Path> {
-        self.exports.iter().find_map(|(known, path)| (*known == measure).then_some(path.as_path()))
+        self.exports_of(measure).map(|own| own.file.as_path())
     }
 
     /// Every file that is read.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
-        self.sites.iter().chain(self.exports.iter().map(|(_, path)| path)).map(PathBuf::as_path)
+        self.sites.iter().map(PathBuf::as_path).chain(self.exports.iter().flat_map(ExportFiles::files))
     }
 }
 
@@ -128,8 +154,19 @@ fn write_slice<S: Serializer>(slice: &Option<SiteSlice>, serializer: S) -> Resul
     slice.map(|slice| slice.to_string()).serialize(serializer)
 }
 
-fn write_exports<S: Serializer>(exports: &[(IntensityMeasure, PathBuf)], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(exports.iter().map(|(measure, path)| (measure.key(), path)))
+/// The exports of a measure as they stand in a study.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Written<'a> {
+    Mean(&'a Path),
+    Weighted { file: &'a Path, branches: &'a [Branch] },
+}
+
+fn write_exports<S: Serializer>(exports: &[ExportFiles], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(exports.iter().map(|ExportFiles { measure, file, branches }| {
+        let written = if branches.is_empty() { Written::Mean(file) } else { Written::Weighted { file, branches } };
+        (measure.key(), written)
+    }))
 }
 
 /// Reads the section; each of its strengths must be one of `strengths`, and one of `measures` must have an export.
@@ -164,8 +201,8 @@ fn section(
             continue;
         }
         of_the_study |= studied.contains(&measure);
-        match (&mut exports, paths.input(&field)) {
-            (Some(exports), Some(path)) => exports.push((measure, path)),
+        match (&mut exports, export(&field, measure, studied, paths)) {
+            (Some(exports), Some(export)) => exports.push(export),
             _ => exports = None,
         }
     }
@@ -193,6 +230,36 @@ fn section(
         bands: bands?,
         slice: slice?,
     })
+}
+
+/// An export: a path, or a table with those of the realizations.
+fn export(
+    field: &Field<'_>,
+    measure: IntensityMeasure,
+    studied: &[IntensityMeasure],
+    paths: &Paths,
+) -> Option<ExportFiles> {
+    let Value::Table(_) = field.node.value else {
+        return Some(ExportFiles { measure, file: paths.input(field)?, branches: Vec::new() });
+    };
+    let mut section = field.section();
+    let file = if let Some(field) = section.given(&curve::FILE) {
+        paths.input(&field)
+    } else {
+        section.mistake("file", "there is no export of the mean hazard", "add file = \"path\"");
+        None
+    };
+    let branches = section.given(&curve::BRANCHES).map_or(Some(Vec::new()), |field| branches::read(&field, paths));
+    if branches.as_ref().is_some_and(|own| !own.is_empty()) && !studied.is_empty() && !studied.contains(&measure) {
+        let what = format!("the study has no spectra by {}", measure.label());
+        section.mistake(
+            "branches",
+            what,
+            format!("leave them out, or add a section [{}]", measures::section_of(measure)),
+        );
+    }
+    section.finish();
+    Some(ExportFiles { measure, file: file?, branches: branches? })
 }
 
 fn slice_of(field: &Field<'_>) -> Option<SiteSlice> {

@@ -171,9 +171,22 @@ fn spectra_of(
         export.curve(study, exported.as_ref().as_ref().map_err(Clone::clone)?)
     };
     let curves: Vec<Result<HazardCurve, String>> = list.all_exports().zip(&site.curves).map(curve).collect();
-    let spectra: Vec<Result<SiteSpectra, String>> = (list.exports.iter().zip(risks).zip(&curves))
+    let mut spectra: Vec<Result<SiteSpectra, String>> = (list.exports.iter().zip(risks).zip(&curves))
         .map(|((export, risk), curve)| risk.spectra(&export.weights(study, curve.as_ref().map_err(Clone::clone)?)?))
         .collect();
+    let of_branches = list.branches.iter().zip(&site.curves[curves.len()..]);
+    for (measure, (own, risk)) in spectra.iter_mut().zip(risks).enumerate() {
+        let weighted = of_branches.clone().filter(|(branch, _)| branch.of == measure).map(|(branch, exported)| {
+            let curve = branch.export.curve(study, exported.as_ref().as_ref().map_err(Clone::clone)?)?;
+            Ok::<_, String>((branch.weight, branch.export.weights(study, &curve)?))
+        });
+        // a site that a realization has no curve for has no spread
+        if let (Ok(own), Ok(weighted)) = (own, weighted.collect::<Result<Vec<_>, _>>())
+            && !weighted.is_empty()
+        {
+            own.spread_m = risk.spread_m(&weighted, files.layout().in_table()).unwrap_or_default();
+        }
+    }
     let consistency: Option<Vec<SiteConsistency>> = repair
         .map(|repair| risks.iter().enumerate().map(|(export, risk)| repair.of_site(export, risk, &curves)).collect());
     let findings = SiteFindings {

@@ -41,18 +41,35 @@ enum Values {
     Displacement,
     /// The lower limit of the band, 0, or the upper one, 1.
     Limit(usize),
+    /// The mean over weighted hazard curves, 0, or a fractile.
+    Spread(usize),
     Fit(fn(&ExponentialFit) -> f64),
 }
 
-const QUANTITIES: [Quantity; 7] = [
-    Quantity { name: "u_m", unit: "m", long_name: "displacement", values: Values::Displacement },
-    Quantity { name: "lower_m", unit: "m", long_name: "lower limit of its 90 % band", values: Values::Limit(0) },
-    Quantity { name: "upper_m", unit: "m", long_name: "upper limit of its 90 % band", values: Values::Limit(1) },
-    Quantity { name: "c0_m", unit: "m", long_name: "coefficient c0 of Eq. 4.11", values: Values::Fit(|fit| fit.c0) },
+/// A displacement of each of [`GROUPS`].
+const fn metres(name: &'static str, long_name: &'static str, values: Values) -> Quantity {
+    Quantity { name, unit: "m", long_name, values }
+}
+
+const QUANTITIES: [Quantity; 13] = [
+    metres("u_m", "displacement", Values::Displacement),
+    metres("lower_m", "lower limit of its 90 % band", Values::Limit(0)),
+    metres("upper_m", "upper limit of its 90 % band", Values::Limit(1)),
+    metres(SPREAD[0], "weighted mean over the hazard curves", Values::Spread(0)),
+    metres(SPREAD[1], "5 % of the weighted hazard curves", Values::Spread(1)),
+    metres(SPREAD[2], "16 % of the weighted hazard curves", Values::Spread(2)),
+    metres(SPREAD[3], "50 % of the weighted hazard curves", Values::Spread(3)),
+    metres(SPREAD[4], "84 % of the weighted hazard curves", Values::Spread(4)),
+    metres(SPREAD[5], "95 % of the weighted hazard curves", Values::Spread(5)),
+    metres("c0_m", "coefficient c0 of Eq. 4.11", Values::Fit(|fit| fit.c0)),
     Quantity { name: "c1", unit: "1", long_name: "coefficient c1 of Eq. 4.11", values: Values::Fit(|fit| fit.c1) },
-    Quantity { name: "c2_m", unit: "m", long_name: "coefficient c2 of Eq. 4.11", values: Values::Fit(|fit| fit.c2) },
-    Quantity { name: "rmse_m", unit: "m", long_name: "error of the fit", values: Values::Fit(|fit| fit.rmse) },
+    metres("c2_m", "coefficient c2 of Eq. 4.11", Values::Fit(|fit| fit.c2)),
+    metres("rmse_m", "error of the fit", Values::Fit(|fit| fit.rmse)),
 ];
+
+/// What the mean and the fractiles over weighted hazard curves are called.
+pub(super) const SPREAD: [&str; 6] =
+    ["mean_hazard_m", "u05_hazard_m", "u16_hazard_m", "u50_hazard_m", "u84_hazard_m", "u95_hazard_m"];
 
 /// Name, long name and value of an array of what consistency says of a site.
 type OfConsistency = (&'static str, &'static str, fn(&SiteConsistency) -> f64);
@@ -146,6 +163,8 @@ pub(super) struct Shape {
     /// Positions of the strengths that are written among those of the study.
     pub(super) strengths: Vec<usize>,
     pub(super) has_bands: bool,
+    /// Whether there are means and fractiles over weighted hazard curves.
+    pub(super) has_spread: bool,
     /// Whether there are repaired spectra beside the plain ones.
     pub(super) is_repaired: bool,
 }
@@ -167,13 +186,19 @@ impl Shape {
             poes: study.risk.poe.len(),
             strengths,
             has_bands: study.site_table.as_ref().is_some_and(|table| table.bands),
+            has_spread: !list.branches.is_empty(),
             is_repaired: study.consistency.repair == Repair::Weights,
         }
     }
 
-    fn quantities(&self) -> impl Iterator<Item = &'static Quantity> {
-        let has_bands = self.has_bands;
-        QUANTITIES.iter().filter(move |quantity| has_bands || !matches!(quantity.values, Values::Limit(_)))
+    /// Those of a group: the spread is of the plain spectra alone.
+    fn quantities(&self, group: &str) -> impl Iterator<Item = &'static Quantity> {
+        let (has_bands, has_spread) = (self.has_bands, self.has_spread && group == GROUPS[0]);
+        QUANTITIES.iter().filter(move |quantity| match quantity.values {
+            Values::Limit(_) => has_bands,
+            Values::Spread(_) => has_spread,
+            Values::Displacement | Values::Fit(_) => true,
+        })
     }
 
     fn groups(&self) -> &'static [&'static str] {
@@ -184,7 +209,7 @@ impl Shape {
     fn numbers(&self) -> Vec<(String, &'static [&'static str], &'static str, &'static str)> {
         let of_group = |group: &&'static str| {
             let group = *group;
-            self.quantities().map(move |quantity| {
+            self.quantities(group).map(move |quantity| {
                 let axes: &[&str] =
                     if matches!(quantity.values, Values::Fit(_)) { &PER_SPECTRUM } else { &PER_ORDINATE };
                 (format!("{group}/{}", quantity.name), axes, quantity.unit, quantity.long_name)
@@ -207,8 +232,8 @@ impl Shape {
         let repaired: Vec<Option<&SiteSpectra>> =
             consistency.into_iter().flatten().map(|own| own.spectra.as_ref().ok()).collect();
         let mut numbers = Vec::new();
-        for of_group in [plain, repaired].iter().take(self.groups().len()) {
-            for quantity in self.quantities() {
+        for (of_group, group) in [plain, repaired].iter().zip(self.groups()) {
+            for quantity in self.quantities(group) {
                 numbers.push(self.of_quantity(&quantity.values, of_group));
             }
         }
@@ -238,9 +263,12 @@ impl Shape {
                 let limit_m = |place: usize, end: usize| {
                     at_poe.and_then(|(_, bands_m)| bands_m.get(place)).map_or(f64::NAN, |band_m| band_m[end])
                 };
+                let all_m = spectra.map_or(&[][..], |spectra| spectra.spread_at_poe(poe));
+                let spread_m = |place: usize, of: usize| all_m.get(place).map_or(f64::NAN, |all_m| all_m[of]);
                 match *values {
                     Values::Displacement => row.extend(self.strengths.iter().map(|&own| displacement_m(own))),
                     Values::Limit(end) => row.extend((0..self.strengths.len()).map(|place| limit_m(place, end))),
+                    Values::Spread(of) => row.extend((0..self.strengths.len()).map(|place| spread_m(place, of))),
                     Values::Fit(value) => {
                         let fit = spectra.and_then(|spectra| spectra.fits[poe].as_ref().ok());
                         row.push(fit.map_or(f64::NAN, value));

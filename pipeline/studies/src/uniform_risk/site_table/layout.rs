@@ -10,10 +10,10 @@ use uplift_regression::ExponentialFit;
 use uplift_result::flag_word;
 use uplift_risk::Ordinate;
 use uplift_study::UniformRiskStudy;
-use uplift_uniform_risk::SiteSpectra;
+use uplift_uniform_risk::{SiteSpectra, SiteSpread};
 
 use super::consistent;
-use super::cube::{CubeRows, Shape};
+use super::cube::{CubeRows, SPREAD, Shape};
 use super::repair::SiteConsistency;
 
 /// Strengths of which a map shows ordinates, unless the study names some.
@@ -121,6 +121,9 @@ impl SiteTableLayout {
         if self.shape.is_repaired {
             columns.extend(&consistent::SPECTRA[..if self.shape.has_bands { 3 } else { 1 }]);
         }
+        if self.shape.has_spread {
+            columns.extend(SPREAD);
+        }
         columns.into_iter().map(str::to_owned).collect()
     }
 
@@ -183,7 +186,8 @@ impl SiteTableLayout {
                 let fit = spectra.as_ref().ok().and_then(|spectra| spectra.fits[row].as_ref().ok());
                 let head = format!("{place},{},{:?},{:?}", names.label, poe.poe, self.years);
                 let repaired = consistency.and_then(|own| own.spectra.as_ref().ok()).map(|own| own.at_poe(row));
-                self.spectrum_rows(&mut text.spectra, &head, spectrum, repaired);
+                let spread_m = spectra.as_ref().map_or(&[][..], |spectra| spectra.spread_at_poe(row));
+                self.spectrum_rows(&mut text.spectra, &head, (spectrum, repaired), spread_m);
                 let problem = problem(spectra, row);
                 if !problem.is_empty() && spectrum.is_some() {
                     problems.push(format!("{}: {problem}", poe.key));
@@ -216,8 +220,8 @@ impl SiteTableLayout {
         &self,
         rows: &mut String,
         head: &str,
-        spectrum: Option<Spectrum<'_>>,
-        repaired: Option<Spectrum<'_>>,
+        (spectrum, repaired): (Option<Spectrum<'_>>, Option<Spectrum<'_>>),
+        spread_m: &[SiteSpread],
     ) {
         let Some((ordinates, bands_m)) = spectrum else { return };
         for (place, &index) in self.shape.strengths.iter().enumerate() {
@@ -233,6 +237,12 @@ impl SiteTableLayout {
             if self.shape.is_repaired && self.shape.has_bands {
                 let [lower_m, upper_m] = repaired.map_or([f64::NAN; 2], |(_, bands_m)| bands_m[place]);
                 let _ = write!(rows, ",{},{}", number(lower_m), number(upper_m));
+            }
+            if self.shape.has_spread {
+                let unknown = [f64::NAN; SPREAD.len()];
+                for value_m in spread_m.get(place).unwrap_or(&unknown) {
+                    let _ = write!(rows, ",{}", number(*value_m));
+                }
             }
             rows.push('\n');
         }
