@@ -60,7 +60,7 @@ fn figure(report: &LibraryReport, systems: &[&SystemReport], measure: Normalised
                   which ends where half of them overturn."
                 .to_owned(),
         remark: if report.synthetic { super::SYNTHETIC } else { "" }.to_owned(),
-        columns: columns.len(),
+        columns: if columns.len() == 1 { panels.len() } else { columns.len() },
         panels,
     }
 }
@@ -130,7 +130,7 @@ fn shares(system: &SystemReport, measure: Normalised, event: &str, tone: Tone) -
         let level = |step| first * (last / first).powf(f64::from(step) / f64::from(POINTS));
         Some((0..=POINTS).map(level).map(|level| (level, fragility.probability(level))).collect())
     });
-    let line = curve.map(|curve| Series::line(line_name(system), curve, tone));
-    let dots = Series { name: String::new(), points, tone, marks: Marks::Only };
-    std::iter::once(dots).chain(line).collect()
+    // without a fit it is a name for the legend alone
+    let line = Series::line(line_name(system), curve.unwrap_or_default(), tone);
+    vec![Series { name: String::new(), points, tone, marks: Marks::Only }, line]
 }
