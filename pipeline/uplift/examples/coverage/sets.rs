@@ -20,9 +20,12 @@ pub type Failed = Box<dyn std::error::Error + Send + Sync>;
 pub const CONFIDENCE: f64 = 0.9;
 /// Fewer effective records than this leave no repaired spectrum.
 const TOO_FEW: f64 = 5.0;
-/// Resamples of a set, for percentile bands; these are made of one set of so many.
+/// Resamples of a set, for percentile bands.
 const REPLICATES: usize = 200;
-const RESAMPLED: usize = 5;
+/// So many sets have percentile bands, evenly among all.
+const RESAMPLED: usize = 20;
+/// Below so many times the displacement at uplift a structure hardly rocks.
+const ROCKING: f64 = 2.0;
 /// Sets of earthquakes are many records: the bands of so many sites are looked at.
 const EARTHQUAKE_SITES: usize = 2;
 
@@ -69,7 +72,15 @@ impl Population {
                 let levels = &measure.levels;
                 let analysis = ScaledAnalysis::new(&set, levels, &own, &compared, targets, Extrapolation::Refuse)?;
                 let of_all = &analysis.repair(&RepairOptions::default())?;
-                let place = Place { population: self, measure, at: [im, site], set: &set, of_all, demands: &demands };
+                let place = Place {
+                    population: self,
+                    measure,
+                    at: [im, site],
+                    set: &set,
+                    of_all,
+                    demands: &demands,
+                    resampled_each: (sets / RESAMPLED).max(1),
+                };
                 for (position, &size) in sizes.iter().enumerate() {
                     let samples = &plan.samples()[position * sets..(position + 1) * sets];
                     let one =
@@ -137,6 +148,8 @@ struct Place<'a> {
     of_all: &'a Repaired,
     /// Of the whole population, `[strength]`.
     demands: &'a [PooledDemand],
+    /// One set of so many is resampled.
+    resampled_each: usize,
 }
 
 impl Place<'_> {
@@ -155,19 +168,26 @@ impl Place<'_> {
         let demands = (0..stored.strengths.len()).map(|strength| rows(self.measure, &drawn, strength));
         let demands = demands.collect::<Result<Vec<PooledDemand>, Failed>>()?;
         let stripes = &self.measure.weights[site];
-        let resamples = match number % RESAMPLED {
+        let resamples = match number % self.resampled_each {
             0 => Some(ResamplingPlan::draw(drawn.len(), &[size], REPLICATES, 2 + number as u64)?),
             _ => None,
         };
         let mut found = Tallies::new();
         let cell = |[poe, strength]: [usize; 2]| (number, [im, site, poe, strength]);
+        // of all ordinates, and of those at which the structure rocks
+        let see_both = |found: &mut Tallies, [all, rocking]: [&'static str; 2], cell, limits_m, truth_m| {
+            see(found, (all, size), cell, limits_m, truth_m);
+            if truth_m >= ROCKING * stored.uplift_displacement_m {
+                see(found, (rocking, size), cell, limits_m, truth_m);
+            }
+        };
         for (strength, demand) in demands.iter().enumerate() {
             let limits = inferred_limits(demand, stripes, &alone, targets, (&[drawn.len()], CONFIDENCE))?;
             let replicates = resamples.as_ref().map(|plan| Replicates::of(demand, &[stripes], targets, plan));
             let replicates = replicates.transpose()?;
             for (poe, limits) in limits.iter().enumerate() {
                 let truth_m = self.measure.exact_m[[site, poe, strength]];
-                see(&mut found, ("plain", size), cell([poe, strength]), limits.truth_m, truth_m);
+                see_both(&mut found, ["plain", "plain, rocking"], cell([poe, strength]), limits.truth_m, truth_m);
                 if let Some(replicates) = &replicates {
                     let band_m = percentile(replicates.ordinates_m(0, poe, 0));
                     see(&mut found, ("plain, percentile", size), cell([poe, strength]), band_m, truth_m);
@@ -213,16 +233,12 @@ impl Place<'_> {
             let truths = RiskCurve::weighted(&self.demands[strength], &of_all.weights)?.exact_ordinates(targets)?;
             let limits = repaired_limits(demand, &weights, &alone, targets, (&[drawn.len()], CONFIDENCE))?;
             for (poe, (limits, truth)) in limits.iter().zip(&truths).enumerate() {
-                see(&mut found, ("repaired", size), cell([poe, strength]), limits.truth_m, truth.displacement_m);
+                let truth_m = truth.displacement_m;
+                see_both(&mut found, ["repaired", "repaired, rocking"], cell([poe, strength]), limits.truth_m, truth_m);
                 if let Some(resampled) = &resampled {
                     let of_cell = &resampled[(strength * targets.len() + poe) * REPLICATES..][..REPLICATES];
-                    see(
-                        &mut found,
-                        ("repaired, percentile", size),
-                        cell([poe, strength]),
-                        percentile(of_cell),
-                        truth.displacement_m,
-                    );
+                    let band_m = percentile(of_cell);
+                    see(&mut found, ("repaired, percentile", size), cell([poe, strength]), band_m, truth_m);
                 }
             }
         }

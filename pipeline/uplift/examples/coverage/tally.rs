@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 /// A cell: measure, site, probability, strength, by their positions.
 pub type Cell = [usize; 4];
 
+/// A cell of fewer bands is not looked at by itself.
+const FEWEST: u32 = 30;
+
 /// Bands that hold the truth, lie below it (the unsafe side) and above it.
 #[derive(Debug, Default, Clone, Copy)]
 struct Counts([u32; 3]);
@@ -19,8 +22,12 @@ impl Counts {
         self.0.iter_mut().zip(other.0).for_each(|(own, other)| *own += other);
     }
 
+    fn all(self) -> u32 {
+        self.0.iter().sum()
+    }
+
     fn share(self, which: usize) -> f64 {
-        f64::from(self.0[which]) / f64::from(self.0.iter().sum::<u32>())
+        f64::from(self.0[which]) / f64::from(self.all())
     }
 }
 
@@ -64,8 +71,7 @@ impl Tally {
         let n = of_sets.len() as f64;
         let mean = of_sets.iter().sum::<f64>() / n;
         let variance = of_sets.iter().map(|own| (own - mean).powi(2)).sum::<f64>() / (n - 1.0);
-        let cells = self.by_cell.iter().filter(|(cell, _)| rare.contains(&cell[2]));
-        let cells: Vec<f64> = cells.map(|(_, own)| own.share(0)).collect();
+        let cells = self.rare_cells(rare);
         format!(
             "{:5.1} ± {:.1} {:7.1} {:7.1} {:8} {:6} of {}",
             100.0 * all.share(0),
@@ -73,17 +79,22 @@ impl Tally {
             100.0 * all.share(1),
             100.0 * all.share(2),
             self.refused,
-            cells.iter().filter(|held| **held < 0.82).count(),
+            cells.iter().filter(|(_, held)| *held < 82.0).count(),
             cells.len()
         )
     }
 
     /// The cells of `rare` probabilities that are held least, with per cent.
     pub fn worst(&self, rare: &[usize], count: usize) -> Vec<(Cell, f64)> {
-        let cells = self.by_cell.iter().filter(|(cell, _)| rare.contains(&cell[2]));
-        let mut cells: Vec<(Cell, f64)> = cells.map(|(cell, own)| (*cell, 100.0 * own.share(0))).collect();
+        let mut cells = self.rare_cells(rare);
         cells.sort_by(|a, b| a.1.total_cmp(&b.1));
         cells.truncate(count);
         cells
+    }
+
+    /// The cells of `rare` probabilities with bands enough, with per cent that are held.
+    fn rare_cells(&self, rare: &[usize]) -> Vec<(Cell, f64)> {
+        let is_seen = |(cell, own): &(&Cell, &Counts)| rare.contains(&cell[2]) && own.all() >= FEWEST;
+        self.by_cell.iter().filter(is_seen).map(|(cell, own)| (*cell, 100.0 * own.share(0))).collect()
     }
 }
