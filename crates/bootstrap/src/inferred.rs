@@ -186,12 +186,12 @@ fn searches<const KINDS: usize>(
             }
         }
         let mean = rates.mean();
-        let of_units = |units: usize, root| (mean.deviates(root), quantiles.at(mean.degrees_of_freedom(units)));
+        let of_units = |units: usize, root| (mean.deviates(root), 1.0 / quantiles.at(mean.degrees_of_freedom(units)));
         let of_set = (KINDS > 1).then(|| of_units(all, root_of_all));
         let mut is_open = false;
         for (place, &(size, root, wider)) in of_sizes.iter().enumerate() {
-            let of_another = of_set.map(|(deviates, quantile)| (deviates, quantile * wider));
-            for (kind, (deviates, quantile)) in
+            let of_another = of_set.map(|(deviates, per_quantile)| (deviates, per_quantile / wider));
+            for (kind, (deviates, per_quantile)) in
                 [Some(of_units(size, root)), of_another].into_iter().flatten().enumerate()
             {
                 for &(target, row) in &rising {
@@ -199,7 +199,7 @@ fn searches<const KINDS: usize>(
                     if search.was_beyond {
                         continue;
                     }
-                    let deviate = deviates.of(target) / quantile;
+                    let deviate = deviates.of(target) * per_quantile;
                     search.see(deviate, from_m, to_m);
                     is_open |= !search.was_beyond;
                     if deviate < SURELY_BELOW {
