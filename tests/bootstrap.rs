@@ -488,7 +488,7 @@ fn trends_of_table_4_1_appear_with_real_records() {
     println!("{text}");
     assert!(
         text.split_whitespace().collect::<Vec<_>>().join(" ").contains("| 3.9 63")
-            && text.contains("\nThe band where it is widest, at the worst site, ")
+            && text.contains("\nThe widest band of all sites and strengths, ")
             && !text.contains("Rocking initiation"),
         "the reference stands beside ours"
     );

@@ -337,10 +337,20 @@ fn differences_from_the_study_are_reported() {
     );
     let found = design(&study, "other.toml", &[]);
     let notes = found["notes"].to_string();
-    for words in ["this structure has 4 mm", "this structure has 0.9", "9.81 m/s2"] {
+    for words in ["its 4 mm over Γ", "this structure has 0.9", "9.81 m/s2"] {
         assert!(notes.contains(words), "{words}: {notes}");
     }
     assert_eq!(found["structure"]["restitution"], 0.9);
+    // the answer names the difference; what rounding makes of the remedy is none
+    let needed_mm = |text: &str| notes.split(text).nth(1).unwrap().split(' ').next().unwrap().parse::<f64>().unwrap();
+    let said = study.uplift(&["design", "other.toml", "--urs", "r.h5", "--spectrum-only"]).ok().stdout;
+    assert!(said.contains("the spectrum was computed for an uplift displacement of 0.5 mm; this structure needs"));
+    let needed_mm = needed_mm("this structure needs ");
+    for (factor, is_other) in [(1.004, false), (1.02, true)] {
+        let own_mm = 4.0 * 0.5 / needed_mm * factor;
+        study.write("near.toml", &format!("{BLOCK}uplift_displacement_m = {}\n", 1e-3 * own_mm));
+        assert_eq!(design(&study, "near.toml", &[])["other_oscillator"], is_other, "{own_mm}");
+    }
     assert_ne!(found["exact"]["zero_stiffness_demand_m"], found["exact"]["zero_stiffness_demand_of_spectrum_m"]);
 }
 

@@ -458,9 +458,10 @@ const ownVerdict = ({ check, upper_check: upper, demand_m: demand, demand_band_m
       ? `satisfied${upper && !upper.satisfied ? " (not at the upper limit of the band)" : ""}` : "not satisfied"}`);
 // the demand read off the spectrum is of the oscillator that the spectrum was computed for
 function otherOscillator() {
-  const differing = [["uplift_displacement_m", "uplift displacement", 1000, " mm"], ["restitution", "restitution", 1, ""]]
-    .filter(([key]) => own()[key] !== undefined && Math.abs(own()[key] - about[key]) > 1e-9)
-    .map(([key, said, times, unit]) => `${said} ${digits(times * about[key], 3)}${unit} (structure: ${digits(times * own()[key], 3)}${unit})`);
+  const [spectrum_mm, own_mm] = window.design?.uplift_mm ?? [];
+  const differing = spectrum_mm ? [`uplift displacement ${digits(spectrum_mm, 3)} mm (structure: ${digits(own_mm, 3)} mm)`] : [];
+  const { restitution } = own();
+  if (restitution !== undefined && restitution !== about.restitution) differing.push(`restitution ${about.restitution} (structure: ${restitution})`);
   return differing.length ? [`Computed for ${differing.join(" and ")}: analyse the structure itself for its own demand.`] : [];
 }
 const inputs = () => toml() + JSON.stringify([at(), state.safety]);

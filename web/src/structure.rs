@@ -51,6 +51,10 @@ pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>,
     told["risk"] = rarity(risk);
     let strength = system.spectral_strength_at(stripes.study.gravity_m_s2);
     told["read_at_strength"] = strength.into();
+    let spectrum_m = stripes.study.oscillator.uplift_displacement_m;
+    if !system.is_of_uplift_displacement(spectrum_m) {
+        told["uplift_mm"] = json!([1e3 * spectrum_m, 1e3 * system.spectral_uplift_displacement_m()]);
+    }
     let ordinates = match stripes.ordinate_at(place, risk, strength) {
         Ok((ordinates, ..)) => ordinates,
         Err(reason) => {

@@ -282,6 +282,12 @@ impl EquivalentSystem {
         self.conditions.uplift_displacement_m / self.participation
     }
 
+    /// Whether a spectrum of oscillators that uplift at `uplift_displacement_m` \[m\] is of such ones: within 1 %,
+    /// which no response tells apart.
+    pub fn is_of_uplift_displacement(&self, uplift_displacement_m: f64) -> bool {
+        (self.spectral_uplift_displacement_m() / uplift_displacement_m - 1.0).abs() <= 0.01
+    }
+
     /// Demand `u_dem,ZS` on the structure's own displacement, m: `Γ` times the ordinate (m) that a spectrum has at
     /// [`spectral_strength`](Self::spectral_strength).
     ///

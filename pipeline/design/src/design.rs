@@ -184,7 +184,9 @@ pub fn design(
 ) -> Result<DesignReport, DesignError> {
     let safety_factor = options.safety_factor;
     SAFETY_FACTOR.check("--safety-factor", safety_factor).map_err(|mistake| JobError::Implausible(vec![mistake]))?;
-    let file = resampled(at(ResultFile::open(result)?, &options.risk)?, events)?;
+    let asked = at(ResultFile::open(result)?, &options.risk)?;
+    // the quoted bands need no draws; alarms take those of the bootstrap where it kept them
+    let file = if asked.draws()?.is_some() { resampled(asked, events)? } else { asked };
     let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
     let place = Place::choose(&source, options.site.as_deref(), options.measure)?;
@@ -453,14 +455,13 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
                 .to_owned(),
         );
     }
-    let uplift_m = system.spectral_uplift_displacement_m();
-    if apart(uplift_m, oscillator.uplift_displacement_m) {
+    if !system.is_of_uplift_displacement(oscillator.uplift_displacement_m) {
         notes.push(format!(
-            "the spectrum was computed for an uplift displacement of {} mm; this structure has {} mm, over Γ {} mm \
-             (Section 3.5)",
+            "the spectrum was computed for an uplift displacement of {} mm; this structure needs {} mm, its {} mm \
+             over Γ",
             rounded(1e3 * oscillator.uplift_displacement_m, 4),
-            rounded(1e3 * system.conditions().uplift_displacement_m(), 4),
-            rounded(1e3 * uplift_m, 4)
+            rounded(1e3 * system.spectral_uplift_displacement_m(), 3),
+            rounded(1e3 * system.conditions().uplift_displacement_m(), 4)
         ));
     }
     if apart(restitution, oscillator.restitution) {

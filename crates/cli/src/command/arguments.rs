@@ -27,7 +27,7 @@ use crate::error::CommandError;
 pub(crate) const RARE: &str = "Rarely needed";
 
 /// Endings of the files that the program writes.
-const FILES: [&str; 6] = ["h5", "svg", "png", "csv", "html", "json"];
+const FILES: [&str; 9] = ["h5", "svg", "png", "pdf", "csv", "html", "json", "xlsx", "mat"];
 
 /// Whether files that are there are overwritten.
 #[derive(Debug, Args)]

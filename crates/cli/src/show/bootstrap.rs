@@ -173,7 +173,7 @@ fn print_inferred(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
 /// How wide the band is for each number of records, over all sites.
 fn print_sizes(out: &mut impl Write, report: &BootstrapReport, shown: &DisplacementReport) -> Result<(), CommandError> {
     let [first, ..] = &shown.displacements[..] else { return Ok(()) };
-    writeln!(out, "\nThe band where it is widest, at the worst site, in per cent of the displacement")?;
+    writeln!(out, "\nThe widest band of all sites and strengths, in per cent of its displacement")?;
     for &size in &report.sizes {
         writeln!(out, "  {}", known_from(report, (first.im, first.poe), size))?;
     }

@@ -158,9 +158,11 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         writeln!(out, "          {verdict}")?;
     }
     if !verdicts.is_empty() {
-        let of_others = if report.other_oscillator { "; by the spectrum of another oscillator: --details" } else { "" };
-        let factor = report.required_safety_factor;
-        writeln!(out, "          with a safety factor of {factor} (Eq. 3.15){of_others}")?;
+        writeln!(out, "          with a safety factor of {} (Eq. 3.15)", report.required_safety_factor)?;
+        // the notes begin with what the structure and the spectrum do not have in common
+        if let Some(difference) = report.notes.first().filter(|_| report.other_oscillator) {
+            writeln!(out, "          {difference}")?;
+        }
     }
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();
