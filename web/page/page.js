@@ -105,7 +105,7 @@ function readLink() {
   for (const key of Object.keys({ ...FIELDS, width_m: 0, height_m: 0 })) {
     if (link.has(key) && (key in KINDS[state.kind] || key === "restitution")) state.own[state.kind][key] = number(key, KINDS[state.kind][key]);
   }
-  return wrong.length ? `The link: ${wrong.join(" ")}` : "";
+  return wrong.length ? `The link: ${labelled(wrong.join(" "))}` : "";
 }
 function link() {
   const { site, measure, period, safety, kind, strength, level, record, records } = state;
@@ -125,7 +125,7 @@ const rested = (work, pause_ms) => {
     timer = setTimeout(work, pause_ms);
   };
 };
-const writeLink = rested(() => embedded || history.replaceState(null, "", link()), 200);
+const writeLink = rested(() => embedded || mistyped.size || history.replaceState(null, "", link()), 200);
 const at = () => ({ site: state.site, measure: state.measure, return_period: state.period });
 
 // ---- charts ---------------------------------------------------------------------------------------------------------
@@ -245,7 +245,7 @@ const asker = () => {
   const [records, { site, measure }] = [about, at()];
   return () => about === records && state.site === site && state.measure === measure;
 };
-// the level of the site, and of which period it is
+// the level of the site, and of which period it is; none of an end of the curve that the period lies beyond
 let siteLevel = null;
 let sitePeriod = null;
 // the records are listed after the first displacement, which does not wait for them
@@ -272,6 +272,8 @@ async function showSpectrum() {
     $("answer").textContent = error.message;
     $("figures").hidden = true;
     $("alarms").replaceChildren();
+    siteLevel = null;
+    if (state.level === null) noMotion("");
     return;
   }
   try {
@@ -320,8 +322,9 @@ async function showSpectrum() {
     y: { name: "Share of the records", from: 0, to: 1 }, lines: [{ x: point.levels, y: point.fragility ?? [] }],
     columns: { [`${now.measure}_${unit.replace("/", "_")}`]: point.levels, share: point.fragility ?? point.levels.map(() => 0) },
   });
-  sitePeriod = period;
-  siteLevel = level ?? (1 / period < Math.min(...rates) ? levels.at(-1) : levels[0]);
+  const isLast = 1 / period < Math.min(...rates) * (1 + 1e-6);
+  sitePeriod = level === null && !(isLast && 1 / period > Math.min(...rates) * (1 - 1e-6)) ? null : period;
+  siteLevel = level ?? (isLast ? levels.at(-1) : levels[0]);
   if (state.level === null) drawMotionAfter();
   const told = [...(point?.alarms ?? []), ...spectrum.alarms].map((own) => element("li", {}, element("span", { class: "kind" }, `${own.severity === "mistake" ? "mistake?" : own.severity}: `),
     `${own.subject}${own.also.length ? ` (${own.also.length} more)` : ""}: ${own.what}.`));
@@ -561,7 +564,7 @@ async function analyse(question, done) {
     }));
     say(told ?? "");
   } catch (error) {
-    say(error.message === "stopped" ? "Stopped." : error.message);
+    say(error.message === "stopped" ? "Stopped." : labelled(error.message));
   }
   buttons.forEach((button) => { button.disabled = false; });
   stop.disabled = true;
@@ -575,8 +578,9 @@ const often = (event) => {
 };
 // what is typed wrong is neither analysed nor saved
 function isMistyped() {
-  if (mistyped.size) say([...mistyped.values()].join(" "));
-  return mistyped.size > 0;
+  const wrong = mistyped.size ? [...mistyped.values()].join(" ") : window.design ? "" : $("mistake").textContent;
+  if (wrong) say(wrong);
+  return Boolean(wrong);
 }
 $("analyse").onclick = () => {
   if (isMistyped()) return undefined;
@@ -611,6 +615,13 @@ function showNear(demand) {
   const isNearest = $("motion").value === String(near.nearest);
   $("near").textContent = `${near.exceeding} of ${near.records} records, scaled to the same level, exceed the demand of ${metres(demand)}${isNearest ? "; this one comes nearest to it" : ""}.`;
 }
+function noMotion(why) {
+  moving = null;
+  nearKey = null;
+  clearTimeout(nearTimer);
+  $("peak").textContent = why;
+  for (const id of ["near", "stage", "f-trace", "level-number"]) $(id).replaceChildren();
+}
 const drawMotion = latest(async () => {
   const level = state.level ?? siteLevel;
   if (!motions?.length || level === null) return;
@@ -618,19 +629,16 @@ const drawMotion = latest(async () => {
   $("level").max = Math.max(levels.at(-1), level);
   $("level").value = level;
   $("level-site").hidden = state.level === null;
-  const scaled = `${name} ${digits(level)} ${unit}${state.level === null ? `, exceeded at ${state.site} once in ${sitePeriod} years` : ""}`;
+  const scaled = `${name} ${digits(level)} ${unit}${state.level !== null ? ""
+    : sitePeriod === null ? `, an end of the hazard curve of ${state.site}` : `, exceeded at ${state.site} once in ${sitePeriod} years`}`;
   $("level-number").textContent = scaled;
   $("level").setAttribute("aria-valuetext", scaled);
-  if (mistyped.size) {
-    moving = null;
-    $("peak").textContent = [...mistyped.values()].join(" ");
-    for (const id of ["near", "stage", "f-trace"]) $(id).replaceChildren();
-    return;
-  }
+  if (mistyped.size) return void noMotion([...mistyped.values()].join(" "));
   let motion;
   // the demand by the rule that the headline has
   const [rule] = governing(window.design ?? {});
-  const demand = rule && !rule.overturns ? rule.demand_m : null;
+  const isOfDemand = rule && !rule.overturns && (state.level !== null || sitePeriod !== null);
+  const demand = isOfDemand ? rule.demand_m : null;
   const peaks = { ask: "peaks", text: toml(), measure: state.measure, level, demand_m: demand };
   const key = nearKey = JSON.stringify([peaks, motions]);
   clearTimeout(nearTimer);
@@ -638,10 +646,7 @@ const drawMotion = latest(async () => {
   try {
     motion = await ask({ ask: "motion", text: toml(), motion: Number($("motion").value), measure: state.measure, level });
   } catch (error) {
-    moving = null;
-    $("peak").textContent = labelled(error.message);
-    $("stage").replaceChildren();
-    $("f-trace").replaceChildren();
+    noMotion(labelled(error.message));
     return;
   }
   moving = motion;
@@ -764,8 +769,9 @@ function complain(id, text) {
 const OWN_SITE = "Your site";
 let curves = [];
 let open = [];
-// the curves of the own site that is shown
+// the curves of the own site, and which is marked of each measure
 let used = [];
+const marked = {};
 // a table that does not say its unit is read when the unit is chosen
 async function takeCurves(file, choice) {
   const found = await ask({ ask: "curves", name: file.name, choice }, await bytes(file));
@@ -774,10 +780,11 @@ async function takeCurves(file, choice) {
   // a file that is dropped again replaces its curves
   curves = curves.filter((own) => !usable.some((other) => other.label === own.label));
   curves.push(...usable);
+  for (const { measure, place } of usable) marked[measure] = place;
   await offer();
   if (others.length) throw new Error(`the page has no spectra by the measure of ${others.map((curve) => curve.label).join(", ")}`);
 }
-// lists the curves, and shows the site that the marked ones make: the last of each measure, until another is chosen
+// lists the curves, and shows the site that the marked ones make: the last that was dropped, until another is chosen
 async function offer() {
   $("found").hidden = !curves.length && !open.length;
   $("extrapolate").checked = state.extrapolate;
@@ -790,17 +797,17 @@ async function offer() {
     return element("div", {}, element("label", {}, `${of.file.name} does not say what it holds: `, select));
   });
   const keys = [...new Set(curves.map((curve) => curve.measure))].filter((key) => about.measures.some((own) => own.key === key));
-  const radio = (key, value, said, checked) => {
+  const radio = (key, value, said) => {
     const box = element("input", { type: "radio", name: `curve-${key}`, value });
-    box.checked = checked;
-    box.onchange = useFound;
+    box.checked = String(marked[key]) === String(value);
+    box.onchange = () => { marked[key] = value; return useFound(); };
     return element("div", {}, element("label", {}, box, ` ${said}`));
   };
   $("found-list").replaceChildren(...asked, ...keys.flatMap((key) => {
     const own = curves.filter((curve) => curve.measure === key);
     const name = about.measures.find((known) => known.key === key).label;
-    const boxes = own.map((curve) => radio(key, curve.place, `${curve.label}, ${curve.points} points, ${curve.unit}`, curve === own.at(-1)));
-    return [element("div", { role: "radiogroup", "aria-label": name }, ...boxes, ...(keys.length > 1 ? [radio(key, "", `no curve of ${name}`, false)] : []))];
+    const boxes = own.map((curve) => radio(key, curve.place, `${curve.label}, ${curve.points} points, ${curve.unit}`));
+    return [element("div", { role: "radiogroup", "aria-label": name }, ...boxes, ...(keys.length > 1 ? [radio(key, "", `no curve of ${name}`)] : []))];
   }));
   if (curves.length) await useFound();
 }
@@ -809,14 +816,16 @@ let unread = [];
 let droppedFiles = [];
 const noneDropped = () => {
   droppedFiles = [];
+  complain("own-mistake", "");
   $("dropped").hidden = true;
   $("beside").hidden = true;
 };
 async function takeRecord(file) {
   const unit = $("record-unit").value || null;
-  const step_s = parsed("Time step", $("record-step").value) ?? null;
-  const { format, records } = await ask({ ask: "record", name: file.name, unit, step_s }, await bytes(file)).catch((error) => {
-    if (/records without one/.test(error.message)) unread.push(file);
+  const read = async () => ask({ ask: "record", name: file.name, unit, step_s: parsed("Time step", $("record-step").value) ?? null }, await bytes(file));
+  const { format, records } = await read().catch((error) => {
+    // it waits for a unit or time step that is right
+    if (/records without one|time step/i.test(error.message)) unread.push(file);
     throw error;
   });
   droppedFiles.push(`${file.name} (${format})`);
@@ -864,27 +873,30 @@ for (const id of ["record-unit", "record-step"]) $(id).onchange = () => {
 };
 chosen("files-stripes", (files) => each(files, takeStripes));
 $("take-paste").onclick = () => each([new File([$("paste").value], "pasted curve")], (file) => takeCurves(file));
+const ownSite = (of) => ask({ ask: "site", name: OWN_SITE, curves: of.map((own) => own.place), extrapolate: state.extrapolate });
+const namesUsed = () => used.map((own) => own.label).join(", ");
 async function useFound() {
   const places = [...$("found-list").querySelectorAll("input:checked")].map((box) => box.value).filter(Boolean).map(Number);
+  const chosen = curves.filter((own) => places.includes(own.place));
   try {
-    const { notes, about: now } = await ask({ ask: "site", name: OWN_SITE, curves: places, extrapolate: state.extrapolate });
+    const { notes, about: now } = await ownSite(chosen);
     state.site = OWN_SITE;
-    used = curves.filter((own) => places.includes(own.place)).map((own) => own.label);
+    used = chosen;
     await settle(now);
     complain("found-mistake", "");
     say(notes.join(". "));
   } catch (error) {
-    complain("found-mistake", `${error.message}${state.site === OWN_SITE && used.length ? `\nShown as before: ${used.join(", ")}.` : ""}`);
+    complain("found-mistake", `${error.message}${state.site === OWN_SITE && used.length ? `\nShown as before: ${namesUsed()}.` : ""}`);
   }
 }
 // other stripes: the own site is made again of its curves
 async function exchanged(now) {
   noneDropped();
-  const isOwn = state.site === OWN_SITE && used.length > 0;
-  if (isOwn) state.site = null;
-  const told = await settle(now);
-  if (isOwn) await useFound();
-  return told;
+  let refused = "";
+  if (used.length) {
+    try { ({ about: now } = await ownSite(used)); } catch (error) { refused = `${OWN_SITE}: ${error.message}.`; }
+  }
+  return [refused, await settle(now)].join(" ").trim();
 }
 // after a bug nothing is left of what was dropped
 async function begunAgain(now) {
@@ -911,8 +923,9 @@ for (const kind of ["dragover", "dragleave", "drop"]) addEventListener(kind, (ev
 // ---- what is taken along --------------------------------------------------------------------------------------------
 $("save-study").onclick = async () => {
   if (isMistyped()) return;
-  if (droppedFiles.length && $("beside").hidden) return void say("The dropped records are not analysed yet: analyse or forget them first.");
-  const { files, runs_as_it_is: runs } = await ask({ ask: "study", ...at() });
+  const asked = await ask({ ask: "study", ...at() }).catch((error) => say(error.message));
+  if (!asked) return;
+  const { files, runs_as_it_is: runs } = asked;
   if ("records.csv" in files) say("Put the record files beside study.toml: records.csv names them.");
   for (const [name, text] of Object.entries(files)) save(name, text);
   if (!runs) say("The study names the record files where the result had them. Put them there, or drop them here and analyse them first.");
@@ -930,7 +943,7 @@ function sheet() {
   const today = new Date().toLocaleDateString("en-GB", { day: "numeric", month: "long", year: "numeric" });
   const named = [["Project", $("project").value], ["Prepared by", $("author").value], ["Date", today]].filter(([, value]) => value);
   $("sheet-title").textContent = `Design sheet: ${state.kind}`;
-  $("sheet-where").textContent = about ? `${whereWords()}${state.site === OWN_SITE ? `, hazard of ${used.join(", ")}` : ""}` : "";
+  $("sheet-where").textContent = about ? `${whereWords()}${state.site === OWN_SITE ? `, hazard of ${namesUsed()}` : ""}` : "";
   $("sheet-named").textContent = named.map(([said, value]) => `${said}: ${value}`).join(" · ");
 }
 addEventListener("beforeprint", sheet);

@@ -186,16 +186,18 @@ impl Calculator {
             Question::AnalyseStructure { text, at, block, safety_factor } => {
                 let stripes = self.stripes.as_mut().ok_or(NO_STRIPES)?;
                 self.motions.are_those_of(stripes)?;
+                stripes.risk(&at)?;
                 let asked = (&text[..], block, safety_factor);
                 let analysis = Analysis::of_structure(stripes, &mut self.motions, asked, &at)?;
                 Ok(self.begin(analysis))
             }
             Question::Step => {
-                let analysis = self.analysis.as_mut().ok_or("nothing was begun")?;
+                let analysis =
+                    self.analysis.as_mut().ok_or("the analysis was ended by another question: begin again")?;
                 if analysis.step(&self.motions)? {
                     return Ok(json!({ "done": analysis.done, "of": analysis.records }));
                 }
-                let analysis = self.analysis.take().ok_or("nothing was begun")?;
+                let analysis = self.analysis.take().ok_or("the analysis was ended by another question: begin again")?;
                 let stripes = self.stripes.as_mut().ok_or(NO_STRIPES)?;
                 Ok(json!({ "finished": analysis.finish(stripes, &self.motions)? }))
             }
@@ -203,7 +205,10 @@ impl Calculator {
                 self.analysis = None;
                 Ok(Value::Null)
             }
-            Question::Study(at) => crate::studies::files(self.stripes()?, &at),
+            Question::Study(at) => {
+                self.motions.are_those_of(self.stripes.as_ref().ok_or(NO_STRIPES)?)?;
+                crate::studies::files(self.stripes()?, &at)
+            }
         }
     }
 
