@@ -341,6 +341,13 @@ fn differences_from_the_study_are_reported() {
         assert!(notes.contains(words), "{words}: {notes}");
     }
     assert_eq!(found["structure"]["restitution"], 0.9);
+    assert!(found["assumed"].is_null(), "{found}");
+    assert_eq!(
+        design(&study, "block.toml", &[])["assumed"].to_string(),
+        r#"["uplift displacement 0.5 mm","restitution 0.95"]"#
+    );
+    let said = study.uplift(&["design", "block.toml", "--urs", "r.h5", "--spectrum-only"]).ok().stdout;
+    assert!(said.contains("\n          assumed: uplift displacement 0.5 mm, restitution 0.95\n"), "{said}");
     // the answer names the difference; what rounding makes of the remedy is none
     let needed_mm = |text: &str| notes.split(text).nth(1).unwrap().split(' ').next().unwrap().parse::<f64>().unwrap();
     let said = study.uplift(&["design", "other.toml", "--urs", "r.h5", "--spectrum-only"]).ok().stdout;

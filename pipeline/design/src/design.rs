@@ -129,6 +129,9 @@ pub struct DesignReport {
     /// Whether the spectrum is of another oscillator than the structure's: another uplift displacement, restitution or
     /// gravity, or uncertain; the notes say which.
     pub other_oscillator: bool,
+    /// What the structure's file leaves out and an answer hangs on, with what is taken for it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub assumed: Vec<String>,
     /// What to know before using the numbers, the worst first.
     pub alarms: Vec<Alarm>,
 }
@@ -184,13 +187,10 @@ pub fn design(
 ) -> Result<DesignReport, DesignError> {
     let safety_factor = options.safety_factor;
     SAFETY_FACTOR.check("--safety-factor", safety_factor).map_err(|mistake| JobError::Implausible(vec![mistake]))?;
-    let asked = at(ResultFile::open(result)?, &options.risk)?;
-    // the quoted bands need no draws; alarms take those of the bootstrap where it kept them
-    let file = if asked.draws()?.is_some() { resampled(asked, events)? } else { asked };
+    let file = result_at(result, &options.risk, events)?;
     let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
-    let place = Place::choose(&source, options.site.as_deref(), options.measure)?;
-    let Place { site, measure, .. } = place;
+    let place @ Place { site, measure, .. } = Place::choose(&source, options.site.as_deref(), options.measure)?;
     let poe = source.only_risk(&options.risk)?;
     let target_per_year = source.target_per_year(poe)?;
     let repaired_m = repaired_spectrum(&file, measure, [site, poe])?;
@@ -282,6 +282,7 @@ pub fn design(
         rules,
         by_other_measures,
         other_oscillator,
+        assumed: assumed(structure, restitution),
         notes,
         alarms: ranked(alarms),
     })
@@ -441,6 +442,22 @@ fn beyond_spectrum(structure: &Structure, source: &StudyOfResult) -> String {
         strengths[0],
         strengths[strengths.len() - 1]
     )
+}
+
+/// The result at the risk asked for, with its bands there where it keeps draws: alarms take them, and what is quoted
+/// needs none.
+fn result_at(path: &Path, risk: &AskedRisk, events: &dyn Events) -> Result<ResultFile, DesignError> {
+    let file = at(ResultFile::open(path)?, risk)?;
+    Ok(if file.draws()?.is_some() { resampled(file, events)? } else { file })
+}
+
+/// `restitution 0.95`, where the structure's file does not say so, and likewise.
+fn assumed(structure: &Structure, restitution: f64) -> Vec<String> {
+    let description = &structure.description;
+    let uplift_mm = rounded(1e3 * structure.system.conditions().uplift_displacement_m(), 4);
+    let uplift = description.uplift_displacement_m.is_none().then(|| format!("uplift displacement {uplift_mm} mm"));
+    let restitution = description.restitution.is_none().then(|| format!("restitution {restitution}"));
+    uplift.into_iter().chain(restitution).collect()
 }
 
 /// What the structure and the study's oscillator do not have in common.

@@ -159,6 +159,9 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     }
     if !verdicts.is_empty() {
         writeln!(out, "          with a safety factor of {} (Eq. 3.15)", report.required_safety_factor)?;
+        if !report.assumed.is_empty() {
+            writeln!(out, "          assumed: {}", report.assumed.join(", "))?;
+        }
         // the notes begin with what the structure and the spectrum do not have in common
         if let Some(difference) = report.notes.first().filter(|_| report.other_oscillator) {
             writeln!(out, "          {difference}")?;
