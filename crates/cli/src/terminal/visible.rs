@@ -70,7 +70,7 @@ mod tests {
     fn an_answer_begins_on_the_first_line() {
         static BEGUN: AtomicBool = AtomicBool::new(false);
         let mut out = Answer(Vec::new(), &BEGUN);
-        write!(out, "\n").unwrap();
+        writeln!(out).unwrap();
         writeln!(out, "\nSpectra").unwrap();
         writeln!(out, "\nWarnings").unwrap();
         assert_eq!(String::from_utf8(out.0).unwrap(), "Spectra\n\nWarnings\n");
