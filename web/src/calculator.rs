@@ -192,12 +192,11 @@ impl Calculator {
                 Ok(self.begin(analysis))
             }
             Question::Step => {
-                let analysis =
-                    self.analysis.as_mut().ok_or("the analysis was ended by another question: begin again")?;
+                let analysis = self.analysis.as_mut().ok_or(NO_ANALYSIS)?;
                 if analysis.step(&self.motions)? {
                     return Ok(json!({ "done": analysis.done, "of": analysis.records }));
                 }
-                let analysis = self.analysis.take().ok_or("the analysis was ended by another question: begin again")?;
+                let analysis = self.analysis.take().ok_or(NO_ANALYSIS)?;
                 let stripes = self.stripes.as_mut().ok_or(NO_STRIPES)?;
                 Ok(json!({ "finished": analysis.finish(stripes, &self.motions)? }))
             }
@@ -224,3 +223,4 @@ impl Calculator {
 }
 
 const NO_STRIPES: &str = "no stripes were given";
+const NO_ANALYSIS: &str = "the analysis was ended by another question: begin again";

@@ -171,13 +171,9 @@ fn searches<const KINDS: usize>(
                 if !is_clear {
                     break;
                 }
-                search.see(
-                    deviate / if deviate.abs() < smallest_quantile { smallest_quantile } else { largest_quantile },
-                    from_m,
-                    to_m,
-                );
+                search.see(deviate / smallest_quantile, from_m, to_m);
                 is_open |= !search.was_beyond;
-                if deviate < 0.0 && deviate < -largest_quantile {
+                if deviate < -largest_quantile {
                     break;
                 }
             }
