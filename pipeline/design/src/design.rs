@@ -10,6 +10,7 @@ mod analysis;
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde::Serialize;
 use uplift_alarms::{
     OwnRisk, Scope, alarms_within, own_demand_alarm, own_risk_alarms, ranked, safety_factor_alarm, structure_alarms,
@@ -20,13 +21,14 @@ use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_job::text::{rounded, spectrum_words};
+use uplift_job::typed::number;
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::PostUplift;
 use uplift_plausible::SAFETY_FACTOR;
 use uplift_questions::bootstrap::resampled;
 use uplift_result::ResultFile;
 use uplift_study::Structure;
-use uplift_uniform_risk::{AskedRisk, EventRisk, SpectraOfResult, StudyOfResult, at};
+use uplift_uniform_risk::{EventRisk, OneRisk, SpectraOfResult, StudyOfResult, at};
 
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
@@ -42,25 +44,40 @@ use crate::error::DesignError;
 use analysis::{DesignAnalysis, OwnAnalysis, Question};
 
 /// What is asked of a design.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct DesignOptions {
     /// Manifest of the records, where it is no longer where the study says.
+    #[arg(skip)]
     pub manifest: Option<PathBuf>,
-    /// Site of the result; its only one where none is given.
+    /// Site [default: the only one]
+    #[arg(long)]
     pub site: Option<String>,
-    /// The risk of the design, one; the smallest probability of the study where none is given.
-    pub risk: AskedRisk,
-    /// Measure of the spectrum; PGV where none is given and the result has it.
+    /// The risk of the demand.
+    #[command(flatten)]
+    pub risk: OneRisk,
+    /// Intensity measure [default: pgv]
+    #[arg(long)]
     pub measure: Option<IntensityMeasure>,
-    /// Take the repaired spectrum, and weigh the structure's own analysis as it is.
+    /// Use records weighted for hazard consistency (uplift consistency --repair)
+    #[arg(long)]
     pub repaired: bool,
-    /// Safety factor on the demand (Eq. 3.15), at least 1.
+    /// Safety factor on the demand (Eq. 3.15)
+    #[arg(
+        long,
+        value_name = "FS",
+        default_value_t = DesignOptions::default().safety_factor,
+        allow_negative_numbers = true,
+        value_parser = number,
+    )]
     pub safety_factor: f64,
-    /// Read the spectrum and apply the rules, without analysing the structure itself.
+    /// Apply the rules to the spectrum without analysing the structure
+    #[arg(long)]
     pub spectrum_only: bool,
-    /// Leave the frame itself out: the verdict is that of its proxy.
+    /// Judge the proxy alone, without the wobbling frame
+    #[arg(long)]
     pub proxy: bool,
     /// Every shard of the structure's own analysis, as [`design_shard`] wrote them; none to compute it here.
+    #[arg(skip)]
     pub shards: Vec<PathBuf>,
 }
 
@@ -70,7 +87,7 @@ impl Default for DesignOptions {
         Self {
             manifest: None,
             site: None,
-            risk: AskedRisk::default(),
+            risk: OneRisk::default(),
             measure: None,
             repaired: false,
             safety_factor: 2.5,
@@ -187,11 +204,11 @@ pub fn design(
 ) -> Result<DesignReport, DesignError> {
     let safety_factor = options.safety_factor;
     SAFETY_FACTOR.check("--safety-factor", safety_factor).map_err(|mistake| JobError::Implausible(vec![mistake]))?;
-    let file = result_at(result, &options.risk, events)?;
+    let file = result_at(result, options.risk, events)?;
     let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
     let place @ Place { site, measure, .. } = Place::choose(&source, options.site.as_deref(), options.measure)?;
-    let poe = source.only_risk(&options.risk)?;
+    let poe = source.rarest()?;
     let target_per_year = source.target_per_year(poe)?;
     let repaired_m = repaired_spectrum(&file, measure, [site, poe])?;
     let repaired_weights = options.repaired.then(|| RepairedWeights::from_file(&file)).transpose()?;
@@ -299,10 +316,10 @@ pub fn design_shard(
     shard: Shard,
     events: &dyn Events,
 ) -> Result<ShardReport, DesignError> {
-    let file = at(ResultFile::open(result)?, &options.risk)?;
+    let file = at(ResultFile::open(result)?, &options.risk.into())?;
     let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
-    let target_per_year = source.target_per_year(source.only_risk(&options.risk)?)?;
+    let target_per_year = source.target_per_year(source.rarest()?)?;
     let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
     // the levels of a frame are those of a site; oscillators are the same at all of them
     let any_site = source.sites.first().filter(|_| !with_pairs);
@@ -446,8 +463,8 @@ fn beyond_spectrum(structure: &Structure, source: &StudyOfResult) -> String {
 
 /// The result at the risk asked for, with its bands there where it keeps draws: alarms take them, and what is quoted
 /// needs none.
-fn result_at(path: &Path, risk: &AskedRisk, events: &dyn Events) -> Result<ResultFile, DesignError> {
-    let file = at(ResultFile::open(path)?, risk)?;
+fn result_at(path: &Path, risk: OneRisk, events: &dyn Events) -> Result<ResultFile, DesignError> {
+    let file = at(ResultFile::open(path)?, &risk.into())?;
     Ok(if file.draws()?.is_some() { resampled(file, events)? } else { file })
 }
 

@@ -12,6 +12,7 @@ mod tables;
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde::Serialize;
 use uplift_bootstrap::{ResamplingPlan, Unit};
 use uplift_fragility::{LognormalFit, Stripes};
@@ -45,28 +46,48 @@ use uplift_inputs::TORSION;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::{Events, Silent};
 use uplift_result::ResultFile;
-use uplift_uniform_risk::{AskedRisk, EventRisk, StudyOfResult, at, consistency};
+use uplift_uniform_risk::{EventRisk, OneRisk, StudyOfResult, at, consistency};
 
 /// What is asked of the risk of a frame.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Args)]
 pub struct FrameRiskOptions {
     /// Manifest of the records, where it is no longer where the study says.
+    #[arg(skip)]
     pub manifest: Option<PathBuf>,
-    /// Site of the result; its only one where none is given.
+    /// Site [default: the only one]
+    #[arg(long)]
     pub site: Option<String>,
-    /// The risk of the demand, one; the smallest probability of the study where none is given.
-    pub risk: AskedRisk,
-    /// Intensity measure; PGV where none is given and the result has it.
+    /// The risk of the demand.
+    #[command(flatten)]
+    pub risk: OneRisk,
+    /// Intensity measure [default: pgv]
+    #[arg(long)]
     pub measure: Option<IntensityMeasure>,
-    /// The model of the frame itself; by the section of its columns where none is given.
+    /// Model of the frame: wobbling or planar [default: by the shape of its columns]
+    #[arg(long, value_name = "MODEL", value_parser = frame_model)]
     pub model: Option<Model>,
     /// CSV file of the peak of every record, level and model to write; what they come to at each level goes to one that
     /// ends in .levels.csv beside it.
+    #[arg(skip)]
     pub table: Option<PathBuf>,
     /// Every shard of the analyses, as [`frame_risk_shard`] wrote them; none to compute them here.
+    #[arg(skip)]
     pub shards: Vec<PathBuf>,
     /// Whether existing files are overwritten.
+    #[arg(skip)]
     pub force: bool,
+}
+
+/// Reads the name of a model of a frame.
+///
+/// # Errors
+/// Another word.
+pub fn frame_model(word: &str) -> Result<Model, String> {
+    match word {
+        "planar" => Ok(Model::Planar),
+        "wobbling" => Ok(Model::Wobbling),
+        _ => Err("it is planar or wobbling".to_owned()),
+    }
 }
 
 /// The report of the risk of a frame.
@@ -167,18 +188,18 @@ pub fn frame_risk(
         let tables: [(&Path, _); 2] = [(path, tables::PEAKS_COLUMN), (&levels, tables::LEVELS_COLUMN)];
         check_tables(&tables, (structure, result, manifest), options.force)?;
     }
-    let file = at(ResultFile::open(result)?, &options.risk)?;
+    let file = at(ResultFile::open(result)?, &options.risk.into())?;
     let source = study_with_common_records(&file, manifest, "a frame is shaken by the same records at every level")?;
     let place = Place::choose(&source, options.site.as_deref(), options.measure)?;
     let Place { site, measure, .. } = place;
-    let poe = source.only_risk(&options.risk)?;
+    let poe = source.rarest()?;
     let target_per_year = source.target_per_year(poe)?;
     let analysis = FrameAnalysis::from_structure(structure, &source, options.model)?;
     // what the spectrum says, and how an engineer reads it
     let asked = DesignOptions {
         manifest: options.manifest.clone(),
         site: options.site.clone(),
-        risk: options.risk.clone(),
+        risk: options.risk,
         measure: options.measure,
         spectrum_only: true,
         ..DesignOptions::default()

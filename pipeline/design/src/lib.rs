@@ -32,7 +32,7 @@ pub use error::DesignError;
 pub use finding::keep;
 pub use frame_risk::{
     Banded, DirectionEffect, EventReport, FrameOverturning, FrameRiskOptions, FrameRiskReport, ModelDemand, RiskPoint,
-    StateAtDemand, frame_risk, frame_risk_shard,
+    StateAtDemand, frame_model, frame_risk, frame_risk_shard,
 };
 pub use limits::{LimitOptions, LimitState, LimitStripes, independent_records, limit_stripes};
 pub use overturning::{

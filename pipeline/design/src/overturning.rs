@@ -6,12 +6,14 @@ mod report;
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
 use uplift_engine::analysis::{Analysed, ResultJob, ShardReport};
 use uplift_fragility::Stripes as Stripe;
 use uplift_ida::{Shard, System};
 use uplift_inputs::RecordSet;
 use uplift_job::events::Events;
+use uplift_job::typed::number;
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
 use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
@@ -37,24 +39,31 @@ pub use report::{CollapseReport, ModelReport, OverturningReport, SiteRisk};
 use report::{Collapses, FrameCollapses, reports};
 
 /// What is asked of the overturning of a structure.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Args)]
 pub struct OverturningOptions {
     /// Manifest of the records, where it is no longer where the study says.
+    #[arg(skip)]
     pub manifest: Option<PathBuf>,
-    /// Site of the result; all where none is given.
+    /// Site [default: all]
+    #[arg(long)]
     pub site: Option<String>,
-    /// Intensity measure; all of the result where none is given.
+    /// Intensity measure [default: all]
+    #[arg(long)]
     pub measure: Option<IntensityMeasure>,
-    /// One coefficient of restitution for both models, in place of the structure's, the study's (oscillator) and that
-    /// of angular momentum (block).
+    /// Coefficient of restitution of both models
+    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
     pub restitution: Option<f64>,
-    /// Leave the frame itself out.
+    /// Count the proxy alone, without the wobbling frame
+    #[arg(long)]
     pub proxy: bool,
     /// CSV file of the collapse fragility to write; the risk goes to one that ends in .risk.csv beside it.
+    #[arg(skip)]
     pub table: Option<PathBuf>,
     /// Every shard of the analyses, as [`overturning_shard`] wrote them; none to compute them here.
+    #[arg(skip)]
     pub shards: Vec<PathBuf>,
     /// Whether existing files are overwritten.
+    #[arg(skip)]
     pub force: bool,
 }
 

@@ -8,6 +8,7 @@
 //! | [`alarm`] | what to know before the numbers of a result are used |
 //! | [`table`], [`text_table`] | tables as CSV, written and read |
 //! | [`text`], [`checksum`] | tables and numbers for people; SHA-256 of files and motions |
+//! | [`typed`] | numbers and words as they are typed for the options of jobs |
 //! | [`study_run`] | the options of a run, and the heads of what plans and runs report |
 
 pub mod alarm;
@@ -24,6 +25,7 @@ pub mod study_run;
 pub mod table;
 pub mod text;
 pub mod text_table;
+pub mod typed;
 
 pub use array::{Array, ShapeError};
 pub use clock::now;

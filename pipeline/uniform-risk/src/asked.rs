@@ -1,6 +1,8 @@
 //! A result asked for other risks than those of its study: its stripes and hazard hold them all.
 
+use clap::Args;
 use uplift_hazard::probability_from_rate;
+use uplift_job::typed::{number, number_or_per_cent};
 use uplift_job::{Array, JobError, in_file};
 use uplift_plausible::{PROBABILITY, RETURN_PERIOD, YEARS};
 use uplift_result::{Fit, MeasureSpectra, ResultFile, RiskAxes, StoredSpectra};
@@ -23,35 +25,54 @@ const RETURN_PERIOD_OPTION: &str = "--return-period";
 const YEARS_OPTION: &str = "--years";
 
 /// The risks that a result is asked for; by default those of its study.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Args)]
 pub struct AskedRisk {
-    /// What spectra are asked for.
-    pub targets: RiskTargets,
-    /// Years that probabilities refer to; those of the study where none are given.
+    /// Probabilities of exceedance, 0.1 or 10% [default: the study's]
+    #[arg(
+        long,
+        value_name = "P[,P…]",
+        value_delimiter = ',',
+        allow_negative_numbers = true,
+        value_parser = number_or_per_cent,
+        conflicts_with = "return_period"
+    )]
+    pub poe: Vec<f64>,
+    /// Return periods in years instead
+    #[arg(long, value_name = "YEARS[,…]", value_delimiter = ',', allow_negative_numbers = true, value_parser = number)]
+    pub return_period: Vec<f64>,
+    /// Years of the probabilities [default: the study's]
+    #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number)]
     pub years: Option<f64>,
 }
 
-/// What spectra are asked for.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub enum RiskTargets {
-    /// Those of the probabilities of the study.
-    #[default]
-    OfStudy,
-    /// Those of these probabilities of exceedance, within [`PROBABILITY`].
-    Probabilities(Vec<f64>),
-    /// Those of these return periods, years: a rate of one in so many (Eq. 4.8).
-    ReturnPeriods(Vec<f64>),
+/// The one risk that a result is asked for; by default the smallest probability of its study.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Args)]
+pub struct OneRisk {
+    /// Probability of exceedance, 0.1 or 10% [default: the smallest]
+    #[arg(
+        long, value_name = "P", allow_negative_numbers = true, value_parser = number_or_per_cent,
+        conflicts_with = "return_period"
+    )]
+    pub poe: Option<f64>,
+    /// Return period in years instead
+    #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number)]
+    pub return_period: Option<f64>,
+    /// Years of the probability [default: the study's]
+    #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number)]
+    pub years: Option<f64>,
+}
+
+impl From<OneRisk> for AskedRisk {
+    fn from(one: OneRisk) -> Self {
+        let OneRisk { poe, return_period, years } = one;
+        Self { poe: poe.into_iter().collect(), return_period: return_period.into_iter().collect(), years }
+    }
 }
 
 impl AskedRisk {
-    /// One probability of exceedance in the years of the study.
-    pub fn probability(poe: f64) -> Self {
-        Self { targets: RiskTargets::Probabilities(vec![poe]), years: None }
-    }
-
-    /// Whether nothing else is asked for than what the study has.
-    pub fn is_of_study(&self) -> bool {
-        self.targets == RiskTargets::OfStudy && self.years.is_none()
+    /// Whether the probabilities are those of the study.
+    pub(crate) fn has_targets_of_study(&self) -> bool {
+        self.poe.is_empty() && self.return_period.is_empty()
     }
 
     /// The probabilities asked for, and the years that they refer to, of a study with `poes` in `years`.
@@ -60,10 +81,10 @@ impl AskedRisk {
             Some(years) => YEARS.check("--years", years).map_err(|mistake| JobError::Implausible(vec![mistake]))?,
             None => years,
         };
-        let (option, given) = match &self.targets {
-            RiskTargets::OfStudy => (YEARS_OPTION, poes),
-            RiskTargets::Probabilities(poes) => (POE_OPTION, poes.as_slice()),
-            RiskTargets::ReturnPeriods(periods) => (RETURN_PERIOD_OPTION, periods.as_slice()),
+        let (option, given) = match (&self.poe[..], &self.return_period[..]) {
+            ([], []) => (YEARS_OPTION, poes),
+            ([], periods) => (RETURN_PERIOD_OPTION, periods),
+            (poes, _) => (POE_OPTION, poes),
         };
         let mut mistakes = Vec::new();
         let mut asked: Vec<f64> = Vec::new();
@@ -111,7 +132,7 @@ fn probability(option: &str, value: f64, years: f64) -> Result<f64, String> {
 /// # Errors
 /// Risks that are none; a file that is damaged, or of another kind; a study without sites.
 pub fn at(file: ResultFile, asked: &AskedRisk) -> Result<ResultFile, UniformRiskError> {
-    if asked.is_of_study() {
+    if *asked == AskedRisk::default() {
         return Ok(file);
     }
     if file.kind() != Kind::UniformRisk {

@@ -14,7 +14,7 @@ use uplift_result::{MeasureSpectra, ResultFile};
 use uplift_risk::StrengthPlace;
 use uplift_structure::{Capacity, Demand, Rule};
 
-use crate::asked::{AskedRisk, RiskTargets};
+use crate::asked::AskedRisk;
 use crate::consistency::{Question, Reweighing};
 use crate::error::UniformRiskError;
 use crate::quoted::{BandOf, QuotedUnits};
@@ -98,7 +98,7 @@ pub struct DisplacementReport {
 /// A file that is damaged, of another kind, or without sites; strengths, risks, sites or a measure that it does not
 /// have.
 pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<DisplacementReport, UniformRiskError> {
-    let is_rarest_alone = asked.risk.targets == RiskTargets::OfStudy && !asked.every_probability;
+    let is_rarest_alone = asked.risk.has_targets_of_study() && !asked.every_probability;
     let (axes, study, spectra, head) = (file.axes_with_sites()?, file.stored_study()?, file.spectra()?, file.head()?);
     let poes = if is_rarest_alone { vec![poe_index(&spectra.poes, None)?] } else { (0..spectra.poes.len()).collect() };
     let places = strengths(&asked.strengths, &spectra.strengths)?;

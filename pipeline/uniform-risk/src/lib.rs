@@ -26,7 +26,7 @@ mod stripes;
 mod study_of_result;
 mod units;
 
-pub use asked::{AskedRisk, RiskTargets, at, stored_spectra};
+pub use asked::{AskedRisk, OneRisk, at, stored_spectra};
 pub use coefficients::{Coefficients, fit_ordinates, fit_spectra, fit_spectrum};
 pub use displacement::{
     CONFIDENCE, Displacement, DisplacementOptions, DisplacementReport, displacements, measure_index, site_index,

@@ -12,7 +12,6 @@ use uplift_result::{ResultFile, StoredRecords, urs};
 use uplift_risk::StripeWeights;
 use uplift_study::{MeasurePlan, UniformRiskStudy};
 
-use super::asked::{AskedRisk, RiskTargets};
 use crate::error::UniformRiskError;
 use crate::stored_stripes::{poe_index, weigh};
 
@@ -157,16 +156,12 @@ impl StudyOfResult {
         }
     }
 
-    /// Position of the one probability that was `asked` for; of the smallest of the study where none was.
+    /// Position of the smallest probability of the study, the only one where one was asked for.
     ///
     /// # Errors
-    /// [`JobError::Usage`] where several were.
-    pub fn only_risk(&self, asked: &AskedRisk) -> Result<usize, UniformRiskError> {
-        let poes = &self.study.risk.poe;
-        if asked.targets != RiskTargets::OfStudy && poes.len() > 1 {
-            return Err(JobError::Usage("one risk at a time: give one --poe or --return-period".to_owned()).into());
-        }
-        poe_index(poes, None)
+    /// None for a study that was checked.
+    pub fn rarest(&self) -> Result<usize, UniformRiskError> {
+        poe_index(&self.study.risk.poe, None)
     }
 
     /// Target rate of the probability at `poe`, 1/yr (Eq. 4.8).

@@ -1,8 +1,9 @@
 //! Uniform risk spectra for rocking structures: studies run from the first record to the result file.
 //!
 //! Every job is one call: what it works on, its options, and somebody to tell ([`Events`]; [`Silent`] for nobody) go
-//! in, a plain report comes out, which serialises. Nothing here prints, reads arguments or handles signals; a job that
-//! [`Events::cancelled`] stops keeps what is finished, and the same call goes on from there.
+//! in, a plain report comes out, which serialises. Options are declared once, as `clap::Args`: a command line flattens
+//! them. Nothing here prints or handles signals; a job that [`Events::cancelled`] stops keeps what is finished, and the
+//! same call goes on from there.
 //!
 //! # In this order
 //!
@@ -69,7 +70,7 @@
 //! | [`pushover`](mod@pushover), [`restrainer`] | columns under a static force; restrainers, stacks of a catalogue |
 //! | [`validate`](mod@validate) | whether computed peaks are distributed as measured ones |
 //! | [`outputs`] | files that a job is asked to write, and what they may overwrite |
-//! | [`text`] | numbers in words |
+//! | [`text`], [`typed`] | numbers in words; numbers as they are typed |
 
 mod error;
 pub mod init;
@@ -93,7 +94,7 @@ pub use uplift_inputs::{self as inputs, hazard_curves, import, records};
 pub use uplift_job::events::{Events, Phase, Silent};
 pub use uplift_job::{
     Array, COMMIT, JobError, ShapeError, VERSION, VERSION_AND_COMMIT, cause, events, lock, machine, outputs, study_run,
-    text,
+    text, typed,
 };
 pub use uplift_laboratory::{library, pulses, pushover, response, restrainer, validate};
 pub use uplift_questions::{bootstrap, efficiency, influence};
@@ -131,7 +132,7 @@ pub mod result {
     pub use uplift_job::table::{write_atomically, write_table};
     pub use uplift_result::*;
     pub use uplift_uniform_risk::{
-        AskedRisk, RecordUnits, RiskTargets, SpectraOfResult, StoredMeasure, StoredStripes, StudyOfResult, at,
+        AskedRisk, OneRisk, RecordUnits, SpectraOfResult, StoredMeasure, StoredStripes, StudyOfResult, at,
     };
 }
 

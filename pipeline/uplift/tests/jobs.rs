@@ -12,7 +12,7 @@ use uplift::bootstrap::{BootstrapOptions, bootstrap};
 use uplift::efficiency::{EfficiencyOptions, efficiency};
 use uplift::events::{Events, Phase};
 use uplift::influence::{InfluenceOptions, influence};
-use uplift::result::{AskedRisk, RiskTargets};
+use uplift::result::OneRisk;
 use uplift::structure::{DesignOptions, OverturningOptions, design, overturning};
 use uplift::study::{AnyStudy, Structure, Study};
 use uplift::{RunOptions, Silent, run};
@@ -260,8 +260,11 @@ fn efficiency_reports_what_it_writes() {
 #[test]
 fn a_design_starts_from_the_spectrum_in_the_file() {
     let folder = Folder::new();
-    let options =
-        DesignOptions { site: Some("there".to_owned()), risk: AskedRisk::probability(0.1), ..DesignOptions::default() };
+    let options = DesignOptions {
+        site: Some("there".to_owned()),
+        risk: OneRisk { poe: Some(0.1), ..OneRisk::default() },
+        ..DesignOptions::default()
+    };
     let events = Recorder::default();
     let report = design(&folder.block(), &folder.result(), &options, &events).unwrap();
     assert_eq!((report.site.as_str(), report.im, report.poe), ("There", "PGV", 0.1));
@@ -289,9 +292,8 @@ fn a_design_starts_from_the_spectrum_in_the_file() {
     let ask = |options: DesignOptions| design(&folder.block(), &folder.result(), &options, &Silent);
     assert!(is_choice(&ask(DesignOptions::default()), "--site"));
     assert!(is_choice(&ask(DesignOptions { site: Some("Nowhere".to_owned()), ..options.clone() }), "--site"));
-    let several = RiskTargets::Probabilities(vec![0.1, 0.3]);
-    for targets in [several, RiskTargets::Probabilities(vec![1.5]), RiskTargets::ReturnPeriods(vec![0.0])] {
-        let refused = ask(DesignOptions { risk: AskedRisk { targets, years: None }, ..options.clone() });
+    for (poe, return_period) in [(Some(1.5), None), (None, Some(0.0))] {
+        let refused = ask(DesignOptions { risk: OneRisk { poe, return_period, years: None }, ..options.clone() });
         assert!(matches!(job_error(&refused), Some(JobError::Usage(_))), "{refused:?}");
     }
     let safety = ask(DesignOptions { safety_factor: 0.5, ..options.clone() });

@@ -7,12 +7,13 @@ use uplift::response::{
     BlockResponseOptions, ComponentFile, FrameResponseOptions, ResponseOptions, Shaking, block_response,
     frame_response, response as respond,
 };
+use uplift::structure::frame_model;
 use uplift::study::Structure;
 use uplift_frame::Model;
 use uplift_motion::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use uplift_report::{check_figure_file, plot_block_response, plot_frame_response, plot_response};
 
-use super::arguments::{ForceArgument, model, number};
+use super::arguments::{ForceArgument, number};
 use crate::error::CommandError;
 use crate::show::{print_block_response, print_frame_response, print_json, print_response};
 use crate::terminal::Terminal;
@@ -142,7 +143,7 @@ struct FrameArguments {
     #[arg(long, value_name = "FILE", requires = "structure")]
     v: Option<PathBuf>,
     /// Model of the frame: planar or wobbling [default: by the shape of its columns]
-    #[arg(long, value_name = "MODEL", requires = "structure", value_parser = model)]
+    #[arg(long, value_name = "MODEL", requires = "structure", value_parser = frame_model)]
     model: Option<Model>,
     /// Rotation below which the frame rests, rad [default: 1e-5 wobbling, 0 planar]
     #[arg(long, value_name = "RAD", requires = "structure", allow_negative_numbers = true, value_parser = number)]

@@ -8,8 +8,7 @@ use uplift::run::{RunHead, RunReport};
 use uplift::text;
 use uplift::text::{Table, metres, risk_name};
 use uplift::uniform_risk::{
-    AskedRisk, BranchReport, DisplacementOptions, DisplacementReport, RiskTargets, RunReport as UniformRiskReport,
-    displacements,
+    AskedRisk, BranchReport, DisplacementOptions, DisplacementReport, RunReport as UniformRiskReport, displacements,
 };
 
 use super::alarms::print_result_warnings;
@@ -54,7 +53,7 @@ fn print_details(out: &mut impl Write, report: &UniformRiskReport, terminal: &Te
     let is_repaired = report.repaired.is_some();
     for measure in file.measures() {
         for repaired in [false, true].into_iter().filter(|repaired| is_repaired || !repaired) {
-            let risk = AskedRisk { targets: RiskTargets::Probabilities(axes.poes.clone()), years: None };
+            let risk = AskedRisk { poe: axes.poes.clone(), ..AskedRisk::default() };
             let asked =
                 DisplacementOptions { risk, measure: Some(measure), repaired, ..DisplacementOptions::default() };
             print_displacements(out, &displacements(&file, &asked)?, terminal)?;

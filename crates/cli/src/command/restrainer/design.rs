@@ -6,12 +6,13 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, ValueEnum};
 use uplift::restrainer::{DesignTarget, RestrainerDesignOptions, StopperOptions, design as compute};
+use uplift::result::OneRisk;
 use uplift::structure::DesignOptions;
 use uplift::study::Structure;
 use uplift_motion::IntensityMeasure;
 use uplift_statics::{Limits, Ranking, Tendon};
 
-use crate::command::arguments::{ForceArgument, OneRiskArguments, number};
+use crate::command::arguments::{ForceArgument, number};
 use crate::error::CommandError;
 use crate::show::{print_json, print_restrainer_design};
 use crate::terminal::Terminal;
@@ -59,7 +60,7 @@ pub(super) struct DesignArguments {
     #[arg(long, requires = "urs", help_heading = SPECTRUM)]
     site: Option<String>,
     #[command(flatten, next_help_heading = "By a spectrum")]
-    risk: OneRiskArguments,
+    risk: OneRisk,
     /// Intensity measure [default: pgv]
     #[arg(long, requires = "urs", help_heading = SPECTRUM)]
     measure: Option<IntensityMeasure>,
@@ -194,7 +195,7 @@ impl DesignArguments {
                 result: result.clone(),
                 options: Box::new(DesignOptions {
                     site: self.site.clone(),
-                    risk: self.risk.asked(),
+                    risk: self.risk,
                     measure: self.measure,
                     safety_factor: self.safety_factor,
                     proxy: self.proxy,

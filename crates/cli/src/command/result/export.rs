@@ -6,10 +6,11 @@ use clap::{Args, ValueEnum};
 use uplift::Events;
 use uplift::export::{ExportFormat, ExportOptions, export as export_result};
 use uplift::fragility::{FragilityFormat, FragilityOf, FragilityOptions, export_fragility};
+use uplift::result::AskedRisk;
 use uplift::study::Structure;
 use uplift_motion::IntensityMeasure;
 
-use crate::command::arguments::{ForceArgument, Numbers, RiskArguments, number_or_per_cent, numbers};
+use crate::command::arguments::{ForceArgument, Numbers, number_or_per_cent, numbers};
 use crate::error::CommandError;
 use crate::show::print_files;
 use crate::terminal::Terminal;
@@ -44,7 +45,7 @@ pub(crate) struct ExportArguments {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    risk: RiskArguments,
+    risk: AskedRisk,
     #[command(flatten)]
     overwriting: ForceArgument,
 }
@@ -143,7 +144,7 @@ pub(crate) fn export(arguments: &ExportArguments, terminal: &Terminal) -> Result
         result: arguments.result.clone(),
         formats: arguments.formats(),
         output: arguments.output.clone(),
-        risk: arguments.risk.asked(),
+        risk: arguments.risk.clone(),
         force: arguments.overwriting.force,
     };
     print_files(&export_result(&options, terminal)?.files, terminal)

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use uplift::result::AskedRisk;
 use uplift_report::{ReportOptions, report as write_report};
 
-use crate::command::arguments::{ForceArgument, RiskArguments};
+use crate::command::arguments::ForceArgument;
 use crate::error::CommandError;
 use crate::show::print_files;
 use crate::terminal::Terminal;
@@ -23,7 +24,7 @@ pub(crate) struct ReportArguments {
     #[arg(long, value_name = "PAGE.html")]
     explore: Option<PathBuf>,
     #[command(flatten)]
-    risk: RiskArguments,
+    risk: AskedRisk,
     #[command(flatten)]
     overwriting: ForceArgument,
 }
@@ -32,7 +33,7 @@ pub(crate) fn report(arguments: &ReportArguments, terminal: &Terminal) -> Result
     let options = ReportOptions {
         results: arguments.results.clone(),
         output: arguments.output.clone(),
-        risk: arguments.risk.asked(),
+        risk: arguments.risk.clone(),
         explore: arguments.explore.clone(),
         force: arguments.overwriting.force,
     };

@@ -1,11 +1,12 @@
 //! `uplift spectrum`: displacements at any strength and return period, with their confidence bands.
 
 use clap::Args;
+use uplift::result::AskedRisk;
 use uplift::spectrum::spectrum as read;
 use uplift::uniform_risk::DisplacementOptions;
 use uplift_motion::IntensityMeasure;
 
-use crate::command::arguments::{Numbers, ResultArguments, RiskArguments, number, numbers};
+use crate::command::arguments::{Numbers, ResultArguments, number, numbers};
 use crate::error::CommandError;
 use crate::show::{print_json, print_spectrum, print_spectrum_csv};
 use crate::terminal::Terminal;
@@ -27,7 +28,7 @@ pub(crate) struct SpectrumArguments {
     )]
     strength: Vec<Numbers>,
     #[command(flatten)]
-    risk: RiskArguments,
+    risk: AskedRisk,
     /// Sites [default: all]
     #[arg(long, value_name = "SITE[,…]", value_delimiter = ',')]
     site: Vec<String>,
@@ -52,7 +53,7 @@ pub(crate) fn spectrum(arguments: &SpectrumArguments, terminal: &Terminal) -> Re
     let found = arguments.result.find(terminal)?;
     let asked = DisplacementOptions {
         strengths: arguments.strength.iter().flat_map(|Numbers(all)| all.iter().copied()).collect(),
-        risk: arguments.risk.asked(),
+        risk: arguments.risk.clone(),
         sites: arguments.site.clone(),
         measure: arguments.measure,
         capacity_m: arguments.capacity_m,

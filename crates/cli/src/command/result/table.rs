@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use uplift::result::AskedRisk;
 use uplift::table::{TableMeasure, TableOptions, table as table_of};
 use uplift_motion::MotionError;
 
-use crate::command::arguments::RiskArguments;
 use crate::error::CommandError;
 use crate::show::{print_json, print_table};
 use crate::terminal::Terminal;
@@ -24,7 +24,7 @@ pub(crate) struct TableArguments {
     #[arg(long, alias = "im", value_name = "pgv|pga|sa_1s|...|all", value_parser = which_measure)]
     measure: Option<TableMeasure>,
     #[command(flatten)]
-    risk: RiskArguments,
+    risk: AskedRisk,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -43,7 +43,7 @@ pub(crate) fn table(arguments: &TableArguments, terminal: &Terminal) -> Result<(
         result: arguments.result.clone(),
         reference: arguments.reference.clone(),
         measure: arguments.measure.unwrap_or_default(),
-        risk: arguments.risk.asked(),
+        risk: arguments.risk.clone(),
     };
     let report = table_of(&options, terminal)?;
     if arguments.json { print_json(&report) } else { print_table(&report, &arguments.result, terminal) }

@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use uplift::alarms::every_alarm;
-use uplift::result::{ResultFile, at};
+use uplift::result::{AskedRisk, ResultFile, at};
 
-use crate::command::arguments::RiskArguments;
 use crate::error::CommandError;
 use crate::show::{print_all_warnings, print_json};
 
@@ -16,13 +15,13 @@ pub(crate) struct WarningsArguments {
     /// Result file
     result: PathBuf,
     #[command(flatten)]
-    risk: RiskArguments,
+    risk: AskedRisk,
     /// Print JSON
     #[arg(long)]
     json: bool,
 }
 
 pub(crate) fn warnings(arguments: &WarningsArguments) -> Result<(), CommandError> {
-    let alarms = every_alarm(&at(ResultFile::open(&arguments.result)?, &arguments.risk.asked())?)?;
+    let alarms = every_alarm(&at(ResultFile::open(&arguments.result)?, &arguments.risk)?)?;
     if arguments.json { print_json(&alarms) } else { print_all_warnings(&alarms, &arguments.result) }
 }

@@ -5,10 +5,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use uplift::structure::{OverturningOptions, overturning as run, overturning_shard};
-use uplift_motion::IntensityMeasure;
 use uplift_report::{check_figure_file, plot_overturning};
 
-use crate::command::arguments::{ForceArgument, StructureArguments, number};
+use crate::command::arguments::{ForceArgument, StructureArguments};
 use crate::error::CommandError;
 use crate::show::{print_json, print_overturning, print_shard};
 use crate::terminal::Terminal;
@@ -18,18 +17,8 @@ use crate::terminal::Terminal;
 pub(crate) struct OverturningArguments {
     #[command(flatten)]
     structure: StructureArguments,
-    /// Site [default: all]
-    #[arg(long)]
-    site: Option<String>,
-    /// Intensity measure [default: all]
-    #[arg(long)]
-    measure: Option<IntensityMeasure>,
-    /// Coefficient of restitution of both models
-    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
-    restitution: Option<f64>,
-    /// Count the proxy alone, without the wobbling frame
-    #[arg(long)]
-    proxy: bool,
+    #[command(flatten)]
+    options: OverturningOptions,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -50,13 +39,10 @@ pub(crate) fn overturning(arguments: &OverturningArguments, terminal: &Terminal)
     let StructureArguments { urs, manifest, shard, shards, .. } = &arguments.structure;
     let options = OverturningOptions {
         manifest: manifest.clone(),
-        site: arguments.site.clone(),
-        measure: arguments.measure,
-        restitution: arguments.restitution,
-        proxy: arguments.proxy,
-        table: arguments.output.clone(),
         shards: shards.clone(),
+        table: arguments.output.clone(),
         force: arguments.overwriting.force,
+        ..arguments.options.clone()
     };
     let structure = arguments.structure.load()?;
     if let Some(shard) = shard {

@@ -4,11 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use uplift::structure::{FrameRiskOptions, frame_risk as run, frame_risk_shard};
-use uplift_frame::Model;
-use uplift_motion::IntensityMeasure;
 use uplift_report::{check_figure_file, plot_frame_risk};
 
-use crate::command::arguments::{ForceArgument, OneRiskArguments, StructureArguments, model};
+use crate::command::arguments::{ForceArgument, StructureArguments};
 use crate::error::CommandError;
 use crate::show::{print_frame_risk, print_json, print_shard};
 use crate::terminal::Terminal;
@@ -18,17 +16,8 @@ use crate::terminal::Terminal;
 pub(crate) struct FrameRiskArguments {
     #[command(flatten)]
     structure: StructureArguments,
-    /// Site [default: the only one]
-    #[arg(long)]
-    site: Option<String>,
     #[command(flatten)]
-    risk: OneRiskArguments,
-    /// Intensity measure [default: pgv]
-    #[arg(long)]
-    measure: Option<IntensityMeasure>,
-    /// Model of the frame: wobbling or planar [default: by the shape of its columns]
-    #[arg(long, value_name = "MODEL", value_parser = model)]
-    model: Option<Model>,
+    options: FrameRiskOptions,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -49,13 +38,10 @@ pub(crate) fn risk(arguments: &FrameRiskArguments, terminal: &Terminal) -> Resul
     let StructureArguments { urs, manifest, shard, shards, .. } = &arguments.structure;
     let options = FrameRiskOptions {
         manifest: manifest.clone(),
-        site: arguments.site.clone(),
-        risk: arguments.risk.asked(),
-        measure: arguments.measure,
-        model: arguments.model,
-        table: arguments.output.clone(),
         shards: shards.clone(),
+        table: arguments.output.clone(),
         force: arguments.overwriting.force,
+        ..arguments.options.clone()
     };
     let structure = arguments.structure.load()?;
     if let Some(shard) = shard {

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args};
 use uplift::structure::{TargetEvent, TargetFrequency, TargetOptions, target as run};
+use uplift::typed::one_of;
 use uplift_motion::IntensityMeasure;
 use uplift_structure::Quantity;
 use uplift_study::Structure;
@@ -36,8 +36,8 @@ pub(crate) struct TargetArguments {
     #[arg(long)]
     measure: Option<IntensityMeasure>,
     /// Quantity to vary
-    #[arg(long, value_parser = PossibleValuesParser::new(Quantity::ALL.map(Quantity::key)))]
-    vary: String,
+    #[arg(long, value_parser = one_of(&Quantity::ALL, Quantity::key))]
+    vary: Quantity,
     /// Target annual rate of overturning, e.g. 2e-4
     #[arg(
         long, value_name = "PER_YEAR", allow_negative_numbers = true, value_parser = number, conflicts_with = "exceed"
@@ -123,8 +123,6 @@ impl TargetArguments {
             (None, Some(poe), _) => TargetFrequency::Probability(poe, self.years),
             (None, None, years) => TargetFrequency::ReturnPeriod(years.unwrap_or_default()),
         };
-        let quantity = Quantity::ALL.into_iter().find(|quantity| quantity.key() == self.vary);
-        let quantity = quantity.ok_or_else(|| CommandError::Usage(format!("--vary {}", self.vary)))?;
         Ok(TargetOptions {
             manifest: self.manifest.clone(),
             site: self.site.clone(),
@@ -137,7 +135,7 @@ impl TargetArguments {
             proxy: self.proxy,
             table: self.output.clone(),
             force: self.overwriting.force,
-            ..TargetOptions::new(quantity, event, frequency)
+            ..TargetOptions::new(self.vary, event, frequency)
         })
     }
 }

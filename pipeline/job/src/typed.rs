@@ -1,0 +1,98 @@
+//! Numbers and words as they are typed: what reads the options of jobs on a command line.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
+/// Heading of the options that few need.
+pub const RARE: &str = "Rarely needed";
+
+/// Reads the `key` of one of `all`.
+pub fn one_of<T: Copy + Send + Sync>(
+    all: &'static [T],
+    key: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(all.iter().map(|&one| key(one)))
+        .try_map(move |word| all.iter().copied().find(|&one| key(one) == word).ok_or("unknown"))
+}
+
+/// Reads `0.2` or `2e-4`; of a decimal comma it is said what to write, of a list that one number is wanted.
+///
+/// # Errors
+/// Text that is no number, with what to write.
+pub fn number(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    text.parse::<f64>().map_err(|_| {
+        let pointed = text.replace(',', ".");
+        let is_number = |part: &str| part.trim().parse::<f64>().is_ok();
+        match text.split_once(',') {
+            Some((whole, decimals)) if is_number(&pointed) && whole.len() + decimals.len() < 5 => {
+                format!("the decimal mark is a point: write {pointed}")
+            }
+            Some(_) if text.split(',').all(is_number) => {
+                "give one number, and repeat the command for the others".to_owned()
+            }
+            _ => "write a number, 0.2 or 2e-4, without a unit".to_owned(),
+        }
+    })
+}
+
+/// Reads `0.1`, `10%` or `10 %`. What it may be is said where it is used, but per cent outside 0 to 100 are refused
+/// here: there `150%` would be called 1.5.
+///
+/// # Errors
+/// Text that is neither, with what to write.
+pub fn number_or_per_cent(text: &str) -> Result<f64, String> {
+    let value = |number: &str| number.trim().parse::<f64>().map_err(|_| "write a probability, 0.1 or 10%".to_owned());
+    let Some(number) = text.trim().strip_suffix('%') else { return value(text) };
+    let per_cent = value(number)?;
+    if per_cent > 0.0 && per_cent < 100.0 {
+        Ok(per_cent / 100.0)
+    } else {
+        Err("a probability lies between 0 and 100 %".to_owned())
+    }
+}
+
+/// Reads a probability: `0.1`, `10%` or `10 %`.
+///
+/// # Errors
+/// Text that is none, with what to write.
+pub fn probability(text: &str) -> Result<f64, String> {
+    let value = number_or_per_cent(text)?;
+    if value > 0.0 && value < 1.0 {
+        return Ok(value);
+    }
+    let hint = if value > 1.0 && value < 100.0 { format!("; {value} per cent is {value}%") } else { String::new() };
+    Err(format!("a probability lies between 0 and 1{hint}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_decimal_comma_is_named() {
+        assert_eq!(number(" 2e-4"), Ok(2e-4));
+        assert!(number("0,2").is_err_and(|error| error.ends_with("write 0.2")));
+        for text in ["475,2475", "1,234,567"] {
+            assert!(number(text).is_err_and(|error| error.starts_with("give one number")), "{text}");
+        }
+        for text in ["0.2 m", "x", ""] {
+            assert!(number(text).is_err_and(|error| error.starts_with("write a number")), "{text}");
+        }
+    }
+
+    #[test]
+    fn numbers_and_per_cent() {
+        for (text, value) in [("0.1", 0.1), ("10%", 0.1), ("10 %", 0.1), ("2%", 0.02), ("1e-9", 1e-9), ("0.5 %", 0.005)]
+        {
+            assert_eq!(probability(text), Ok(value), "{text}");
+        }
+        for (text, words) in [
+            ("10", "10 per cent is 10%"),
+            ("0", "between 0 and 1"),
+            ("200%", "between 0 and 100 %"),
+            ("x", "0.1 or 10%"),
+        ] {
+            assert!(probability(text).is_err_and(|error| error.contains(words)), "{text}");
+        }
+    }
+}
