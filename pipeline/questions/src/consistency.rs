@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::write_table;
@@ -17,17 +18,30 @@ use uplift_uniform_risk::consistency::{
 use crate::error::QuestionsError;
 
 /// What is done beyond asking.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Args)]
 pub struct ConsistencyOptions {
-    /// Whether weights are solved, and the spectra made of them, whatever the study says.
+    /// Weight the records to match both hazard curves, and add the repaired spectra
+    #[arg(long)]
     pub repair: bool,
-    /// Whether the weight of every run is kept in the file.
+    /// Keep every weight in the result; implies --repair
+    #[arg(long)]
     pub keep_weights: bool,
-    /// Disaggregations of the site's hazard, tables of the engine: each with the site that it is of, none where the
-    /// result has but one.
+    /// Disaggregation (`OpenQuake`) to compare with the records
+    #[arg(long = "disaggregation", value_name = "[SITE=]FILE", value_parser = site_and_file)]
     pub disaggregations: Vec<(Option<String>, PathBuf)>,
     /// Whether existing files are overwritten.
+    #[arg(skip)]
     pub force: bool,
+}
+
+/// `Athens=Mag_Dist-mean-0.csv`, or a file alone.
+#[expect(clippy::unnecessary_wraps, reason = "as clap calls it")]
+fn site_and_file(text: &str) -> Result<(Option<String>, PathBuf), String> {
+    Ok(match text.split_once('=') {
+        // a file may be called so
+        Some((site, file)) if !Path::new(text).exists() => (Some(site.trim().to_owned()), file.into()),
+        _ => (None, text.into()),
+    })
 }
 
 /// Whether the records of the result at `result` bring the hazard of the other measure, and if asked for the spectra of

@@ -2,12 +2,14 @@
 
 use std::path::Path;
 
+use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 use uplift_bootstrap::{repaired_truth_limits, truth_limits};
 use uplift_hazard::rate_from_probability;
 use uplift_job::table::{ColumnsOf, table_text};
 use uplift_job::text::nearest;
+use uplift_job::typed::number;
 use uplift_job::{Array, JobError};
 use uplift_motion::IntensityMeasure;
 use uplift_result::{MeasureSpectra, ResultFile};
@@ -26,21 +28,28 @@ pub const CONFIDENCE: f64 = 0.9;
 pub(crate) const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
 
 /// What displacements are asked for.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Args)]
 pub struct DisplacementOptions {
     /// Uplift strengths; the nearest of the result to 0.1, 0.2 and 0.4 where none are given.
+    #[arg(skip)]
     pub strengths: Vec<f64>,
     /// Risks; the smallest probability of the study where none are given.
+    #[command(flatten)]
     pub risk: AskedRisk,
     /// Whether all probabilities of the study are read where no risks are given.
+    #[arg(skip)]
     pub every_probability: bool,
-    /// Sites; all where none are given.
+    /// Sites [default: all]
+    #[arg(long = "site", value_name = "SITE[,…]", value_delimiter = ',')]
     pub sites: Vec<String>,
-    /// Intensity measure of the stripes; the first of the result where none is given.
+    /// Intensity measure that records are scaled by [default: pgv]
+    #[arg(long, alias = "im", value_name = "pgv|pga|sa_1s|...")]
     pub measure: Option<IntensityMeasure>,
-    /// Displacement capacity of an oscillator of negative stiffness, m; without it the stiffness after uplift is zero.
+    /// Displacement capacity, m: stiffness is negative after uplift (equal energy)
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub capacity_m: Option<f64>,
-    /// Whether the spectra of repaired weights are read.
+    /// Read the spectra repaired for hazard consistency
+    #[arg(long)]
     pub repaired: bool,
 }
 

@@ -11,7 +11,7 @@ pub(crate) use keep::KeepArgument;
 pub(crate) use result::ResultArguments;
 pub(crate) use structure::StructureArguments;
 pub(crate) use study::{StudyArguments, command_line, run_options, shard};
-pub(crate) use uplift::typed::{RARE, number, number_or_per_cent, probability};
+pub(crate) use uplift::typed::{RARE, number, number_or_per_cent};
 
 use std::path::Path;
 

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
+use clap::Args;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::typed::{number, probability};
 use uplift_job::{Array, JobError};
 use uplift_result::LockedResult;
 use uplift_uniform_risk::StoredStripes;
@@ -15,15 +17,19 @@ use super::write::{influence_path, write_influence};
 use crate::error::QuestionsError;
 
 /// The report on the influence; the files hold all of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Args)]
 pub struct InfluenceOptions {
-    /// The probability of exceedance whose risk is taken apart, one of the result; the smallest where none is given.
-    pub poe: Option<f64>,
-    /// The same by its return period, years, in place of `poe`.
-    pub return_period: Option<f64>,
-    /// Records of each spectrum.
+    /// Number of records shown for each site
+    #[arg(long, value_name = "N", default_value_t = InfluenceOptions::default().top)]
     pub top: usize,
+    /// Probability of exceedance, 0.1 or 10% [default: the smallest]
+    #[arg(long, value_parser = probability)]
+    pub poe: Option<f64>,
+    /// Return period in years instead
+    #[arg(long, value_name = "YEARS", conflicts_with = "poe", value_parser = number)]
+    pub return_period: Option<f64>,
     /// Whether existing files are overwritten.
+    #[arg(skip)]
     pub force: bool,
 }
 

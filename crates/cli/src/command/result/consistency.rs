@@ -1,7 +1,5 @@
 //! `uplift consistency`: whether the records bring the hazard of the other measure, and weights by which they do.
 
-use std::path::{Path, PathBuf};
-
 use clap::{Args, ValueEnum};
 use uplift::consistency::{ConsistencyOptions, ConsistencyReport, consistency as run};
 
@@ -17,35 +15,14 @@ use crate::terminal::Terminal;
 pub(crate) struct ConsistencyArguments {
     #[command(flatten)]
     result: ResultArguments,
-    /// Weight the records to match both hazard curves, and add the repaired spectra
-    #[arg(long)]
-    repair: bool,
-    /// Keep every weight in the result; implies --repair
-    #[arg(long)]
-    keep_weights: bool,
-    /// Disaggregation (`OpenQuake`) to compare with the records
-    #[arg(
-        long = "disaggregation",
-        value_name = "[SITE=]FILE",
-        value_parser = site_and_file
-    )]
-    disaggregations: Vec<(Option<String>, PathBuf)>,
+    #[command(flatten)]
+    options: ConsistencyOptions,
     /// Fail with exit code 4 if any verdict is worse than this
     #[arg(long, value_name = "VERDICT")]
     require: Option<Required>,
     /// Print JSON
     #[arg(long)]
     json: bool,
-}
-
-/// `Athens=Mag_Dist-mean-0.csv`, or a file alone.
-#[expect(clippy::unnecessary_wraps, reason = "as clap calls it")]
-fn site_and_file(text: &str) -> Result<(Option<String>, PathBuf), String> {
-    Ok(match text.split_once('=') {
-        // a file may be called so
-        Some((site, file)) if !Path::new(text).exists() => (Some(site.trim().to_owned()), file.into()),
-        _ => (None, text.into()),
-    })
 }
 
 /// The worst verdict that is taken.
@@ -70,10 +47,9 @@ impl Required {
 pub(crate) fn consistency(arguments: &ConsistencyArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let found = arguments.result.find(terminal)?;
     let options = ConsistencyOptions {
-        repair: arguments.repair || found.repair,
-        keep_weights: arguments.keep_weights,
-        disaggregations: arguments.disaggregations.clone(),
+        repair: arguments.options.repair || found.repair,
         force: arguments.result.force(),
+        ..arguments.options.clone()
     };
     let report = run(&found.path, &options, terminal)?;
     if arguments.json {

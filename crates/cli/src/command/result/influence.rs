@@ -3,7 +3,7 @@
 use clap::Args;
 use uplift::influence::{InfluenceOptions, influence as run};
 
-use crate::command::arguments::{ResultArguments, number, probability};
+use crate::command::arguments::ResultArguments;
 use crate::error::CommandError;
 use crate::show::{print_influence, print_json};
 use crate::terminal::Terminal;
@@ -13,15 +13,8 @@ use crate::terminal::Terminal;
 pub(crate) struct InfluenceArguments {
     #[command(flatten)]
     result: ResultArguments,
-    /// Number of records shown for each site
-    #[arg(long, value_name = "N", default_value_t = InfluenceOptions::default().top)]
-    top: usize,
-    /// Probability of exceedance, 0.1 or 10% [default: the smallest]
-    #[arg(long, value_parser = probability)]
-    poe: Option<f64>,
-    /// Return period in years instead
-    #[arg(long, value_name = "YEARS", conflicts_with = "poe", value_parser = number)]
-    return_period: Option<f64>,
+    #[command(flatten)]
+    options: InfluenceOptions,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -29,12 +22,7 @@ pub(crate) struct InfluenceArguments {
 
 pub(crate) fn influence(arguments: &InfluenceArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let found = arguments.result.find(terminal)?;
-    let options = InfluenceOptions {
-        poe: arguments.poe,
-        return_period: arguments.return_period,
-        top: arguments.top,
-        force: arguments.result.force(),
-    };
+    let options = InfluenceOptions { force: arguments.result.force(), ..arguments.options };
     let report = run(&found.path, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_influence(&report, terminal) }
 }

@@ -1,12 +1,10 @@
 //! `uplift spectrum`: displacements at any strength and return period, with their confidence bands.
 
 use clap::Args;
-use uplift::result::AskedRisk;
 use uplift::spectrum::spectrum as read;
 use uplift::uniform_risk::DisplacementOptions;
-use uplift_motion::IntensityMeasure;
 
-use crate::command::arguments::{Numbers, ResultArguments, number, numbers};
+use crate::command::arguments::{Numbers, ResultArguments, numbers};
 use crate::error::CommandError;
 use crate::show::{print_json, print_spectrum, print_spectrum_csv};
 use crate::terminal::Terminal;
@@ -28,19 +26,7 @@ pub(crate) struct SpectrumArguments {
     )]
     strength: Vec<Numbers>,
     #[command(flatten)]
-    risk: AskedRisk,
-    /// Sites [default: all]
-    #[arg(long, value_name = "SITE[,…]", value_delimiter = ',')]
-    site: Vec<String>,
-    /// Intensity measure that records are scaled by [default: pgv]
-    #[arg(long, alias = "im", value_name = "pgv|pga|sa_1s|...")]
-    measure: Option<IntensityMeasure>,
-    /// Displacement capacity, m: stiffness is negative after uplift (equal energy)
-    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
-    capacity_m: Option<f64>,
-    /// Read the spectra repaired for hazard consistency
-    #[arg(long)]
-    repaired: bool,
+    options: DisplacementOptions,
     /// Print JSON
     #[arg(long, conflicts_with = "csv")]
     json: bool,
@@ -51,15 +37,8 @@ pub(crate) struct SpectrumArguments {
 
 pub(crate) fn spectrum(arguments: &SpectrumArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let found = arguments.result.find(terminal)?;
-    let asked = DisplacementOptions {
-        strengths: arguments.strength.iter().flat_map(|Numbers(all)| all.iter().copied()).collect(),
-        risk: arguments.risk.clone(),
-        sites: arguments.site.clone(),
-        measure: arguments.measure,
-        capacity_m: arguments.capacity_m,
-        repaired: arguments.repaired,
-        ..DisplacementOptions::default()
-    };
+    let strengths = arguments.strength.iter().flat_map(|Numbers(all)| all.iter().copied()).collect();
+    let asked = DisplacementOptions { strengths, ..arguments.options.clone() };
     let report = read(&found.path, &asked)?;
     match (arguments.json, arguments.csv) {
         (true, _) => print_json(&report),
