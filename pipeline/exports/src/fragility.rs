@@ -7,6 +7,7 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
 use serde::Serialize;
 use uplift_design::{LimitOptions, independent_records, limit_stripes};
 use uplift_fragility::{NrmlFunction, Stripes as Stripe, nrml_model};
@@ -23,9 +24,11 @@ use crate::error::ExportsError;
 use curves::{Fragility, displacement_limits};
 
 /// Formats of fragilities.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(clippy::doc_markdown, reason = "what completions show has no backticks")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum FragilityFormat {
-    /// A fragility model of `OpenQuake` (NRML 0.5): counted shares, and lognormal functions of them.
+    /// A fragility model of OpenQuake (NRML 0.5): counted shares, and lognormal functions of them.
+    #[value(name = "openquake")]
     OpenQuake,
     /// A fragility table of pelicun 3: counted shares, and lognormal functions of them.
     Pelicun,

@@ -1,7 +1,5 @@
 //! `uplift protocol`: cyclic loading protocols.
 
-#![allow(clippy::doc_markdown)] // what --help prints has no backticks
-
 use std::path::PathBuf;
 
 use clap::Args;
@@ -47,12 +45,8 @@ impl ProtocolShape {
 pub(super) struct ProtocolArguments {
     #[command(flatten)]
     shape: ProtocolShape,
-    /// Points in a quarter of a cycle
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    parts: u32,
-    /// Write drift over time
-    #[arg(short, long, value_name = "FILE.csv")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    options: ProtocolOptions,
     /// Draw the protocol
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
@@ -69,12 +63,7 @@ pub(super) fn protocol(arguments: &ProtocolArguments, terminal: &Terminal) -> Re
         let nothing: [PathBuf; 0] = [];
         check_figure_file(figure, &nothing, force)?;
     }
-    let options = ProtocolOptions {
-        protocol: arguments.shape.protocol()?,
-        parts: arguments.parts,
-        table: arguments.output.clone(),
-        force,
-    };
+    let options = ProtocolOptions { protocol: arguments.shape.protocol()?, force, ..arguments.options.clone() };
     let mut report = compute(&options, terminal)?;
     if let Some(figure) = &arguments.plot {
         plot_protocol(&report, figure)?;

@@ -9,7 +9,7 @@ use uplift::pushover::{PushoverOptions, pushover as compute};
 use uplift::study::Structure;
 use uplift_report::{check_figure_file, plot_pushover};
 
-use super::arguments::{ForceArgument, number};
+use super::arguments::ForceArgument;
 use super::protocol::ProtocolShape;
 use crate::error::CommandError;
 use crate::show::{print_json, print_pushover};
@@ -21,23 +21,8 @@ use crate::terminal::Terminal;
 pub(super) struct PushoverArguments {
     /// Structure file
     structure: PathBuf,
-    /// Largest displacement, m [default: a little beyond the capacity]
-    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
-    to_m: Option<f64>,
-    /// Number of rows
-    #[arg(long, value_name = "N", default_value_t = PushoverOptions::default().rows)]
-    rows: u32,
-    /// Add the linearised law (Eq. 5.2 to 5.7, 6.1, 6.2)
-    #[arg(long)]
-    linear: bool,
-    /// Add linear restrainers of these stiffnesses, N/m
-    #[arg(
-        long, value_name = "K[,K…]", value_delimiter = ',', allow_negative_numbers = true, value_parser = number
-    )]
-    stiffness_n_m: Vec<f64>,
-    /// Number of lost tendons
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    lost: u32,
+    #[command(flatten)]
+    options: PushoverOptions,
     /// Apply a cyclic loading protocol
     #[arg(long)]
     protocol: bool,
@@ -66,15 +51,11 @@ pub(super) fn pushover(arguments: &PushoverArguments, terminal: &Terminal) -> Re
         check_figure_file(figure, &inputs, force)?;
     }
     let options = PushoverOptions {
-        to_m: arguments.to_m,
-        rows: arguments.rows,
-        linear: arguments.linear,
-        stiffnesses_n_m: arguments.stiffness_n_m.clone(),
-        lost: arguments.lost,
         protocol: arguments.protocol.then(|| arguments.shape.protocol()).transpose()?,
         measured: arguments.measured.clone(),
         table: arguments.output.clone(),
         force,
+        ..arguments.options.clone()
     };
     let structure = Structure::load(&arguments.structure)?;
     let mut report = compute(&structure, &options, terminal)?;

@@ -1,7 +1,5 @@
 //! `uplift restrainer`: tendons and disc springs, looked at and chosen.
 
-#![allow(clippy::doc_markdown)] // what --help prints has no backticks
-
 mod design;
 
 use std::path::PathBuf;
@@ -11,7 +9,7 @@ use uplift::restrainer::{RestrainerCurveOptions, curve as compute};
 use uplift::study::RestrainerFile;
 use uplift_report::{check_figure_file, plot_restrainer};
 
-use super::arguments::{ForceArgument, number};
+use super::arguments::ForceArgument;
 use crate::error::CommandError;
 use crate::show::{print_json, print_restrainer_curve};
 use crate::terminal::Terminal;
@@ -42,15 +40,8 @@ pub(super) fn restrainer(arguments: &RestrainerArguments, terminal: &Terminal) -
 struct CurveArguments {
     /// File with the table [restrainer]
     restrainer: PathBuf,
-    /// Largest elongation, m [default: flat springs or yield]
-    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
-    to_m: Option<f64>,
-    /// Number of rows
-    #[arg(long, value_name = "N", default_value_t = RestrainerCurveOptions::default().rows)]
-    rows: u32,
-    /// Write the rows
-    #[arg(short, long, value_name = "FILE.csv")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    options: RestrainerCurveOptions,
     /// Draw springs and restrainer
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
@@ -66,8 +57,7 @@ fn curve(arguments: &CurveArguments, terminal: &Terminal) -> Result<(), CommandE
     if let Some(figure) = &arguments.plot {
         check_figure_file(figure, &[&arguments.restrainer], force)?;
     }
-    let options =
-        RestrainerCurveOptions { to_m: arguments.to_m, rows: arguments.rows, table: arguments.output.clone(), force };
+    let options = RestrainerCurveOptions { force, ..arguments.options.clone() };
     let mut report = compute(&RestrainerFile::load(&arguments.restrainer)?, &options, terminal)?;
     if let Some(figure) = &arguments.plot {
         plot_restrainer(&report, figure)?;

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde::Serialize;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
@@ -14,15 +15,19 @@ use crate::error::LaboratoryError;
 const PARTS: u32 = 40;
 
 /// A protocol as asked for.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct ProtocolOptions {
     /// The protocol.
+    #[arg(skip)]
     pub protocol: LoadingProtocol,
-    /// Points in a quarter of a cycle.
+    /// Points in a quarter of a cycle
+    #[arg(long, value_name = "N", default_value_t = 1)]
     pub parts: u32,
-    /// Where its history is written, CSV.
+    /// Write drift over time
+    #[arg(short = 'o', long = "output", value_name = "FILE.csv")]
     pub table: Option<PathBuf>,
     /// Whether an existing file there is overwritten.
+    #[arg(skip)]
     pub force: bool,
 }
 

@@ -2,10 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde::Serialize;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::typed::number;
 use uplift_statics::{
     Capacity, Event, EventKind, LinearState, LoadingProtocol, PushoverState, RestrainedColumns, TendonPath, tilt,
 };
@@ -17,25 +19,37 @@ use super::tables;
 use crate::error::LaboratoryError;
 
 /// What is asked of a pushover.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct PushoverOptions {
-    /// Displacement up to which rows are computed, m; a little beyond the capacity where none is given.
+    /// Largest displacement, m [default: a little beyond the capacity]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub to_m: Option<f64>,
-    /// Rows, evenly spaced from 0.
+    /// Number of rows
+    #[arg(long, value_name = "N", default_value_t = PushoverOptions::default().rows)]
     pub rows: u32,
-    /// The linearised law beside the exact one.
+    /// Add the linearised law (Eq. 5.2 to 5.7, 6.1, 6.2)
+    #[arg(long)]
     pub linear: bool,
-    /// Linear restrainers of these stiffnesses (N/m) beside the structure's own.
+    /// Add linear restrainers of these stiffnesses, N/m
+    #[arg(
+        long = "stiffness-n-m", value_name = "K[,K…]", value_delimiter = ',', allow_negative_numbers = true,
+        value_parser = number
+    )]
     pub stiffnesses_n_m: Vec<f64>,
-    /// Tendons that are lost.
+    /// Number of lost tendons
+    #[arg(long, value_name = "N", default_value_t = 0)]
     pub lost: u32,
     /// A loading protocol that the columns are put through.
+    #[arg(skip)]
     pub protocol: Option<LoadingProtocol>,
     /// A measured curve, CSV, that is laid over.
+    #[arg(skip)]
     pub measured: Option<PathBuf>,
     /// Where the rows are written, CSV; those of the protocol where there is one.
+    #[arg(skip)]
     pub table: Option<PathBuf>,
     /// Whether existing files are overwritten.
+    #[arg(skip)]
     pub force: bool,
 }
 

@@ -2,11 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde::Serialize;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::{ColumnsOf, write_table};
+use uplift_job::typed::number;
 use uplift_plausible::ELONGATION;
 use uplift_statics::{Restrainer, Spring, Threshold};
 use uplift_study::RestrainerFile;
@@ -18,16 +20,19 @@ use crate::pushover::{anchorage_word, check_rows};
 const CURVE_COLUMN: &str = "spring_secant_n_m";
 
 /// What is asked of a curve.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct RestrainerCurveOptions {
-    /// Elongation up to which rows are computed, m; to flat springs, to the yield of the tendon or to 50 mm where none
-    /// is given.
+    /// Largest elongation, m [default: flat springs or yield]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub to_m: Option<f64>,
-    /// Rows, evenly spaced from 0.
+    /// Number of rows
+    #[arg(long, value_name = "N", default_value_t = RestrainerCurveOptions::default().rows)]
     pub rows: u32,
-    /// Where they are written, CSV.
+    /// Write the rows
+    #[arg(short = 'o', long = "output", value_name = "FILE.csv")]
     pub table: Option<PathBuf>,
     /// Whether an existing file there is overwritten.
+    #[arg(skip)]
     pub force: bool,
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use serde::Serialize;
 use uplift_ida::Watch;
@@ -9,6 +10,7 @@ use uplift_job::JobError;
 use uplift_job::events::{Events, Progress};
 use uplift_job::machine::require_memory;
 use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::typed::number;
 use uplift_validation::{BandRule, ValidationError, holm_adjusted};
 
 use super::group::{GroupReport, memory_of_group};
@@ -26,47 +28,66 @@ const MEMORY_OF_A_BYTE: u64 = 80;
 const USUAL_KEY: &str = "exc_id";
 
 /// Which p of the Kolmogorov–Smirnov test decides.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum PRule {
-    /// Of all orders of the values.
+    /// Of all orders of the values
     #[default]
     Exact,
-    /// By Kolmogorov's distribution.
+    /// By Kolmogorov's distribution
     Kolmogorov,
-    /// By the formula of MATLAB's `kstest2`, which Table 6.2 prints.
+    /// By the formula of MATLAB's kstest2
     Kstest2,
 }
 
+/// Heading of the options of the statistics.
+const STATISTICS: &str = "Statistics";
+
 /// What is compared, and how.
-#[derive(Debug, Clone, PartialEq)]
+#[expect(clippy::doc_markdown, reason = "what --help prints has no backticks")]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct ValidateOptions {
-    /// Table of measured peaks, CSV.
+    /// Measured peaks: CSV with a header, or a shake table's result
     pub measured: PathBuf,
-    /// Table of computed peaks, CSV.
+    /// Computed peaks: CSV with a header, or a shake table's result
     pub computed: PathBuf,
-    /// Column of the peaks, its unit at its end; either table may have it in another unit.
+    /// Column of the peaks with its unit
+    #[arg(long, value_name = "COLUMN", default_value = "u_m")]
     pub value: String,
-    /// Columns that say which rows are of the same motion; `exc_id` where none are given, if both tables have it.
+    /// Columns that identify a motion [default: exc_id, if there]
+    #[arg(long, value_name = "COLUMN[,…]", value_delimiter = ',')]
     pub key: Vec<String>,
-    /// Columns by whose values the peaks are grouped. Groups are those of every combination, and of all values of the
-    /// first.
+    /// Columns to group by
+    #[arg(long, value_name = "COLUMN[,…]", value_delimiter = ',')]
     pub by: Vec<String>,
-    /// Which p decides.
+    /// p-value of the Kolmogorov-Smirnov test (Table 6.2 has kstest2)
+    #[arg(long = "p", value_name = "P", value_enum, default_value_t = PRule::Exact, help_heading = STATISTICS)]
     pub p_rule: PRule,
-    /// Significance that the power is for.
-    pub significance: f64,
-    /// Replicates of bands, and of swaps.
-    pub replicates: u32,
-    /// Their seed.
-    pub seed: u64,
-    /// Also p by swaps within pairs.
+    /// Add the p-value by permutations within pairs
+    #[arg(long, help_heading = STATISTICS)]
     pub permutation: bool,
+    /// Significance level of the power
+    #[arg(
+        long, value_name = "P", default_value_t = ValidateOptions::default().significance,
+        allow_negative_numbers = true, value_parser = number, help_heading = STATISTICS
+    )]
+    pub significance: f64,
+    /// Number of resamples and permutations
+    #[arg(
+        long, value_name = "N", default_value_t = ValidateOptions::default().replicates, help_heading = STATISTICS
+    )]
+    pub replicates: u32,
+    /// Random seed
+    #[arg(long, value_name = "N", default_value_t = ValidateOptions::default().seed, help_heading = STATISTICS)]
+    pub seed: u64,
     /// Band of the measured distribution.
+    #[arg(skip)]
     pub band: BandRule,
     /// Where the statistics are written, CSV.
+    #[arg(skip)]
     pub table: Option<PathBuf>,
     /// Whether existing files are overwritten.
+    #[arg(skip)]
     pub force: bool,
 }
 

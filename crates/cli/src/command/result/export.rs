@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use uplift::Events;
 use uplift::export::{ExportFormat, ExportOptions, export as export_result};
 use uplift::fragility::{FragilityFormat, FragilityOf, FragilityOptions, export_fragility};
@@ -56,7 +56,7 @@ struct FragilityArguments {
     /// Fragilities for another program, in place of spectra
     #[arg(long, value_enum, value_name = "openquake|pelicun|csv", hide_possible_values = true,
         conflicts_with_all = ["csv", "json", "mat", "xlsx", "web", "poe", "return_period", "years"])]
-    fragility: Option<Program>,
+    fragility: Option<FragilityFormat>,
     /// Displacements that are exceeded, m
     #[arg(long, value_name = "M[,…]", allow_negative_numbers = true, value_parser = numbers,
         requires_all = ["fragility", "strength"])]
@@ -78,15 +78,6 @@ struct FragilityArguments {
     /// Intensity measure of the fragilities [default: all]
     #[arg(long, requires = "fragility")]
     measure: Option<IntensityMeasure>,
-}
-
-/// Whose fragilities.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum Program {
-    #[value(name = "openquake")]
-    OpenQuake,
-    Pelicun,
-    Csv,
 }
 
 impl FragilityArguments {
@@ -121,14 +112,10 @@ impl ExportArguments {
 }
 
 pub(crate) fn export(arguments: &ExportArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    if let Some(program) = arguments.fragility.fragility {
+    if let Some(format) = arguments.fragility.fragility {
         let options = FragilityOptions {
             result: arguments.result.clone(),
-            format: match program {
-                Program::OpenQuake => FragilityFormat::OpenQuake,
-                Program::Pelicun => FragilityFormat::Pelicun,
-                Program::Csv => FragilityFormat::Csv,
-            },
+            format,
             of: arguments.fragility.of()?,
             measure: arguments.fragility.measure,
             output: arguments.output.clone(),
