@@ -7,9 +7,11 @@ mod design;
 mod tests_of_table;
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
+use clap::Args;
 use serde::Serialize;
-use uplift_motion::IntensityMeasure;
+use uplift_motion::{IntensityMeasure, MotionError};
 use uplift_study::Structure;
 
 pub use coefficients::{COMPARED_ABOVE, CoefficientRow, CoefficientTable, ReferenceFit};
@@ -28,41 +30,50 @@ use uplift_uniform_risk::{AskedRisk, at};
 
 use crate::error::ExportsError;
 
-/// Which table, and what stands beside it.
-#[derive(Debug, Clone, PartialEq)]
+/// Which table, and what stands beside it: a CSV table which for uniform risk spectra has the columns `site`, `poe_50y`
+/// (or `poe`), `c0_m`, `c1`, `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and,
+/// for oscillators, `rule`; for a shaking table `level` and `exc_id` in the order of the tests. Displacement spectra have
+/// neither measure nor risk.
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct TableOptions {
-    /// The result file, or a structure file.
+    /// Result file, or a structure file with columns
     pub result: PathBuf,
-    /// CSV table to compare with: for uniform risk spectra with the columns `site`, `poe_50y` (or `poe`), `c0_m`, `c1`,
-    /// `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and, for oscillators,
-    /// `rule`; for a shaking table `level` and `exc_id` in the order of the tests.
+    /// Table to compare with
+    #[arg(long, value_name = "FILE.csv")]
     pub reference: Option<PathBuf>,
-    /// By which intensity measures; not of displacement spectra.
-    pub measure: TableMeasure,
-    /// The risks of the spectra; not of displacement spectra.
+    /// Intensity measure [default: pgv]
+    #[arg(long, alias = "im", value_name = "pgv|pga|sa_1s|...|all")]
+    pub measure: Option<TableMeasure>,
+    /// The risks of the spectra.
+    #[command(flatten)]
     pub risk: AskedRisk,
 }
 
 /// By which intensity measures the rows of a table are.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TableMeasure {
-    /// PGV, as Table 4.2 is, or the first measure of a study without it; what is to be known of the result is reported
-    /// as a whole.
-    #[default]
-    Usual,
     /// This one, and what is to be known of it alone.
     Only(IntensityMeasure),
     /// Every measure of the result.
     All,
 }
 
-impl TableMeasure {
-    /// The measure of the rows of a result that has spectra by `known` ones, in order; none for all.
-    pub(crate) fn of_rows(self, known: &[IntensityMeasure]) -> Option<IntensityMeasure> {
-        match self {
-            Self::Usual => Some(known.first().copied().unwrap_or(IntensityMeasure::Pgv)),
-            Self::Only(measure) => Some(measure),
-            Self::All => None,
+impl FromStr for TableMeasure {
+    type Err = MotionError;
+
+    fn from_str(word: &str) -> Result<Self, MotionError> {
+        if word.trim().eq_ignore_ascii_case("all") { Ok(Self::All) } else { word.parse().map(Self::Only) }
+    }
+}
+
+impl TableOptions {
+    /// The measure of the rows of a result that has spectra by `known` ones, in order; none for all. Where none is asked
+    /// for it is PGV, as Table 4.2 is, or the first measure of a study without it.
+    pub(crate) fn measure_of_rows(&self, known: &[IntensityMeasure]) -> Option<IntensityMeasure> {
+        match self.measure {
+            None => Some(known.first().copied().unwrap_or(IntensityMeasure::Pgv)),
+            Some(TableMeasure::Only(measure)) => Some(measure),
+            Some(TableMeasure::All) => None,
         }
     }
 }
@@ -110,13 +121,13 @@ pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport,
     // bands tell which measures disagree, at whatever risk
     let file = resampled(file, events)?;
     let mut alarms = match options.measure {
-        TableMeasure::Only(measure) if file.kind() == Kind::UniformRisk => {
+        Some(TableMeasure::Only(measure)) if file.kind() == Kind::UniformRisk => {
             alarms_of(&file, &Scope { measure: Some(measure), ..Scope::default() })
         }
         _ => alarms(&file),
     }?;
     if let TableRows::Coefficients(_) = rows {
-        alarms.extend(fit_alarms(&file, options.measure.of_rows(&file.measures()))?);
+        alarms.extend(fit_alarms(&file, options.measure_of_rows(&file.measures()))?);
     }
     Ok(TableReport { rows, alarms: ranked(alarms) })
 }

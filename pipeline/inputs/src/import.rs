@@ -14,6 +14,7 @@ mod warnings;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use clap::{ArgAction, Args};
 use polars::prelude::Column;
 use serde::Serialize;
 
@@ -34,18 +35,22 @@ use uplift_job::table::{table_text, write_atomically};
 const WANTED: [&str; 3] = ["magnitude", "rrup_km", "vs30"];
 
 /// Which folder is imported, and where its manifest goes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct ImportOptions {
-    /// Folder with record files, in folders of their own or not; or a zip archive of such, which is unpacked into a
-    /// folder of its name beside the manifest.
+    /// Folder with record files, or the zip archive of PEER
+    #[arg(value_name = "FOLDER|ZIP")]
     pub folder: PathBuf,
-    /// The manifest, CSV; a folder that is there gets a `manifest.csv`.
+    /// Manifest to write (CSV), or a folder for it
+    #[arg(short, long, value_name = "SET")]
     pub output: PathBuf,
     /// What the files do not say.
+    #[command(flatten)]
     pub files: FileOptions,
-    /// Whether velocity pulses are sought, which takes most of the time.
+    /// Skip the search for velocity pulses (faster)
+    #[arg(long = "no-pulses", action = ArgAction::SetFalse)]
     pub pulses: bool,
-    /// Whether existing files are overwritten.
+    /// Overwrite existing outputs (never an input)
+    #[arg(long)]
     pub force: bool,
 }
 

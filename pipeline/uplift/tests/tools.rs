@@ -18,7 +18,7 @@ use uplift::records::{
 use uplift::response::{HistoryRow, ResponseOptions, Shaking, response};
 use uplift::result::AskedRisk;
 use uplift::status::status;
-use uplift::table::{TableMeasure, TableOptions, table};
+use uplift::table::{TableOptions, table};
 use uplift::verify::verify;
 use uplift_block::RickerShape;
 use uplift_motion::{Combination, synthetic::SyntheticSetOptions};
@@ -197,8 +197,7 @@ fn what_is_no_result_is_an_error_or_a_finding() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("r.h5");
     assert!(status(&file).is_err());
-    let (measure, risk) = (TableMeasure::Usual, AskedRisk::default());
-    let options = TableOptions { result: file.clone(), reference: None, measure, risk };
+    let options = TableOptions { result: file.clone(), reference: None, measure: None, risk: AskedRisk::default() };
     assert!(table(&options, &Silent).is_err());
     let report = verify(std::slice::from_ref(&file), &Silent).unwrap();
     assert!(report.mistakes()[0].contains("r.h5"), "{:?}", report.mistakes());

@@ -60,37 +60,16 @@ fn place(text: &str) -> Result<[f64; 2], String> {
 }
 
 impl SiteArguments {
+    /// The curves of this site.
+    fn applied_to(&self, curves: &CurveOptions) -> CurveOptions {
+        CurveOptions { site: self.selection(), ..curves.clone() }
+    }
+
     fn selection(&self) -> SiteSelection {
         match (&self.name, self.near) {
             (Some(name), _) => SiteSelection::Name(name.clone()),
             (None, Some([longitude_deg, latitude_deg])) => SiteSelection::Nearest { longitude_deg, latitude_deg },
             (None, None) => SiteSelection::All,
-        }
-    }
-}
-
-/// What a table does not say.
-#[derive(Debug, Args)]
-struct TableArguments {
-    /// Intensity measure, if the table does not name it: PGV, PGA
-    #[arg(long, value_name = "NAME")]
-    measure: Option<String>,
-    /// Unit of the levels: cm/s, m/s, g, m/s2, cm/s2
-    #[arg(long, value_name = "UNIT")]
-    unit: Option<String>,
-    /// Years of the probabilities
-    #[arg(long, value_name = "YEARS", value_parser = number)]
-    years: Option<f64>,
-}
-
-impl TableArguments {
-    /// What is read of files of which `site` is taken.
-    fn options(&self, site: &SiteArguments) -> CurveOptions {
-        CurveOptions {
-            site: site.selection(),
-            measure: self.measure.clone(),
-            unit: self.unit.clone(),
-            years: self.years,
         }
     }
 }
@@ -143,11 +122,11 @@ struct ShowArguments {
     #[command(flatten)]
     site: SiteArguments,
     #[command(flatten)]
-    table: TableArguments,
+    curves: CurveOptions,
 }
 
 fn show(arguments: &ShowArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    print_curves(&show_curves(&arguments.file, &arguments.table.options(&arguments.site), terminal)?)
+    print_curves(&show_curves(&arguments.file, &arguments.site.applied_to(&arguments.curves), terminal)?)
 }
 
 #[derive(Debug, Args)]
@@ -162,7 +141,7 @@ struct PlotArguments {
     #[command(flatten)]
     site: SiteArguments,
     #[command(flatten)]
-    table: TableArguments,
+    curves: CurveOptions,
     #[command(flatten)]
     overwriting: ForceArgument,
 }
@@ -170,7 +149,7 @@ struct PlotArguments {
 fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let options = HazardPlotOptions {
         files: arguments.files.clone(),
-        curves: arguments.table.options(&arguments.site),
+        curves: arguments.site.applied_to(&arguments.curves),
         output: arguments.output.clone(),
         force: arguments.overwriting.force,
     };

@@ -6,12 +6,11 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use uplift::import::{ImportOptions, import as import_folder};
-use uplift::inputs::FileOptions;
 use uplift::records::{self, AtLevelOptions, SelectOptions, SetOptions, ShowOptions, at_level as write_at_level};
-use uplift_motion::{AccelerationUnit, Combination, IntensityMeasure, RecordFormat, STANDARD_GRAVITY_M_S2};
+use uplift_motion::Combination;
 use uplift_study::{CRITERIA, Criterion, Range, RecordSelection};
 
-use super::arguments::{ForceArgument, number};
+use super::arguments::ForceArgument;
 use crate::error::CommandError;
 use crate::show::{print_at_level, print_import, print_record, print_records, print_selection, tell_remarks};
 use crate::terminal::Terminal;
@@ -25,38 +24,25 @@ pub(super) struct RecordsArguments {
 #[derive(Debug, Subcommand)]
 enum RecordsCommand {
     /// Import a folder of records into a manifest
-    Import(ImportArguments),
+    #[command(after_help = "Example:\n  uplift records import downloads/ -o records/mine.csv")]
+    Import(ImportOptions),
     /// List the records of a manifest
-    List(ListArguments),
+    #[command(after_help = "Example:\n  uplift records list records/mine.csv --magnitude 6:7.5")]
+    List(SetArguments),
     /// Show one record
-    Show(ShowArguments),
+    #[command(after_help = "Examples:\n  \
+        uplift records show records/mine.csv RSN953\n  \
+        uplift records show downloads/RSN953_NORTHR_MUL009.AT2")]
+    Show(ShowOptions),
     /// Select records by their properties
     Select(SelectArguments),
     /// Convert records selected per level into a table
-    AtLevel(AtLevelArguments),
+    #[command(
+        after_help = "Example:\n  uplift records at-level level-*.txt --manifest mine.csv --measure sa_1s -o levels.csv"
+    )]
+    AtLevel(AtLevelOptions),
     /// Make synthetic records of a scenario
     Synthesize(synthesize::SynthesizeArguments),
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = "Example:\n  uplift records list records/mine.csv --magnitude 6:7.5")]
-struct ListArguments {
-    #[command(flatten)]
-    set: SetArguments,
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  \
-    uplift records show records/mine.csv RSN953\n  \
-    uplift records show downloads/RSN953_NORTHR_MUL009.AT2")]
-struct ShowArguments {
-    /// Manifest or record file
-    #[arg(value_name = "SET|FILE")]
-    input: PathBuf,
-    /// Name of a record in the manifest
-    record: Option<String>,
-    #[command(flatten)]
-    files: FileArguments,
 }
 
 #[derive(Debug, Args)]
@@ -73,26 +59,13 @@ struct SelectArguments {
 
 pub(super) fn records(arguments: &RecordsArguments, terminal: &Terminal) -> Result<(), CommandError> {
     match &arguments.command {
-        RecordsCommand::Import(arguments) => import(arguments, terminal),
-        RecordsCommand::List(arguments) => list(arguments, terminal),
-        RecordsCommand::Show(arguments) => show(arguments),
+        RecordsCommand::Import(options) => import(options, terminal),
+        RecordsCommand::List(set) => print_records(&records::list(&set.options(), terminal)?),
+        RecordsCommand::Show(options) => print_record(&records::show(options)?),
         RecordsCommand::Select(arguments) => select(arguments, terminal),
-        RecordsCommand::AtLevel(arguments) => at_level(arguments, terminal),
+        RecordsCommand::AtLevel(options) => print_at_level(&write_at_level(options)?, terminal),
         RecordsCommand::Synthesize(arguments) => synthesize::synthesize(arguments, terminal),
     }
-}
-
-fn list(arguments: &ListArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    print_records(&records::list(&arguments.set.options(), terminal)?)
-}
-
-fn show(arguments: &ShowArguments) -> Result<(), CommandError> {
-    let options = ShowOptions {
-        input: arguments.input.clone(),
-        record: arguments.record.clone(),
-        files: arguments.files.options(),
-    };
-    print_record(&records::show(&options)?)
 }
 
 fn select(arguments: &SelectArguments, terminal: &Terminal) -> Result<(), CommandError> {
@@ -102,23 +75,6 @@ fn select(arguments: &SelectArguments, terminal: &Terminal) -> Result<(), Comman
         force: arguments.overwriting.force,
     };
     print_selection(&records::select(&options, terminal)?, terminal)
-}
-
-/// What the files do not say.
-#[derive(Debug, Clone, Copy, Args)]
-struct FileArguments {
-    /// File format: at2, esm, knet, cosmos, csmip or columns [default: detected]
-    #[arg(long, value_name = "FORMAT")]
-    format: Option<RecordFormat>,
-    /// Unit, if the files name none: g, m/s2, cm/s2 or gal
-    #[arg(long, value_name = "UNIT")]
-    unit: Option<AccelerationUnit>,
-    /// Time step, s, if the files name none
-    #[arg(long, value_name = "SECONDS", value_parser = number)]
-    dt_s: Option<f64>,
-    /// Acceleration of gravity, m/s2
-    #[arg(long, value_name = "M_S2", default_value_t = STANDARD_GRAVITY_M_S2, value_parser = number)]
-    gravity_m_s2: f64,
 }
 
 /// A manifest, and which of its records.
@@ -198,13 +154,6 @@ impl CriteriaArguments {
     }
 }
 
-impl FileArguments {
-    fn options(self) -> FileOptions {
-        let Self { format, unit, dt_s, gravity_m_s2 } = self;
-        FileOptions { format, unit, dt_s, gravity_m_s2 }
-    }
-}
-
 impl SetArguments {
     fn options(&self) -> SetOptions {
         SetOptions {
@@ -216,33 +165,8 @@ impl SetArguments {
     }
 }
 
-#[derive(Debug, Args)]
-#[command(after_help = "Example:\n  uplift records import downloads/ -o records/mine.csv")]
-struct ImportArguments {
-    /// Folder with record files, or the zip archive of PEER
-    #[arg(value_name = "FOLDER|ZIP")]
-    folder: PathBuf,
-    /// Manifest to write (CSV), or a folder for it
-    #[arg(short, long, value_name = "SET")]
-    output: PathBuf,
-    #[command(flatten)]
-    files: FileArguments,
-    /// Skip the search for velocity pulses (faster)
-    #[arg(long)]
-    no_pulses: bool,
-    #[command(flatten)]
-    overwriting: ForceArgument,
-}
-
-fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let options = ImportOptions {
-        folder: arguments.folder.clone(),
-        output: arguments.output.clone(),
-        files: arguments.files.options(),
-        pulses: !arguments.no_pulses,
-        force: arguments.overwriting.force,
-    };
-    let report = import_folder(&options, terminal)?;
+fn import(options: &ImportOptions, terminal: &Terminal) -> Result<(), CommandError> {
+    let report = import_folder(options, terminal)?;
     tell_remarks(&report, terminal);
     if report.manifest.is_none() {
         return Err(CommandError::input(format!(
@@ -253,54 +177,4 @@ fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), Comman
         )));
     }
     print_import(&report, terminal)
-}
-
-#[derive(Debug, Args)]
-#[command(
-    after_help = "Example:\n  uplift records at-level level-*.txt --manifest mine.csv --measure sa_1s -o levels.csv"
-)]
-struct AtLevelArguments {
-    /// Selections, one file a level
-    #[arg(
-        required = true,
-        value_name = "FILE",
-        help = "Output of the tool, one file per level: haselREC's ..._summary_selection.txt, CS_Selection's \
-                Output_File.dat, EzGM's GMR_H1_names.txt or GMR_names.txt (GMR_sf_used.txt lies beside it), Djura's \
-                records_....json"
-    )]
-    selections: Vec<PathBuf>,
-    /// Manifest with the records, from uplift records import
-    #[arg(long, value_name = "SET")]
-    manifest: PathBuf,
-    /// Intensity measure of the selection
-    #[arg(
-        long,
-        value_name = "MEASURE",
-        help = "The measure that they were selected for: pgv, pga, sa_1s (SA at 0.5 s is sa_0p5s), ..."
-    )]
-    measure: IntensityMeasure,
-    /// Level of each file, cm/s or g (haselREC and Djura name it)
-    #[arg(long = "level", value_name = "LEVEL,...", value_delimiter = ',', value_parser = number)]
-    levels: Vec<f64>,
-    /// Count each component as a record (for component = "both")
-    #[arg(long)]
-    both: bool,
-    /// Table to write (CSV)
-    #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
-    #[command(flatten)]
-    overwriting: ForceArgument,
-}
-
-fn at_level(arguments: &AtLevelArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let options = AtLevelOptions {
-        selections: arguments.selections.clone(),
-        manifest: arguments.manifest.clone(),
-        measure: arguments.measure,
-        levels: arguments.levels.clone(),
-        both: arguments.both,
-        output: arguments.output.clone(),
-        force: arguments.overwriting.force,
-    };
-    print_at_level(&write_at_level(&options)?, terminal)
 }

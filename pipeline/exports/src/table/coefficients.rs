@@ -97,7 +97,7 @@ pub(super) fn read(
     let result = file.spectra()?;
     let study = file.stored_study()?;
     let known: Vec<IntensityMeasure> = result.measures.iter().map(|of| of.measure).collect();
-    let wanted = options.measure.of_rows(&known);
+    let wanted = options.measure_of_rows(&known);
     let references = options.reference.as_deref().map_or_else(|| Ok(Vec::new()), read_reference)?;
     let consistency = file.consistency()?;
     let places = result.measures.iter().flat_map(|of| of.fits.blocks::<2>().map(|(at, _)| at));

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use uplift_hazard::{
     CsvOptions, Declared, ExportedCurve, ExportedCurves, HazardCurve, SecondColumn, SiteSelection, Statistic, read_csv,
     read_export, table_text,
@@ -9,21 +10,26 @@ use uplift_hazard::{
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::text::counted;
+use uplift_job::typed::number;
 use uplift_motion::{IntensityMeasure, STANDARD_GRAVITY_M_S2};
 
 use super::import::NEAR_KM;
 use crate::error::InputsError;
 
 /// Which curves of a file are read, and what a table does not say.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct CurveOptions {
     /// Which site of an export with several.
+    #[arg(skip = SiteSelection::All)]
     pub site: SiteSelection,
-    /// Measure of a table that does not name it: PGV, PGA.
+    /// Intensity measure, if the table does not name it: PGV, PGA
+    #[arg(long, value_name = "NAME")]
     pub measure: Option<String>,
-    /// Unit of the levels of such a table: cm/s, m/s, g, m/s2, cm/s2.
+    /// Unit of the levels: cm/s, m/s, g, m/s2, cm/s2
+    #[arg(long, value_name = "UNIT")]
     pub unit: Option<String>,
-    /// Years that the probabilities of a table refer to; none where it holds rates.
+    /// Years of the probabilities
+    #[arg(long, value_name = "YEARS", value_parser = number)]
     pub years: Option<f64>,
 }
 

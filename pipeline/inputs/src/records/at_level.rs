@@ -6,11 +6,13 @@ mod known;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use polars::prelude::Column;
 use serde::Serialize;
 use uplift_job::JobError;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::{table_text, write_atomically};
+use uplift_job::typed::number;
 use uplift_motion::{IntensityMeasure, SelectedComponent, SelectedRecord, SelectedSet, SelectionTool, read_selection};
 
 use crate::at_level::{RECORD, check_bytes, count, level_column, list};
@@ -22,21 +24,38 @@ use known::KnownRecords;
 const SAME_LEVEL: f64 = 1e-3;
 
 /// Which selections make a table, and where it goes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct AtLevelOptions {
-    /// Files of the tools, one a level.
+    /// Selections, one file a level
+    #[arg(
+        required = true,
+        value_name = "FILE",
+        help = "Output of the tool, one file per level: haselREC's ..._summary_selection.txt, CS_Selection's \
+                Output_File.dat, EzGM's GMR_H1_names.txt or GMR_names.txt (GMR_sf_used.txt lies beside it), Djura's \
+                records_....json"
+    )]
     pub selections: Vec<PathBuf>,
-    /// Manifest of the records, CSV.
+    /// Manifest with the records, from uplift records import
+    #[arg(long, value_name = "SET")]
     pub manifest: PathBuf,
-    /// The measure that was selected for.
+    /// Intensity measure of the selection
+    #[arg(
+        long,
+        value_name = "MEASURE",
+        help = "The measure that they were selected for: pgv, pga, sa_1s (SA at 0.5 s is sa_0p5s), ..."
+    )]
     pub measure: IntensityMeasure,
-    /// The level of each file, in the unit of the measure; empty where all files say their own.
+    /// Level of each file, cm/s or g (haselREC and Djura name it)
+    #[arg(long = "level", value_name = "LEVEL,...", value_delimiter = ',', value_parser = number)]
     pub levels: Vec<f64>,
-    /// Whether each pair is to stand there as two records, for a study with `component = "both"`.
+    /// Count each component as a record (for component = "both")
+    #[arg(long)]
     pub both: bool,
-    /// The table, CSV.
+    /// Table to write (CSV)
+    #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
-    /// Whether an existing file there is overwritten.
+    /// Overwrite existing outputs (never an input)
+    #[arg(long)]
     pub force: bool,
 }
 

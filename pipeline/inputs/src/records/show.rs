@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde::Serialize;
 use uplift_job::JobError;
 use uplift_motion::{Accelerogram, Combination, Orientation, ReadOptions, RecordPair, Recording, read_record_file};
@@ -15,13 +16,15 @@ use crate::manifest::{self, ComponentFile};
 use crate::pairs::read_component;
 
 /// What is looked at.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct ShowOptions {
-    /// A manifest, or a record file.
+    /// Manifest or record file
+    #[arg(value_name = "SET|FILE")]
     pub input: PathBuf,
-    /// Name of a record of the manifest; none where `input` is a record file.
+    /// Name of a record in the manifest
     pub record: Option<String>,
     /// What the files do not say.
+    #[command(flatten)]
     pub files: FileOptions,
 }
 
