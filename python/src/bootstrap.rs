@@ -118,7 +118,7 @@ pub(crate) fn bootstrap(
         Interval::Bca => plan.left_out().map_err(refused)?,
     };
     let of_both = |demand: &PooledDemand, weights: &StripeWeights| {
-        let replicates = Replicates::of(demand, &[weights], &targets, &plan).map_err(refused)?;
+        let replicates = Replicates::from_plan(demand, &[weights], &targets, &plan).map_err(refused)?;
         let estimates = RiskCurve::new(demand, weights).and_then(|curve| curve.exact_ordinates(&targets));
         let without_each = match interval {
             Interval::Percentile => Vec::new(),

@@ -90,7 +90,7 @@ pub(crate) fn design(
     };
     let system = &structure.get().read.system;
     let zero_stiffness_demand_m = system.zero_stiffness_demand_m(ordinate_m).map_err(refused)?;
-    let check = Check::of(system, rule, safety_factor, zero_stiffness_demand_m).map_err(refused)?;
+    let check = Check::from_system(system, rule, safety_factor, zero_stiffness_demand_m).map_err(refused)?;
     Ok(Design {
         zero_stiffness_demand_m,
         demand_m: check.demand.displacement_m(),

@@ -35,18 +35,19 @@ pub(crate) fn validate(
 ) -> PyResult<Validation> {
     let (measured, computed) = (list("measured", measured)?, list("computed", computed)?);
     py.detach(|| {
-        let pairs = (measured.len() == computed.len()).then(|| Pairs::of(&measured, &computed)).transpose();
+        let pairs = (measured.len() == computed.len()).then(|| Pairs::from_peaks(&measured, &computed)).transpose();
         let pairs = pairs.map_err(refused)?;
         let (one, other) = (Sample::new(measured).map_err(refused)?, Sample::new(computed).map_err(refused)?);
-        let kolmogorov_smirnov = KolmogorovSmirnov::of(&one, &other);
-        let (cramer_von_mises, mann_whitney) = (CramerVonMises::of(&one, &other), MannWhitney::of(&one, &other));
+        let kolmogorov_smirnov = KolmogorovSmirnov::from_samples(&one, &other);
+        let (cramer_von_mises, mann_whitney) =
+            (CramerVonMises::from_samples(&one, &other), MannWhitney::from_samples(&one, &other));
         Ok(Validation {
             ks_distance: kolmogorov_smirnov.distance,
             ks_p: kolmogorov_smirnov.p_exact,
             ks_p_is_exact: kolmogorov_smirnov.is_exact,
             ks_p_kstest2: kolmogorov_smirnov.p_kstest2,
-            evidence: Evidence::of(kolmogorov_smirnov.p_exact).words(),
-            anderson_darling: AndersonDarling::of(&one, &other).midrank,
+            evidence: Evidence::from_p(kolmogorov_smirnov.p_exact).words(),
+            anderson_darling: AndersonDarling::from_samples(&one, &other).midrank,
             cramer_von_mises: cramer_von_mises.statistic,
             cramer_von_mises_p: cramer_von_mises.p,
             mann_whitney: mann_whitney.statistic,

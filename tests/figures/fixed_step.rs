@@ -82,9 +82,9 @@ fn medians(set: &MotionSet<'_>, scaling: Scaling, strengths: &[f64]) -> [Noisy; 
             let peaks = set.motions().iter().zip(&factors).map(|(m, f)| stepped_m(*strength, m, *f, steps));
             percentile(&peaks.collect::<Vec<_>>(), 50.0)
         };
-        Noisy::of(&strengths.par_iter().map(median).collect::<Vec<_>>())
+        Noisy::from_sweep(&strengths.par_iter().map(median).collect::<Vec<_>>())
     };
-    [Noisy::of(&exact), stepped(10), stepped(1)]
+    [Noisy::from_sweep(&exact), stepped(10), stepped(1)]
 }
 
 /// All 36, by component first.

@@ -20,7 +20,7 @@ fn table_6_2_decoded() {
         let cells: Vec<&str> = line.split(',').collect();
         let [n, k] = [cells[2], cells[3]].map(|cell| cell.parse::<u32>().unwrap());
         let values = |from: f64| Sample::new((0..n).map(|place| f64::from(place) + from).collect()).unwrap();
-        let test = KolmogorovSmirnov::of(&values(0.0), &values(f64::from(k) - 0.5));
+        let test = KolmogorovSmirnov::from_samples(&values(0.0), &values(f64::from(k) - 0.5));
         let sizes = (n as usize, n as usize);
         let sees = detectable_factor(
             sizes,
@@ -32,7 +32,7 @@ fn table_6_2_decoded() {
         let name = |what: &str| format!("validation.{}.{}.{what}", cells[0], cells[1]);
         computed.push((name("kstest2"), format!("{:.3}", test.p_kstest2)));
         computed.push((name("exact"), format!("{:.3}", test.p_exact)));
-        computed.push((name("evidence"), Evidence::of(test.p_exact).words().to_owned()));
+        computed.push((name("evidence"), Evidence::from_p(test.p_exact).words().to_owned()));
         computed.push((name("sees"), format!("{:.2}", sees.unwrap())));
     }
     hold("validation", &computed);
@@ -56,7 +56,7 @@ fn a_worked_example() {
         let number = |value: &Value, decimals: usize| format!("{:.decimals$}", value.as_f64().unwrap());
         let error = |value: &Value| signed(value.as_f64().unwrap());
         let band = &group["median_error_band"];
-        let evidence = Evidence::of(group["p"].as_f64().unwrap()).words().to_owned();
+        let evidence = Evidence::from_p(group["p"].as_f64().unwrap()).words().to_owned();
         let collapses = format!("{}, {}", group["measured_collapses"], group["computed_collapses"]);
         let of = &group["kolmogorov_smirnov"];
         computed.extend(

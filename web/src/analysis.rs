@@ -200,7 +200,8 @@ fn own_check(structure: &Structure, safety_factor: f64, demand_m: f64) -> Answer
     if demand_m.is_infinite() {
         return Ok(json!({ "required_capacity_m": null, "safety_factor": 0.0, "satisfied": false }));
     }
-    let check = Check::of(&structure.system, Rule::EqualDisplacement, safety_factor, demand_m).map_err(refused)?;
+    let check =
+        Check::from_system(&structure.system, Rule::EqualDisplacement, safety_factor, demand_m).map_err(refused)?;
     Ok(json!({
         "required_capacity_m": check.required_capacity_m,
         "safety_factor": check.capacity_m / demand_m,

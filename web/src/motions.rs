@@ -167,7 +167,7 @@ impl Motions {
                 "the records of this result are not in the page: drop them here to analyse the structure itself";
             let (options, which, wanted) = self.recipe.as_ref().ok_or(no_records)?;
             let pairs: Vec<RecordPair> =
-                Pairs::of(options).and_then(Iterator::collect::<Result<_, MotionError>>).map_err(refused)?;
+                Pairs::from_options(options).and_then(Iterator::collect::<Result<_, MotionError>>).map_err(refused)?;
             let chosen = pairs.into_iter().filter(|pair| wanted.contains(&pair.id));
             self.made = chosen.map(|pair| Motion::OfPair(Box::new(pair), *which)).collect();
         }

@@ -76,7 +76,7 @@ pub(crate) fn design(stripes: Option<&mut Stripes>, text: &str, at: Option<&At>,
     for rule in [Rule::EqualDisplacement, Rule::EqualEnergy] {
         let check = |ordinate_m: f64| -> Answer<Check> {
             let demand_m = system.zero_stiffness_demand_m(ordinate_m).map_err(refused)?;
-            Check::of(system, rule, safety_factor, demand_m).map_err(refused)
+            Check::from_system(system, rule, safety_factor, demand_m).map_err(refused)
         };
         let own = check(ordinates[0])?;
         let limits: Vec<Option<Check>> = ordinates[1..].iter().map(|&limit_m| check(limit_m).ok()).collect();

@@ -37,7 +37,7 @@ fn benchmarks(criterion: &mut Criterion) {
         let plan = ResamplingPlan::draw(RECORDS, &[size], 1000, 1).unwrap();
         group.throughput(Throughput::Elements(1000));
         group.bench_function(format!("split by record, samples of {size}"), |bencher| {
-            bencher.iter(|| Replicates::of(&demand, &[&weights], black_box(&TARGETS), &plan).unwrap());
+            bencher.iter(|| Replicates::from_plan(&demand, &[&weights], black_box(&TARGETS), &plan).unwrap());
         });
     }
     let plan = ResamplingPlan::draw(RECORDS, &[105], 100, 1).unwrap();

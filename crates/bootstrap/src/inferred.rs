@@ -48,7 +48,7 @@ pub fn inferred_limits(
     (sizes, confidence): (&[usize], f64),
 ) -> Result<Vec<InferredLimits>, RiskError> {
     check(demand, weights, units)?;
-    limits(demand, weights, (Rates::of(demand, units), units), targets_per_year, (sizes, confidence))
+    limits(demand, weights, (Rates::from_demand(demand, units), units), targets_per_year, (sizes, confidence))
 }
 
 /// The limits of the truth alone, m, `[target]`, to the bit those of [`inferred_limits`] for as many units as the set
@@ -64,7 +64,7 @@ pub fn truth_limits(
     confidence: f64,
 ) -> Result<Vec<[f64; 2]>, RiskError> {
     check(demand, weights, units)?;
-    truths(demand, weights, (Rates::of(demand, units), units), targets_per_year, confidence)
+    truths(demand, weights, (Rates::from_demand(demand, units), units), targets_per_year, confidence)
 }
 
 /// The same of records that count as `weights` say, repaired: the weights are taken as they are.
@@ -228,7 +228,7 @@ pub fn inferred_rate(
     (threshold_m, confidence): (f64, f64),
 ) -> Result<[f64; 2], RiskError> {
     check(demand, weights, units)?;
-    Ok(interval(demand, weights, (Rates::of(demand, units), units), (threshold_m, confidence)))
+    Ok(interval(demand, weights, (Rates::from_demand(demand, units), units), (threshold_m, confidence)))
 }
 
 /// The same of records that count as `weights` say, repaired: the interval that [`repaired_limits`] inverts.
@@ -317,7 +317,7 @@ pub(crate) enum Rates {
 }
 
 impl Rates {
-    pub(crate) fn of(demand: &PooledDemand, units: &[Vec<usize>]) -> Self {
+    pub(crate) fn from_demand(demand: &PooledDemand, units: &[Vec<usize>]) -> Self {
         let is_alike = units.windows(2).all(|two| two[0].len() == two[1].len());
         match demand.shares() {
             None if is_alike => Self::Alike(UnitRates::new(units)),

@@ -32,7 +32,7 @@ pub fn inferred_rate_over_curves(
     for (_, weights) in curves {
         check(demand, weights, units)?;
         let per_year = weights.per_year();
-        let mut rates = Rates::of(demand, units);
+        let mut rates = Rates::from_demand(demand, units);
         for (_, record, level) in demand.falling_runs().take_while(|run| run.0 > threshold_m) {
             rates.add(record, level, per_year[level]);
         }
@@ -62,7 +62,7 @@ pub fn inferred_limits_over_curves(
     }
     let mixture = Mixture::new(weights_of(curves), units, confidence);
     let per_year: Vec<Vec<f64>> = curves.iter().map(|(_, weights)| weights.per_year()).collect();
-    let mut rates: Vec<Rates> = curves.iter().map(|_| Rates::of(demand, units)).collect();
+    let mut rates: Vec<Rates> = curves.iter().map(|_| Rates::from_demand(demand, units)).collect();
     let mut means = Vec::with_capacity(curves.len());
     let mut search = Search::default();
     fall(demand, |step| match step {

@@ -22,7 +22,7 @@ impl Replicates {
     ///
     /// # Errors
     /// Parts with different numbers of levels or records; a target that is not positive and finite.
-    pub fn of(
+    pub fn from_plan(
         demand: &PooledDemand,
         sites: &[&StripeWeights],
         targets_per_year: &[f64],

@@ -56,7 +56,7 @@ fn bands_are_those_of_the_plain_way() {
     let weights = weights();
     let plan = ResamplingPlan::draw(RECORDS, &[5, 14, 40], 60, 2).unwrap();
     let sites: Vec<&StripeWeights> = weights.iter().collect();
-    let replicates = Replicates::of(&demand, &sites, &TARGETS, &plan).unwrap();
+    let replicates = Replicates::from_plan(&demand, &sites, &TARGETS, &plan).unwrap();
 
     for (site, weights) in weights.iter().enumerate() {
         for (size_index, &size) in plan.sizes().iter().enumerate() {
@@ -117,7 +117,7 @@ fn one_record_and_one_replicate_are_defined() {
     let demand = PooledDemand::new(&Stripes::new(&LEVELS_CM_S, edp_m).unwrap()).unwrap();
     let [weights, _] = weights();
     let plan = ResamplingPlan::draw(1, &[1, 7], 1, 9).unwrap();
-    let replicates = Replicates::of(&demand, &[&weights], &TARGETS, &plan).unwrap();
+    let replicates = Replicates::from_plan(&demand, &[&weights], &TARGETS, &plan).unwrap();
     for (index, &target) in TARGETS.iter().enumerate() {
         let expected = plain_ordinate(edp_m, &weights, target);
         for size in 0..2 {
@@ -134,7 +134,7 @@ fn a_set_that_never_moves_has_bands_of_zero() {
     let demand = PooledDemand::new(&Stripes::new(&LEVELS_CM_S, &[0.0; 24]).unwrap()).unwrap();
     let [weights, _] = weights();
     let plan = ResamplingPlan::draw(3, &[3], 20, 1).unwrap();
-    let replicates = Replicates::of(&demand, &[&weights], &TARGETS, &plan).unwrap();
+    let replicates = Replicates::from_plan(&demand, &[&weights], &TARGETS, &plan).unwrap();
     assert!(replicates.ordinates_m(0, 0, 0).iter().all(|&ordinate| ordinate == 0.0));
 }
 

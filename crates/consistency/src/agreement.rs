@@ -20,7 +20,7 @@ impl Agreement {
     ///
     /// - `pairs_m`: (ordinate of the one, of the other), m; the ratio is the first over the second. Pairs with a
     ///   displacement that is 0 or not finite are left out.
-    pub fn of(pairs_m: impl IntoIterator<Item = (f64, f64)>, from_m: f64, below_m: f64) -> Option<Self> {
+    pub fn from_pairs(pairs_m: impl IntoIterator<Item = (f64, f64)>, from_m: f64, below_m: f64) -> Option<Self> {
         let (mut count, mut sum, mut squares) = (0_usize, 0.0, 0.0);
         let (mut smallest, mut largest) = (f64::INFINITY, 0.0_f64);
         for (first_m, second_m) in pairs_m {
@@ -50,10 +50,10 @@ mod tests {
     #[test]
     fn ratios_by_class() {
         let pairs = [(0.04, 0.01), (0.01, 0.04), (0.001, 0.001), (0.0, 1.0), (f64::INFINITY, 1.0)];
-        let found = Agreement::of(pairs, 0.01, f64::INFINITY).unwrap();
+        let found = Agreement::from_pairs(pairs, 0.01, f64::INFINITY).unwrap();
         assert_eq!((found.count, found.smallest, found.largest), (2, 0.25, 4.0));
         assert!((found.geometric_mean - 1.0).abs() < 1e-15 && (found.rms - 4.0_f64.ln()).abs() < 1e-15);
-        assert_eq!(Agreement::of(pairs, 0.0005, 0.01).unwrap().count, 1);
-        assert_eq!(Agreement::of(pairs, 5.0, 6.0), None);
+        assert_eq!(Agreement::from_pairs(pairs, 0.0005, 0.01).unwrap().count, 1);
+        assert_eq!(Agreement::from_pairs(pairs, 5.0, 6.0), None);
     }
 }

@@ -30,7 +30,10 @@ pub struct Deviation {
 
 impl Deviation {
     /// Compares over the range of the analysis.
-    pub(crate) fn of(analysis: &ScaledAnalysis<'_>, implied: &RiskCurve<'_>) -> Result<Self, ConsistencyError> {
+    pub(crate) fn from_analysis(
+        analysis: &ScaledAnalysis<'_>,
+        implied: &RiskCurve<'_>,
+    ) -> Result<Self, ConsistencyError> {
         let rates_per_year: [f64; DEVIATION_RATES] = analysis.range().rates();
         let (mut site_levels, mut implied_levels) = ([0.0; DEVIATION_RATES], [0.0; DEVIATION_RATES]);
         let (mut sum, mut squares, mut max) = (0.0, 0.0, 0.0_f64);
@@ -50,7 +53,7 @@ impl Deviation {
 
     /// What to think of it.
     pub fn verdict(&self) -> Verdict {
-        Verdict::of(self.bias, self.max)
+        Verdict::from_bias(self.bias, self.max)
     }
 }
 
@@ -79,7 +82,7 @@ impl Verdict {
     }
 
     /// Of a bias and the largest |D|.
-    pub fn of(bias: f64, max: f64) -> Self {
+    pub fn from_bias(bias: f64, max: f64) -> Self {
         let holds = |([least, most], largest): ([f64; 2], f64)| (least..=most).contains(&bias) && max <= largest;
         Self::ALL.into_iter().find(|own| own.limits().is_some_and(holds)).unwrap_or(Self::Inconsistent)
     }
@@ -113,7 +116,7 @@ pub struct TwoSided {
 impl TwoSided {
     /// - `scaled_to_pgv`: mean D of PGA, of the set scaled to PGV.
     /// - `scaled_to_pga`: mean D of PGV, of the set scaled to PGA.
-    pub fn of(scaled_to_pgv: &Deviation, scaled_to_pga: &Deviation) -> Self {
+    pub fn from_deviations(scaled_to_pgv: &Deviation, scaled_to_pga: &Deviation) -> Self {
         let (pga, pgv) = (scaled_to_pgv.mean, scaled_to_pga.mean);
         Self { location: 0.5 * (pga - pgv), spread: 0.5 * (pga + pgv) }
     }
@@ -136,7 +139,7 @@ mod tests {
             (1.0, 0.41, Verdict::Inconsistent),
             (f64::NAN, f64::NAN, Verdict::Inconsistent),
         ] {
-            assert_eq!(Verdict::of(bias, max), verdict, "{bias} {max}");
+            assert_eq!(Verdict::from_bias(bias, max), verdict, "{bias} {max}");
         }
         assert!(Verdict::Consistent < Verdict::Off && Verdict::Off < Verdict::Inconsistent);
     }

@@ -77,8 +77,9 @@ impl ScaledAnalysis<'_> {
             &own
         };
         let of_level = |level: usize| &shares[level * self.set().len()..][..self.set().len()];
-        let stripes: Vec<StripeStatistics> =
-            (0..self.levels().len()).map(|level| StripeStatistics::of(self.set(), level, of_level(level))).collect();
+        let stripes: Vec<StripeStatistics> = (0..self.levels().len())
+            .map(|level| StripeStatistics::from_shares(self.set(), level, of_level(level)))
+            .collect();
         let targets = self
             .targets()
             .iter()
@@ -93,12 +94,12 @@ impl ScaledAnalysis<'_> {
                     ratio: target.site_level.map(|site_level| implied_level / site_level),
                     times_as_often: target.site_level.map(often).transpose()?,
                     stripe: target.stripe,
-                    scale_factors: ScaleFactors::of(self.set(), reached, shares, scale_factor_limits),
-                    medians: Medians::of(self.set(), shares),
+                    scale_factors: ScaleFactors::from_shares(self.set(), reached, shares, scale_factor_limits),
+                    medians: Medians::from_shares(self.set(), shares),
                 })
             })
             .collect::<Result<_, ConsistencyError>>()?;
-        let deviation = self.range().is_wide().then(|| Deviation::of(self, &implied)).transpose()?;
+        let deviation = self.range().is_wide().then(|| Deviation::from_analysis(self, &implied)).transpose()?;
         let least_effective = (0..stripes.len())
             .filter(|&level| self.is_in_range(level))
             .map(|level| LeastEffective { records: stripes[level].effective_records, level })

@@ -28,7 +28,7 @@ pub struct Nearest {
 
 impl Nearest {
     /// The worst of `misses` on each side, but for those within a tenth.
-    pub(crate) fn of(misses: &[Miss; FIT_RATES]) -> Self {
+    pub(crate) fn from_misses(misses: &[Miss; FIT_RATES]) -> Self {
         let by_times = |a: &&Miss, b: &&Miss| a.times.total_cmp(&b.times);
         let most = misses.iter().max_by(by_times).filter(|miss| miss.times.ln() > LARGEST_RESIDUAL);
         let least = misses.iter().min_by(by_times).filter(|miss| miss.times.ln() < -LARGEST_RESIDUAL);
@@ -80,12 +80,12 @@ mod tests {
     #[test]
     fn the_worst_of_each_side_is_named_with_its_cure() {
         let miss = |times: f64| Miss { level: 0.1 * times, rate_per_year: 1e-3, times, scaled_to: 7.0 };
-        let met = Nearest::of(&[miss(1.0); FIT_RATES]);
+        let met = Nearest::from_misses(&[miss(1.0); FIT_RATES]);
         assert!(met.is_met());
         let mut misses = [miss(1.09); FIT_RATES];
-        assert!(Nearest::of(&misses).is_met());
+        assert!(Nearest::from_misses(&misses).is_met());
         (misses[2], misses[5], misses[7], misses[9]) = (miss(1.2), miss(1.8123), miss(0.85), miss(0.2));
-        let nearest = Nearest::of(&misses);
+        let nearest = Nearest::from_misses(&misses);
         assert_eq!((nearest.too_often, nearest.too_rarely), (Some(misses[5]), Some(misses[9])));
         with_words(|words| {
             assert_eq!(

@@ -73,7 +73,7 @@ impl ScaledAnalysis<'_> {
             let other_level = self.set().brought(self.levels()[least.level], mean_ratio);
             return none(NoRepair::TooFew { least, other_level });
         }
-        let warnings = Warning::of(self, &diagnosis, options.least_effective);
+        let warnings = Warning::from_analysis(self, &diagnosis, options.least_effective);
         Ok(Repaired { fit, knot_levels: *solver.knot_levels(), weights, diagnosis, warnings })
     }
 }

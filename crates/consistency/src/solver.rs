@@ -212,7 +212,7 @@ impl<'a> Solver<'a> {
 
     /// Where the site's levels are exceeded so many `times` as often.
     fn nearest(&self, times: [f64; FIT_RATES]) -> Nearest {
-        Nearest::of(&std::array::from_fn(|n| Miss {
+        Nearest::from_misses(&std::array::from_fn(|n| Miss {
             level: self.site_levels[n],
             rate_per_year: self.rates[n],
             times: times[n],

@@ -26,7 +26,7 @@ pub struct StripeStatistics {
 
 impl StripeStatistics {
     /// Of the stripe at `level` with the shares p of the records, `[record]`.
-    pub(crate) fn of(set: &RecordSet, level: usize, shares: &[f64]) -> Self {
+    pub(crate) fn from_shares(set: &RecordSet, level: usize, shares: &[f64]) -> Self {
         let ln_ratios = || set.ratios_at(level).iter().map(|ratio| ratio.ln()).zip(shares);
         let mean_ln_ratio: f64 = ln_ratios().map(|(ln_ratio, share)| share * ln_ratio).sum();
         let variance: f64 = ln_ratios().map(|(ln_ratio, share)| share * (ln_ratio - mean_ln_ratio).powi(2)).sum();
@@ -68,7 +68,12 @@ pub struct ScaleFactors {
 
 impl ScaleFactors {
     /// To `level`, with the shares p of the records at the nearest `stripe`; `limits` are the lower and the upper one.
-    pub(crate) fn of(set: &RecordSet, (level, stripe): (f64, usize), shares: &[f64], limits: [f64; 2]) -> Self {
+    pub(crate) fn from_shares(
+        set: &RecordSet,
+        (level, stripe): (f64, usize),
+        shares: &[f64],
+        limits: [f64; 2],
+    ) -> Self {
         let factor = |record| set.scale_factor(level, stripe, record);
         let mut factors: Vec<(f64, f64)> =
             shares.iter().enumerate().map(|(record, &share)| (factor(record), share)).collect();
@@ -97,7 +102,7 @@ pub struct Medians {
 
 impl Medians {
     /// Of the shares p of the records, `[record]`.
-    pub(crate) fn of(set: &RecordSet, shares: &[f64]) -> Self {
+    pub(crate) fn from_shares(set: &RecordSet, shares: &[f64]) -> Self {
         let median = |value: fn(&SetRecord) -> Option<f64>| {
             let known = set.records().iter().zip(shares);
             let mut known: Vec<(f64, f64)> =
@@ -139,14 +144,14 @@ mod tests {
 
     #[test]
     fn statistics_by_hand() {
-        let statistics = StripeStatistics::of(&set(), 0, &[0.25, 0.25, 0.25, 0.25]);
+        let statistics = StripeStatistics::from_shares(&set(), 0, &[0.25, 0.25, 0.25, 0.25]);
         assert!((statistics.mean_ln_ratio - 0.5).abs() < 1e-15 && (statistics.sd_ln_ratio - 0.5).abs() < 1e-15);
         // pairs ½, ¼, ¼; events ¾, ¼
         assert!((statistics.effective_records - 1.0 / 0.375).abs() < 1e-14);
         assert!((statistics.effective_events.unwrap() - 1.0 / 0.625).abs() < 1e-14);
         assert_eq!((statistics.largest_record, statistics.largest_record_share), (0, 0.5));
         assert_eq!(statistics.largest_event, Some((5, 0.75)));
-        let alone = StripeStatistics::of(&set(), 0, &[0.0, 0.0, 0.0, 1.0]);
+        let alone = StripeStatistics::from_shares(&set(), 0, &[0.0, 0.0, 0.0, 1.0]);
         assert_eq!((alone.effective_records, alone.largest_record, alone.largest_event), (1.0, 3, Some((8, 1.0))));
     }
 
@@ -154,13 +159,13 @@ mod tests {
     fn scale_factors_and_medians_by_hand() {
         let shares = [0.25, 0.25, 0.25, 0.25];
         // 4/40, 4/4, 4/2 twice: positions 0.15, 1.5 and 2.85
-        let factors = ScaleFactors::of(&set(), (4.0, 0), &shares, [0.5, 1.5]);
+        let factors = ScaleFactors::from_shares(&set(), (4.0, 0), &shares, [0.5, 1.5]);
         for (found, expected) in factors.percentiles.into_iter().zip([0.235, 1.5, 2.0]) {
             assert!((found - expected).abs() < 1e-12, "{found} {expected}");
         }
         assert_eq!((factors.outside_limits, factors.outside_tenfold), (0.75, 0.0));
-        let medians = Medians::of(&set(), &shares);
+        let medians = Medians::from_shares(&set(), &shares);
         assert_eq!((medians.magnitude, medians.distance_km), (Some(6.0), None));
-        assert_eq!(Medians::of(&set(), &[0.0, 0.0, 0.5, 0.5]).magnitude, Some(7.0));
+        assert_eq!(Medians::from_shares(&set(), &[0.0, 0.0, 0.5, 0.5]).magnitude, Some(7.0));
     }
 }

@@ -65,7 +65,11 @@ pub enum Warning {
 
 impl Warning {
     /// All that there is to say of a repaired analysis.
-    pub(crate) fn of(analysis: &ScaledAnalysis<'_>, diagnosis: &Diagnosis, least_effective: f64) -> Vec<Self> {
+    pub(crate) fn from_analysis(
+        analysis: &ScaledAnalysis<'_>,
+        diagnosis: &Diagnosis,
+        least_effective: f64,
+    ) -> Vec<Self> {
         let mut warnings = Vec::new();
         if let Some(least) = diagnosis.least_effective
             && least.records < least_effective
@@ -102,7 +106,7 @@ impl Warning {
     /// Whether too many of the resamples of `size` records did not reach the curve ([`Fit::is_reached`]).
     ///
     /// [`Fit::is_reached`]: crate::Fit::is_reached
-    pub fn of_resamples(size: u32, failed: usize, replicates: usize) -> Option<Self> {
+    pub fn from_resamples(size: u32, failed: usize, replicates: usize) -> Option<Self> {
         let share = failed as f64 / replicates as f64;
         (share > MOST_FAILED_RESAMPLES).then_some(Self::FailedResamples { size, share })
     }
@@ -175,7 +179,7 @@ mod tests {
                 stripe.largest_event = Some((7, 0.4));
             }
             change(&mut diagnosis);
-            Warning::of(&analysis, &diagnosis, 20.0)
+            Warning::from_analysis(&analysis, &diagnosis, 20.0)
         };
         let levels = [1.0, 3.0, 5.0, 40.0];
         assert_eq!(of(&levels, &|_| {}), []);
@@ -210,8 +214,8 @@ mod tests {
 
     #[test]
     fn failed_resamples_are_reported_above_five_per_cent() {
-        assert_eq!(Warning::of_resamples(20, 50, 1000), None);
-        let warning = Warning::of_resamples(20, 250, 1000).unwrap();
+        assert_eq!(Warning::from_resamples(20, 50, 1000), None);
+        let warning = Warning::from_resamples(20, 250, 1000).unwrap();
         assert_eq!(warning, Warning::FailedResamples { size: 20, share: 0.25 });
         with_words(|words| assert!(warning.sentence(words).starts_with("25 % of the resamples of 20 records")));
     }

@@ -100,7 +100,7 @@ pub(crate) fn both_ways(
 
 /// Ratios of the ordinates of 10 mm and more.
 pub(crate) fn from_10_mm(pairs_m: &[(f64, f64)]) -> Agreement {
-    Agreement::of(pairs_m.iter().copied(), 0.01, f64::INFINITY).unwrap()
+    Agreement::from_pairs(pairs_m.iter().copied(), 0.01, f64::INFINITY).unwrap()
 }
 
 /// By PGA over by PGV stays within 20 % at 10 mm and more: the weights are the same whichever measure the set was

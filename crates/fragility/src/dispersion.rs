@@ -29,7 +29,7 @@ impl Dispersion {
     ///
     /// # Panics
     /// If `level` is not below [`Stripes::level_count`].
-    pub fn of(stripes: &Stripes<'_>, level: usize) -> Self {
+    pub fn from_stripes(stripes: &Stripes<'_>, level: usize) -> Self {
         let mut demands_m: Vec<f64> = stripes.stripe(level).collect();
         demands_m.sort_by(f64::total_cmp);
         let count = demands_m.len();
@@ -75,7 +75,7 @@ pub fn mean_residuals(stripes: &Stripes<'_>, median_above_m: f64) -> Vec<f64> {
     let mut sums = vec![0.0; stripes.record_count()];
     let mut levels = vec![0; stripes.record_count()];
     for level in 0..stripes.level_count() {
-        let scatter = Dispersion::of(stripes, level);
+        let scatter = Dispersion::from_stripes(stripes, level);
         if scatter.zeros + scatter.overturned > 0 || scatter.median_m <= median_above_m {
             continue;
         }
@@ -112,7 +112,7 @@ mod tests {
     fn scatter_by_hand() {
         // e⁰ … e⁴: percentiles at positions 0.64, 2 and 3.36 of the sorted values
         let demands: Vec<f64> = (0..5).map(|i| f64::from(i).exp()).collect();
-        let scatter = Dispersion::of(&Stripes::new(&[1.0], &demands).unwrap(), 0);
+        let scatter = Dispersion::from_stripes(&Stripes::new(&[1.0], &demands).unwrap(), 0);
         let e = std::f64::consts::E;
         let (low, high) = (1.0 + 0.64 * (e - 1.0), e.powi(3) + 0.36 * (e.powi(4) - e.powi(3)));
         assert!((scatter.by_percentiles - 0.5 * (high / low).ln()).abs() < 1e-14);
@@ -126,12 +126,12 @@ mod tests {
         let mut demands = vec![0.1; 20];
         demands[0] = 0.0;
         demands[1] = INF;
-        let scatter = Dispersion::of(&Stripes::new(&[1.0], &demands).unwrap(), 0);
+        let scatter = Dispersion::from_stripes(&Stripes::new(&[1.0], &demands).unwrap(), 0);
         assert_eq!((scatter.zeros, scatter.overturned, scatter.by_percentiles), (1, 1, 0.0));
         assert!(scatter.of_logarithm.is_nan());
-        let overturned = Dispersion::of(&Stripes::new(&[1.0], &[0.1, INF, INF]).unwrap(), 0);
+        let overturned = Dispersion::from_stripes(&Stripes::new(&[1.0], &[0.1, INF, INF]).unwrap(), 0);
         assert!(overturned.by_percentiles.is_nan() && overturned.median_m == INF);
-        let single = Dispersion::of(&Stripes::new(&[1.0], &[0.1]).unwrap(), 0);
+        let single = Dispersion::from_stripes(&Stripes::new(&[1.0], &[0.1]).unwrap(), 0);
         assert!(single.by_percentiles.is_nan() && single.of_logarithm.is_nan() && single.median_m == 0.1);
     }
 

@@ -17,7 +17,7 @@ pub struct Goodness {
 
 impl Goodness {
     /// Of a fragility with this `probability` at an intensity.
-    pub fn of(counts: &[StripeCount], probability: impl Fn(f64) -> f64) -> Self {
+    pub fn from_counts(counts: &[StripeCount], probability: impl Fn(f64) -> f64) -> Self {
         let mut found = Self { log_likelihood: 0.0, deviance: 0.0, largest_error: 0.0 };
         for &StripeCount { level, exceedances, trials } in counts.iter().filter(|count| count.trials > 0) {
             let (k, n) = (f64::from(exceedances), f64::from(trials));
@@ -45,13 +45,13 @@ mod tests {
         let count = |level, exceedances, trials| StripeCount { level, exceedances, trials };
         let counts = [count(1.0, 0, 4), count(2.0, 1, 4), count(3.0, 0, 0), count(4.0, 4, 4)];
         let shares = |level: f64| if level < 2.0 { 0.0 } else { level * level / 16.0 };
-        let met = Goodness::of(&counts, shares);
+        let met = Goodness::from_counts(&counts, shares);
         assert_eq!((met.deviance, met.largest_error), (0.0, 0.0));
         assert!((met.log_likelihood - (0.25_f64.ln() + 3.0 * 0.75_f64.ln())).abs() < 1e-15);
-        let half = Goodness::of(&counts, |_| 0.5);
+        let half = Goodness::from_counts(&counts, |_| 0.5);
         assert!((half.log_likelihood - 12.0 * 0.5_f64.ln()).abs() < 1e-14);
         assert!((half.deviance - 2.0 * (met.log_likelihood - half.log_likelihood)).abs() < 1e-14);
         assert_eq!(half.largest_error, 0.5);
-        assert_eq!(Goodness::of(&counts, |_| 0.0).log_likelihood, f64::NEG_INFINITY);
+        assert_eq!(Goodness::from_counts(&counts, |_| 0.0).log_likelihood, f64::NEG_INFINITY);
     }
 }

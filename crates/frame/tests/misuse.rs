@@ -38,7 +38,7 @@ fn springs_that_stop_the_columns() {
         reduced_thickness_m: None,
     });
     let stack = DiscStack::new(disc.unwrap(), 2, 1).unwrap();
-    let parts = Parts { when_flat: WhenFlat::Stop, ..Parts::of(Spring::Discs(stack)) };
+    let parts = Parts { when_flat: WhenFlat::Stop, ..Parts::from_spring(Spring::Discs(stack)) };
     let frame = table_frame(ColumnShape::Rectangle)
         .with_restrainer(Restrainer::new(parts).unwrap(), TendonPath::Column)
         .unwrap();

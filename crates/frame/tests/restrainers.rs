@@ -79,7 +79,7 @@ fn a_loose_tendon_does_nothing_until_it_is_taut() {
 #[test]
 fn a_linear_spring_behind_a_tendon() {
     let tendon = Tendon { stiffness_n_m: 13e6, yield_n: Some(10e3), failure_n: None };
-    let two = Parts { tendon: Some(tendon), ..Parts::of(Spring::Linear { stiffness_n_m: 2e6 }) };
+    let two = Parts { tendon: Some(tendon), ..Parts::from_spring(Spring::Linear { stiffness_n_m: 2e6 }) };
     let one = Parts::linear(2e6 * 13e6 / 15e6);
     let ground = GroundMotion { x: pulse(PulseShape::Sine, 2.7, 0.55, 0.1), ..GroundMotion::default() };
     let peak = |parts| respond(&with(parts, TendonPath::Column), &ground, Model::Planar, &Options::default()).unwrap();

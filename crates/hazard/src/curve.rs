@@ -246,7 +246,7 @@ fn check_labels(measure: &str, unit: &str) -> Result<(), HazardError> {
             return Err(HazardError::EmptyLabel { what });
         }
     }
-    match Dimension::of_measure(measure) {
+    match Dimension::from_measure(measure) {
         Some(dimension) if CurveUnit::parse(unit).map(CurveUnit::dimension) != Some(dimension) => {
             let (measure, unit) = (measure.to_owned(), unit.to_owned());
             Err(HazardError::UnitOfMeasure { measure, unit, expected: dimension.examples() })

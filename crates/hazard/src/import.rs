@@ -188,7 +188,7 @@ impl ExportedCurves {
     /// # Errors
     /// [`HazardError::File`] for a file that is missing, empty or of no known format; errors of its header.
     pub fn open(path: &Path) -> Result<Self, HazardError> {
-        Self::of_input(input::open(path)?, path.display().to_string())
+        Self::from_input(input::open(path)?, path.display().to_string())
     }
 
     /// The same for bytes from elsewhere; `name` is the file's name for messages.
@@ -197,10 +197,10 @@ impl ExportedCurves {
     /// As [`ExportedCurves::open`].
     pub fn from_reader(reader: impl BufRead + Send + 'static, name: &str) -> Result<Self, HazardError> {
         let input = input::unpacked(reader).map_err(|error| unreadable(name, &error))?;
-        Self::of_input(input, name.to_owned())
+        Self::from_input(input, name.to_owned())
     }
 
-    fn of_input(mut input: Input, name: String) -> Result<Self, HazardError> {
+    fn from_input(mut input: Input, name: String) -> Result<Self, HazardError> {
         let head = input::peek(&mut input, 1024).map_err(|error| unreadable(&name, &error))?;
         let begin = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&head).trim_ascii_start().first().copied();
         let input: Input = Box::new(Cursor::new(head).chain(input));

@@ -10,7 +10,7 @@ pub(crate) enum Dimension {
 
 impl Dimension {
     /// Dimension of the measures known by name; others may carry any unit.
-    pub(crate) fn of_measure(measure: &str) -> Option<Self> {
+    pub(crate) fn from_measure(measure: &str) -> Option<Self> {
         let name = measure.trim().to_ascii_lowercase();
         match name.as_str() {
             "pgv" | "cav" | "ia" | "arias" => Some(Self::Velocity),

@@ -75,15 +75,15 @@ impl Combination {
     pub fn peaks_of(self, pair: &RecordPair) -> Result<Peaks, MotionError> {
         match self {
             Self::GeometricMean => Ok(geometric_mean_of(pair)),
-            Self::RotD50 => Rotated::of(pair).map(|rotated| rotated.peaks(median)),
-            Self::RotD100 => Rotated::of(pair).map(|rotated| rotated.peaks(largest)),
+            Self::RotD50 => Rotated::from_pair(pair).map(|rotated| rotated.peaks(median)),
+            Self::RotD100 => Rotated::from_pair(pair).map(|rotated| rotated.peaks(largest)),
         }
     }
 
     /// Peaks of `pair` in every combination, in the order of [`Combination::ALL`]; none where the time
     /// steps differ.
     pub fn all_peaks_of(pair: &RecordPair) -> [Option<Peaks>; 3] {
-        let rotated = Rotated::of(pair).ok();
+        let rotated = Rotated::from_pair(pair).ok();
         let of_rotated = |chosen: OfDirections| rotated.as_ref().map(|rotated| rotated.peaks(chosen));
         [Some(geometric_mean_of(pair)), of_rotated(median), of_rotated(largest)]
     }

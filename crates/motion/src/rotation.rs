@@ -81,7 +81,7 @@ pub(crate) struct Rotated {
 }
 
 impl Rotated {
-    pub(crate) fn of(pair: &RecordPair) -> Result<Self, MotionError> {
+    pub(crate) fn from_pair(pair: &RecordPair) -> Result<Self, MotionError> {
         common_time_step_s(pair)?;
         let [a1, a2] = [&pair.h1, &pair.h2].map(Accelerogram::acceleration_m_s2);
         let [v1, v2] = [&pair.h1, &pair.h2].map(Accelerogram::velocity_m_s);

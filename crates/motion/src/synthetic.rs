@@ -151,9 +151,9 @@ impl SyntheticSetOptions {
 ///
 /// # Errors
 ///
-/// As [`Pairs::of`] and each of its pairs.
+/// As [`Pairs::from_options`] and each of its pairs.
 pub fn generate(options: &SyntheticSetOptions) -> Result<Vec<RecordPair>, MotionError> {
-    Pairs::of(options)?.collect()
+    Pairs::from_options(options)?.collect()
 }
 
 /// The pairs of a synthetic record set, each made when it is asked for: some 25 ms of a core.
@@ -174,7 +174,7 @@ impl<'a> Pairs<'a> {
     /// # Errors
     ///
     /// [`MotionError::SyntheticOption`] for an option out of its range.
-    pub fn of(options: &'a SyntheticSetOptions) -> Result<Self, MotionError> {
+    pub fn from_options(options: &'a SyntheticSetOptions) -> Result<Self, MotionError> {
         options.check()?;
         Ok(Self { options, kept: 0, candidate: 0 })
     }

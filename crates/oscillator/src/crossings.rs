@@ -117,7 +117,7 @@ impl Crossing {
     }
 
     #[inline(always)]
-    fn of(motion: &LinearMotion, tau: f64, level: f64) -> Self {
+    fn from_motion(motion: &LinearMotion, tau: f64, level: f64) -> Self {
         Self { level, tau, v: motion.state(tau).1 }
     }
 }
@@ -166,7 +166,7 @@ pub(crate) fn crossing(motion: &LinearMotion, from: Node, v: f64, to: Node, leve
     }
     let from = Node { tau: low, u: motion.state(low).0 };
     let to = Node { tau: high, u: motion.state(high).0 };
-    Crossing::of(motion, crossing_time(motion, from, to, level), level)
+    Crossing::from_motion(motion, crossing_time(motion, from, to, level), level)
 }
 
 /// Newton's method from `tau` on for a motion without stiffness, which is a cubic; `None` where it does not converge.
@@ -262,7 +262,7 @@ pub(crate) fn first_crossing(
     let mut from = Node { tau: 0.0, u: motion.u0 };
     for to in Nodes::new(motion, h) {
         if let Some(level) = level_beyond(to.u) {
-            return Some(Crossing::of(motion, crossing_time(motion, from, to, level), level));
+            return Some(Crossing::from_motion(motion, crossing_time(motion, from, to, level), level));
         }
         from = to;
     }

@@ -41,7 +41,7 @@ impl InstructionSet {
 
     /// The sets of this processor, the best last.
     pub fn available() -> Vec<Self> {
-        Self::ALL.into_iter().filter(|set| Instructions::of(*set).is_some()).collect()
+        Self::ALL.into_iter().filter(|set| Instructions::from_set(*set).is_some()).collect()
     }
 
     /// The set that runs are followed with: that of [`INSTRUCTIONS_VARIABLE`] if it is set, else the best of this
@@ -85,7 +85,7 @@ pub(crate) struct Instructions(InstructionSet);
 
 impl Instructions {
     /// `set`, if this processor has it.
-    pub(crate) fn of(set: InstructionSet) -> Option<Self> {
+    pub(crate) fn from_set(set: InstructionSet) -> Option<Self> {
         #[cfg(target_arch = "x86_64")]
         let has = match set {
             InstructionSet::Portable => true,
@@ -103,13 +103,13 @@ impl Instructions {
 
     /// The best that this processor has.
     fn best() -> Self {
-        let best = InstructionSet::ALL.into_iter().rev().find_map(Self::of);
+        let best = InstructionSet::ALL.into_iter().rev().find_map(Self::from_set);
         best.unwrap_or(Self(InstructionSet::Portable))
     }
 
     /// What runs are followed with; see [`InstructionSet::chosen`].
     pub(crate) fn chosen() -> Self {
-        chosen().as_ref().ok().and_then(|set| Self::of(*set)).unwrap_or_else(Self::best)
+        chosen().as_ref().ok().and_then(|set| Self::from_set(*set)).unwrap_or_else(Self::best)
     }
 }
 
@@ -161,7 +161,7 @@ mod tests {
     use crate::{Excitation, GroundMotion, Oscillator, PostUplift};
 
     fn available() -> Vec<Instructions> {
-        InstructionSet::available().into_iter().map(|set| Instructions::of(set).unwrap()).collect()
+        InstructionSet::available().into_iter().map(|set| Instructions::from_set(set).unwrap()).collect()
     }
 
     #[test]

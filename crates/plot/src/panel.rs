@@ -133,7 +133,7 @@ pub(super) fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<PanelPlace, F
     let x_ticks = ticks(x_scale, x0, x1, ((wide / ZOOM) as usize / 48).clamp(3, 8));
     let y_ticks = ticks(y_scale, y0, y1, ((high / ZOOM) as usize / 45).clamp(3, 8));
 
-    let (x_labels, y_labels) = (Labels::of(x_scale, &x_ticks), Labels::of(y_scale, &y_ticks));
+    let (x_labels, y_labels) = (Labels::from_positions(x_scale, &x_ticks), Labels::from_positions(y_scale, &y_ticks));
     // the name of an axis lies beside its numbers, not over them
     let beside = 46 + 5 * y_labels.longest(&y_ticks).saturating_sub(LETTERS_OF_A_TICK) as u32;
 

@@ -65,7 +65,7 @@ pub(super) struct Labels {
 
 impl Labels {
     /// Of the ticks at these positions: powers of ten where one of them would be long.
-    pub(super) fn of(scale: Scale, positions: &[f64]) -> Self {
+    pub(super) fn from_positions(scale: Scale, positions: &[f64]) -> Self {
         let long = |value: f64| value != 0.0 && (value.abs() < 0.999e-3 || value.abs() > 0.999e5);
         Self { scale, powers: positions.iter().any(|&position| long(scale.value(position))) }
     }
@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn words() {
         let written = |scale: Scale, positions: &[f64]| {
-            let labels = Labels::of(scale, positions);
+            let labels = Labels::from_positions(scale, positions);
             positions.iter().map(|&position| labels.text(position)).collect::<Vec<_>>().join(" ")
         };
         assert_eq!(written(Scale::Linear, &[0.0, 0.2, 100.0]), "0 0.2 100");

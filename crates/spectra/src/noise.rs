@@ -74,7 +74,7 @@ pub struct Noisy {
 
 impl Noisy {
     /// Of the values over a sweep; the middle one counts as the point itself. NaN without any.
-    pub fn of(sweep: &[f64]) -> Self {
+    pub fn from_sweep(sweep: &[f64]) -> Self {
         Self::around(sweep.get(sweep.len() / 2).copied().unwrap_or(f64::NAN), sweep.iter().copied())
     }
 
@@ -147,11 +147,11 @@ mod tests {
 
     #[test]
     fn a_range_holds_its_value_and_all_others() {
-        let noisy = Noisy::of(&[3.0, 1.0, 2.0, f64::INFINITY, 4.0]);
+        let noisy = Noisy::from_sweep(&[3.0, 1.0, 2.0, f64::INFINITY, 4.0]);
         assert_eq!(noisy, Noisy { value: 2.0, lowest: 1.0, highest: f64::INFINITY });
         assert!(noisy.holds(1.0) && noisy.holds(1e9) && !noisy.holds(0.5));
         assert_eq!(Noisy::around(7.0, [1.0, 2.0]), Noisy { value: 7.0, lowest: 1.0, highest: 7.0 });
-        assert!(Noisy::of(&[]).value.is_nan());
+        assert!(Noisy::from_sweep(&[]).value.is_nan());
     }
 
     #[test]
@@ -159,11 +159,11 @@ mod tests {
         let inf = f64::INFINITY;
         // the middle: the rule sees 1 m where time histories overturn
         let errors = errors(&[1.2, 1.0, 0.9, inf], &[1.0, inf, 1.0, inf]);
-        let range = Noisy::of(&errors);
+        let range = Noisy::from_sweep(&errors);
         assert_eq!((range.value, range.lowest), (0.9 - 1.0, -1.0));
         assert!((range.highest - 0.2).abs() < 1e-15);
         for undefined in [[f64::NAN, 1.0, 2.0], [2.0, 1.0, f64::NAN]] {
-            let range = Noisy::of(&undefined);
+            let range = Noisy::from_sweep(&undefined);
             assert!(range.value == 1.0 && range.lowest.is_nan() && range.highest.is_nan());
         }
     }

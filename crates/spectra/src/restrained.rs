@@ -76,11 +76,11 @@ impl RestrainedDesign {
         let rule_m: Vec<f64> = checks.iter().map(|check| check.demand.displacement_m()).collect();
         let error = errors(&rule_m, &time_history_m);
         Ok(RestrainedExample {
-            zero_stiffness_m: Noisy::of(&zero_stiffness_m),
-            capacity_m: Noisy::of(&capacity_m),
-            time_history_m: Noisy::of(&time_history_m),
-            rule_m: Noisy::of(&rule_m),
-            error: Noisy::of(&error),
+            zero_stiffness_m: Noisy::from_sweep(&zero_stiffness_m),
+            capacity_m: Noisy::from_sweep(&capacity_m),
+            time_history_m: Noisy::from_sweep(&time_history_m),
+            rule_m: Noisy::from_sweep(&rule_m),
+            error: Noisy::from_sweep(&error),
         })
     }
 

@@ -71,10 +71,10 @@ impl SolitaryDesign {
         let error = errors(&endless_m, &block_m);
         Ok(SolitaryExample {
             design_tangent: Noisy::around(design, met),
-            endless_m: Noisy::of(&endless_m),
-            block_m: Noisy::of(&block_m),
+            endless_m: Noisy::from_sweep(&endless_m),
+            block_m: Noisy::from_sweep(&block_m),
             capacity_m: self.height_m * design,
-            error: Noisy::of(&error),
+            error: Noisy::from_sweep(&error),
         })
     }
 

@@ -41,7 +41,7 @@ fn medians_are_those_of_an_independent_prototype_within_their_noise() {
         for (at, expected_m) in expected.iter().enumerate() {
             let medians_m: Vec<f64> =
                 (0..systems.len()).map(|system| percentile(&all.over_motions_m(system, at), 50.0)).collect();
-            let ours = Noisy::of(&medians_m);
+            let ours = Noisy::from_sweep(&medians_m);
             println!(
                 "{} {}: {:.3} ({:.3} to {:.3}) m, prototype {expected_m}",
                 set.name(),

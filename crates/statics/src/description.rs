@@ -288,7 +288,7 @@ impl RestrainerDescription {
             reduced_thickness_m: self.reduced_thickness_m,
         };
         let young_modulus_pa = self.young_modulus_pa.unwrap_or(SPRING_STEEL_YOUNG_MODULUS_PA);
-        DiscSpring::of_material(dimensions, young_modulus_pa, self.poisson.unwrap_or(STEEL_POISSON))
+        DiscSpring::from_material(dimensions, young_modulus_pa, self.poisson.unwrap_or(STEEL_POISSON))
             .map_err(|mistake| vec![mistake])
     }
 

@@ -70,9 +70,9 @@ impl DiscSpring {
     /// A disc of spring steel.
     ///
     /// # Errors
-    /// As for [`of_material`](Self::of_material).
+    /// As for [`of_material`](Self::from_material).
     pub fn new(dimensions: DiscDimensions) -> Result<Self, StaticsError> {
-        Self::of_material(dimensions, SPRING_STEEL_YOUNG_MODULUS_PA, STEEL_POISSON)
+        Self::from_material(dimensions, SPRING_STEEL_YOUNG_MODULUS_PA, STEEL_POISSON)
     }
 
     /// A disc of a material with Young's modulus (Pa) and Poisson's ratio.
@@ -80,7 +80,11 @@ impl DiscSpring {
     /// # Errors
     /// Lengths and modulus must be finite and positive, the inner diameter below the outer one, Poisson's ratio in
     /// \[0, 0.5\], a reduced thickness between half the thickness and the thickness.
-    pub fn of_material(dimensions: DiscDimensions, young_modulus_pa: f64, poisson: f64) -> Result<Self, StaticsError> {
+    pub fn from_material(
+        dimensions: DiscDimensions,
+        young_modulus_pa: f64,
+        poisson: f64,
+    ) -> Result<Self, StaticsError> {
         let DiscDimensions { outer_diameter_m, inner_diameter_m, thickness_m: t, cone_height_m, .. } = dimensions;
         positive("outer_diameter_m", outer_diameter_m, "m")?;
         positive("inner_diameter_m", inner_diameter_m, "m")?;

@@ -111,17 +111,17 @@ pub struct Parts {
 impl Parts {
     /// A spring of constant stiffness (N/m), tendon included, and nothing else.
     pub fn linear(stiffness_n_m: f64) -> Self {
-        Self::of(Spring::Linear { stiffness_n_m })
+        Self::from_spring(Spring::Linear { stiffness_n_m })
     }
 
     /// A stack of disc springs in series with a tendon of stiffness `EA/L` (N/m).
     pub fn discs(stack: DiscStack, tendon_stiffness_n_m: f64) -> Self {
         let tendon = Tendon { stiffness_n_m: tendon_stiffness_n_m, yield_n: None, failure_n: None };
-        Self { tendon: Some(tendon), ..Self::of(Spring::Discs(stack)) }
+        Self { tendon: Some(tendon), ..Self::from_spring(Spring::Discs(stack)) }
     }
 
     /// A spring and nothing else.
-    pub fn of(spring: Spring) -> Self {
+    pub fn from_spring(spring: Spring) -> Self {
         Self { spring, stopper: None, tendon: None, prestress_n: 0.0, slack_m: 0.0, when_flat: WhenFlat::default() }
     }
 

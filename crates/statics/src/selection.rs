@@ -289,8 +289,11 @@ fn candidate(
     if limits.largest_length_m.is_some_and(|most_m| length_m > most_m) || limits.prestress_n >= stack.flat_force_n() {
         return Ok(None);
     }
-    let parts =
-        Parts { tendon: Some(limits.tendon), prestress_n: limits.prestress_n, ..Parts::of(Spring::Discs(stack)) };
+    let parts = Parts {
+        tendon: Some(limits.tendon),
+        prestress_n: limits.prestress_n,
+        ..Parts::from_spring(Spring::Discs(stack))
+    };
     let restrainer = Restrainer::new(parts)?;
     let held = columns.clone().with_restrainer(restrainer.clone(), limits.path)?;
     let capacity = held.capacity();

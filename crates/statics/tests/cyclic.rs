@@ -43,7 +43,8 @@ fn the_protocol_of_figure_5_11() {
 fn stoppers_dissipate_once() {
     let stopper = Some(Stopper { gap_m: 0.005, stiffness_n_m: 4e7, yield_n: Some(4e3) });
     let work_j = |stopper| {
-        let law = Restrainer::new(Parts { stopper, ..Parts::of(Spring::Linear { stiffness_n_m: 1e6 }) }).unwrap();
+        let law =
+            Restrainer::new(Parts { stopper, ..Parts::from_spring(Spring::Linear { stiffness_n_m: 1e6 }) }).unwrap();
         let columns =
             RestrainedColumns::new(column(), 2, 30e3, 2e3).unwrap().with_restrainer(law, TendonPath::Column).unwrap();
         let history = LoadingProtocol::new(0.15, 1.0, 1, 3, 1e-3).unwrap().history(4000).unwrap();

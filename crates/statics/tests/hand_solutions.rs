@@ -60,7 +60,7 @@ fn a_linear_restrainer_at_the_column_is_equation_5_1() {
 #[test]
 fn series_slack_prestress_and_stopper_by_hand() {
     let tendon = Some(Tendon { stiffness_n_m: 3e6, yield_n: Some(30e3), failure_n: None });
-    let spring = Parts { tendon, ..Parts::of(Spring::Linear { stiffness_n_m: 1e6 }) };
+    let spring = Parts { tendon, ..Parts::from_spring(Spring::Linear { stiffness_n_m: 1e6 }) };
     // 1/(1/1e6 + 1/3e6) = 750 kN/m
     let state = Restrainer::new(spring).unwrap().at(0.01).unwrap();
     assert!((state.force_n - 7500.0).abs() < 1e-9 && (state.stiffness_n_m - 750e3).abs() < 1e-6, "{state:?}");
@@ -99,7 +99,7 @@ fn series_slack_prestress_and_stopper_by_hand() {
 #[test]
 fn a_yielded_stopper_unloads_along_its_stiffness() {
     let stopper = Some(Stopper { gap_m: 0.005, stiffness_n_m: 4e6, yield_n: Some(4e3) });
-    let law = Restrainer::new(Parts { stopper, ..Parts::of(Spring::Linear { stiffness_n_m: 1e6 }) }).unwrap();
+    let law = Restrainer::new(Parts { stopper, ..Parts::from_spring(Spring::Linear { stiffness_n_m: 1e6 }) }).unwrap();
     let after = law.after_yielding(0.016).unwrap();
     // plastic part 10 mm: engages at 15 mm
     for (d, unloading_n) in [(0.016, 16e3 + 4e3), (0.0155, 15.5e3 + 2e3), (0.015, 15e3), (0.01, 10e3), (0.02, 24e3)] {
@@ -132,7 +132,7 @@ fn a_bare_tendon_yields_at_eleven_per_cent() {
     let column = Geometry::from_width_and_height(1.6, 9.6).unwrap();
     let (stiffness_n_m, yield_n) = (1e8, 0.009 * 9.6 * 1e8);
     let tendon = Some(Tendon { stiffness_n_m, yield_n: Some(yield_n), failure_n: None });
-    let restrainer = Restrainer::new(Parts { tendon, ..Parts::of(Spring::Rigid) }).unwrap();
+    let restrainer = Restrainer::new(Parts { tendon, ..Parts::from_spring(Spring::Rigid) }).unwrap();
     let drift = |path| {
         let free = RestrainedColumns::new(column, 1, 2e6, 482_500.0).unwrap();
         let columns = free.with_restrainer(restrainer.clone(), path).unwrap();

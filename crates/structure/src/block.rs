@@ -111,7 +111,7 @@ impl Block {
                     softening: 1.0,
                     participation: 1.5,
                 };
-                EquivalentSystem::of(&row, &self.geometry, conditions)
+                EquivalentSystem::from_row(&row, &self.geometry, conditions)
             }
         }
     }
@@ -189,5 +189,5 @@ fn at_centre(
         softening: 1.0,
         participation: 1.0 / inertia_ratio,
     };
-    EquivalentSystem::of(&row, geometry, conditions)
+    EquivalentSystem::from_row(&row, geometry, conditions)
 }

@@ -23,20 +23,20 @@ impl Check {
     ///
     /// # Errors
     /// Positive post-uplift stiffness, a safety factor below 1, or a demand that is not a finite number.
-    pub fn of(
+    pub fn from_system(
         system: &EquivalentSystem,
         rule: Rule,
         safety_factor: f64,
         zero_stiffness_demand_m: f64,
     ) -> Result<Self, StructureError> {
-        Self::of_capacity(&system.capacity()?, rule, safety_factor, zero_stiffness_demand_m)
+        Self::from_capacity(&system.capacity()?, rule, safety_factor, zero_stiffness_demand_m)
     }
 
     /// Check a capacity against a ZSBE demand, m.
     ///
     /// # Errors
     /// A safety factor below 1, or a demand that is not a finite number.
-    pub fn of_capacity(
+    pub fn from_capacity(
         capacity: &Capacity,
         rule: Rule,
         safety_factor: f64,
@@ -97,5 +97,5 @@ pub fn design(
     let uplift_m = own.uplift_displacement_m();
     let required_m = rule.required_capacity_m(zero_stiffness_demand_m, uplift_m, safety_factor)?;
     let chosen = Capacity::new(uplift_m, own.capacity_m().max(required_m))?;
-    Check::of_capacity(&chosen, rule, safety_factor, zero_stiffness_demand_m)
+    Check::from_capacity(&chosen, rule, safety_factor, zero_stiffness_demand_m)
 }

@@ -91,7 +91,7 @@ pub(crate) struct Row {
 }
 
 impl EquivalentSystem {
-    pub(crate) fn of(row: &Row, geometry: &Geometry, conditions: Conditions) -> Result<Self, StructureError> {
+    pub(crate) fn from_row(row: &Row, geometry: &Geometry, conditions: Conditions) -> Result<Self, StructureError> {
         for (what, value) in [
             ("the equivalent mass, kg", row.mass_kg),
             ("the force at uplift, N", row.uplift_force_n),

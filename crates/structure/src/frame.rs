@@ -129,7 +129,7 @@ impl Frame {
             softening,
             participation: self.gravitating_mass_kg() / self.inertial_mass_kg(),
         };
-        EquivalentSystem::of(&row, &self.geometry, conditions)
+        EquivalentSystem::from_row(&row, &self.geometry, conditions)
     }
 
     /// Height `2H` of the solitary block of the same slenderness that rotates as this frame does (Section 2.4.3, after

@@ -42,7 +42,7 @@
 //! let bridge = description.resolve().map_err(|mistakes| mistakes[0].clone())?;
 //! let ordinate_m = 0.40; // read from a spectrum at bridge.spectral_strength()
 //! let demand_m = bridge.zero_stiffness_demand_m(ordinate_m)?;
-//! let check = Check::of(&bridge, Rule::EqualEnergy, 2.5, demand_m)?;
+//! let check = Check::from_system(&bridge, Rule::EqualEnergy, 2.5, demand_m)?;
 //! assert!(check.is_satisfied());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

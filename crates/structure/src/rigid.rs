@@ -38,7 +38,7 @@ pub struct RotatingBlock {
 impl RotatingBlock {
     /// * `size_ratio` — `R_b/R`
     /// * `loss` — `(1 − r)/sin²α`
-    fn of(geometry: &Geometry, size_ratio: f64, loss: f64) -> Self {
+    fn from_geometry(geometry: &Geometry, size_ratio: f64, loss: f64) -> Self {
         let slenderness_rad = geometry.slenderness_rad();
         let restitution = (1.0 - loss * slenderness_rad.sin().powi(2)).max(0.0);
         Self { size_m: size_ratio * geometry.size_m(), slenderness_rad, restitution }
@@ -48,21 +48,21 @@ impl RotatingBlock {
 impl PointMass {
     /// The block that rotates as this mass on its massless body.
     pub fn rotating_block(&self) -> RotatingBlock {
-        RotatingBlock::of(self.geometry(), 0.75, 2.0)
+        RotatingBlock::from_geometry(self.geometry(), 0.75, 2.0)
     }
 }
 
 impl Block {
     /// The block itself.
     pub fn rotating_block(&self) -> RotatingBlock {
-        RotatingBlock::of(self.geometry(), 1.0, 1.5)
+        RotatingBlock::from_geometry(self.geometry(), 1.0, 1.5)
     }
 }
 
 impl Body {
     /// The block that rotates as this body.
     pub fn rotating_block(&self) -> RotatingBlock {
-        RotatingBlock::of(self.geometry(), 0.75 * self.inertia_ratio(), 2.0 / self.inertia_ratio())
+        RotatingBlock::from_geometry(self.geometry(), 0.75 * self.inertia_ratio(), 2.0 / self.inertia_ratio())
     }
 }
 
@@ -70,7 +70,7 @@ impl Frame {
     /// The block that rotates as the columns of this frame.
     pub fn rotating_block(&self) -> RotatingBlock {
         let size_ratio = self.equivalent_block_height_m() / self.geometry().height_m();
-        RotatingBlock::of(self.geometry(), size_ratio, self.impact_loss())
+        RotatingBlock::from_geometry(self.geometry(), size_ratio, self.impact_loss())
     }
 }
 

@@ -76,14 +76,14 @@ fn a_check_names_demand_requirement_and_margin() {
     let system = block.equivalent(Reference::Top, Conditions::new(10.0, 0.0).unwrap()).unwrap();
     // an ordinate of 0.5 m is 0.75 m at the top: demand 1 m, required 2 m at FS = 2, and the block is 2 m wide
     let z = system.zero_stiffness_demand_m(0.5).unwrap();
-    let check = Check::of(&system, Rule::EqualEnergy, 2.0, z).unwrap();
+    let check = Check::from_system(&system, Rule::EqualEnergy, 2.0, z).unwrap();
     assert_eq!((z, check.demand.displacement_m(), check.capacity_m), (0.75, 1.0, 2.0));
     assert!((check.required_capacity_m - 2.0).abs() < 1e-15 && check.margin_m().abs() < 1e-15);
     assert_eq!(check.safety_factor(), 2.0);
-    let weak = Check::of(&system, Rule::EqualEnergy, 2.0, 1.2).unwrap();
+    let weak = Check::from_system(&system, Rule::EqualEnergy, 2.0, 1.2).unwrap();
     assert!(!weak.is_satisfied() && weak.margin_m() < 0.0 && weak.safety_factor() == 0.0);
     assert_eq!(weak.demand, Demand::Overturns { largest_zero_stiffness_demand_m: 1.0 });
-    let endless = Check::of_capacity(&capacity(0.0, f64::INFINITY), Rule::EqualEnergy, 2.0, 1.2).unwrap();
+    let endless = Check::from_capacity(&capacity(0.0, f64::INFINITY), Rule::EqualEnergy, 2.0, 1.2).unwrap();
     assert_eq!((endless.demand.displacement_m(), endless.margin_m()), (1.2, f64::INFINITY));
 }
 
@@ -250,7 +250,7 @@ proptest! {
         let n = demand(rule, &capacity(uplift, required), z);
         prop_assert!((required / n / factor - 1.0).abs() < 1e-8, "{} {} {}", required, n, factor);
         // a larger capacity has a larger factor, a smaller one does not reach it
-        let factor_of = |c: f64| Check::of_capacity(&capacity(uplift, c), rule, factor, z).unwrap();
+        let factor_of = |c: f64| Check::from_capacity(&capacity(uplift, c), rule, factor, z).unwrap();
         prop_assert!(factor_of(1.01 * required).is_satisfied());
         prop_assert!(factor_of(1.01 * required).safety_factor() > factor);
         if 0.99 * required > uplift {

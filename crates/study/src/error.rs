@@ -161,7 +161,7 @@ impl StudyError {
     }
 
     /// The `mistakes`, in order, of the study file named `file` with the contents `text`; so many more are `left_out`.
-    pub(crate) fn of_mistakes(file: &Path, text: String, mistakes: Vec<StudyMistake>, left_out: usize) -> Self {
+    pub(crate) fn from_mistakes(file: &Path, text: String, mistakes: Vec<StudyMistake>, left_out: usize) -> Self {
         let file = file.display().to_string();
         Self::Mistakes { text: Box::new(NamedSource::new(&file, text)), file, mistakes, left_out }
     }

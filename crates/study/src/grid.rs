@@ -69,7 +69,7 @@ pub(crate) struct GridRule {
 
 impl Grid {
     /// The grid of the notations `default`.
-    pub(crate) fn of_default(default: &[&str], rule: GridRule) -> Option<Self> {
+    pub(crate) fn from_default(default: &[&str], rule: GridRule) -> Option<Self> {
         let node = |value| Node { origin: Origin::Study, value };
         let items = default.iter().map(|text| node(Value::Text((*text).to_owned())));
         let list = node(Value::List(items.collect()));

@@ -558,7 +558,7 @@ impl Readable for GridRule {
     }
 
     fn value(&self, given: Self::Given) -> Option<Grid> {
-        Grid::of_default(given, *self)
+        Grid::from_default(given, *self)
     }
 }
 

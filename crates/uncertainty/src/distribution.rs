@@ -66,7 +66,7 @@ impl Distribution {
     /// # Errors
     /// A mean outside of the range, or of a lognormal one not above 0, or of 0 that has a scatter; a coefficient below
     /// 0; a distribution of which too much lies outside.
-    pub fn of_mean(family: Family, (mean, variation): (f64, f64), range: [f64; 2]) -> Result<Self, UncertaintyError> {
+    pub fn from_mean(family: Family, (mean, variation): (f64, f64), range: [f64; 2]) -> Result<Self, UncertaintyError> {
         let within = (range[0]..=range[1]).contains(&mean) && (family != Family::Lognormal || mean > 0.0);
         check("the mean", mean, within && mean.is_finite(), "within what the quantity can be")?;
         check("the coefficient of variation", variation, (0.0..=10.0).contains(&variation), "from 0 to 10")?;
@@ -84,11 +84,11 @@ impl Distribution {
             Family::Normal => Self::within(Shape::Normal(normal(mean, deviation)?), range),
             Family::Uniform => {
                 let half = 3.0_f64.sqrt() * deviation;
-                Self::of_limits([mean - half, mean + half], None, range)
+                Self::from_limits([mean - half, mean + half], None, range)
             }
             Family::Triangular => {
                 let half = 6.0_f64.sqrt() * deviation;
-                Self::of_limits([mean - half, mean + half], Some(mean), range)
+                Self::from_limits([mean - half, mean + half], Some(mean), range)
             }
         }
     }
@@ -99,7 +99,7 @@ impl Distribution {
     /// # Errors
     /// Percentiles that do not rise, or of a lognormal one not above 0; a distribution of which too much lies outside
     /// of `range`.
-    pub fn of_percentiles(
+    pub fn from_percentiles(
         family: Family,
         [(first, first_value), (second, second_value)]: [(f64, f64); 2],
         range: [f64; 2],
@@ -131,12 +131,12 @@ impl Distribution {
             }
             Family::Uniform => {
                 let (lower, width) = fit(shares, values);
-                Self::of_limits([lower, lower + width], None, range)
+                Self::from_limits([lower, lower + width], None, range)
             }
             Family::Triangular => {
                 let unit = triangular([-1.0, 1.0], 0.0)?;
                 let (mode, half) = fit(shares.map(|share| unit.inverse_cdf(share)), values);
-                Self::of_limits([mode - half, mode + half], Some(mode), range)
+                Self::from_limits([mode - half, mode + half], Some(mode), range)
             }
         }
     }
@@ -145,7 +145,7 @@ impl Distribution {
     ///
     /// # Errors
     /// Limits that do not rise, a mode outside of them, limits outside of `range`.
-    pub fn of_limits([lower, upper]: [f64; 2], mode: Option<f64>, range: [f64; 2]) -> Result<Self, UncertaintyError> {
+    pub fn from_limits([lower, upper]: [f64; 2], mode: Option<f64>, range: [f64; 2]) -> Result<Self, UncertaintyError> {
         let middle = mode.unwrap_or(0.5 * (lower + upper));
         if !(lower < upper && (lower..=upper).contains(&middle) && lower.is_finite() && upper.is_finite()) {
             return Err(UncertaintyError::Limits { lower, mode: middle, upper });
@@ -249,11 +249,11 @@ mod tests {
     #[test]
     fn mean_and_coefficient_of_variation_are_those_asked_for() {
         for family in Family::ALL {
-            let of = Distribution::of_mean(family, (0.12, 0.3), ANY).unwrap();
+            let of = Distribution::from_mean(family, (0.12, 0.3), ANY).unwrap();
             let (mean, variation) = moments(&of);
             assert!((mean - 0.12).abs() < 1e-5 && (variation - 0.3).abs() < 1e-3, "{family:?}: {mean} {variation}");
             assert_eq!((of.cut_off_share(), of.constant(), of.family()), (0.0, None, Some(family)));
-            let known = Distribution::of_mean(family, (0.12, 0.0), ANY).unwrap();
+            let known = Distribution::from_mean(family, (0.12, 0.0), ANY).unwrap();
             assert_eq!((known.quantile(0.01), known.constant(), known.family()), (0.12, Some(0.12), None));
         }
     }
@@ -261,37 +261,37 @@ mod tests {
     #[test]
     fn percentiles_are_those_asked_for() {
         for family in Family::ALL {
-            let of = Distribution::of_percentiles(family, [(16.0, 0.08), (95.0, 0.15)], ANY).unwrap();
+            let of = Distribution::from_percentiles(family, [(16.0, 0.08), (95.0, 0.15)], ANY).unwrap();
             for (share, value) in [(0.16, 0.08), (0.95, 0.15)] {
                 assert!((of.quantile(share) - value).abs() < 1e-9, "{family:?}: {}", of.quantile(share));
             }
         }
-        let falling = Distribution::of_percentiles(Family::Normal, [(95.0, 0.15), (5.0, 0.1)], ANY);
+        let falling = Distribution::from_percentiles(Family::Normal, [(95.0, 0.15), (5.0, 0.1)], ANY);
         assert!(matches!(falling, Err(UncertaintyError::Percentiles { .. })));
     }
 
     /// Of a normal quantity of mean 0.95 and deviation 0.05 the share above 1 is that beyond one deviation.
     #[test]
     fn what_cannot_be_is_cut_off_and_said() {
-        let of = Distribution::of_mean(Family::Normal, (0.95, 0.05 / 0.95), [0.0, 1.0]).unwrap();
+        let of = Distribution::from_mean(Family::Normal, (0.95, 0.05 / 0.95), [0.0, 1.0]).unwrap();
         assert!((of.cut_off_share() - 0.158_655_253_931).abs() < 1e-9);
         assert!((of.quantile(1.0) - 1.0).abs() < 1e-9 && of.quantile(0.999) < 1.0);
         // the median of what is left: Φ⁻¹(0.5 · 0.841344746)
         assert!((of.quantile(0.5) - (0.95 - 0.05 * 0.200_174_4)).abs() < 1e-6, "{}", of.quantile(0.5));
-        let wide = Distribution::of_mean(Family::Normal, (0.95, 0.2), [0.0, 1.0]);
+        let wide = Distribution::from_mean(Family::Normal, (0.95, 0.2), [0.0, 1.0]);
         assert!(matches!(wide, Err(UncertaintyError::CutOff { .. })), "{wide:?}");
-        let beyond = Distribution::of_limits([0.9, 1.1], None, [0.0, 1.0]);
+        let beyond = Distribution::from_limits([0.9, 1.1], None, [0.0, 1.0]);
         assert!(matches!(beyond, Err(UncertaintyError::Beyond { .. })));
     }
 
     #[test]
     fn limits_and_mode() {
-        let of = Distribution::of_limits([0.9, 1.0], Some(0.98), [0.0, 1.0]).unwrap();
+        let of = Distribution::from_limits([0.9, 1.0], Some(0.98), [0.0, 1.0]).unwrap();
         // a fifth of the area lies above the mode, four fifths below it
         assert!((of.quantile(0.8) - 0.98).abs() < 1e-12);
         assert_eq!((of.quantile(0.0), of.quantile(1.0)), (0.9, 1.0));
         for (limits, mode) in [([1.0, 0.9], None), ([0.1, 0.2], Some(0.3)), ([f64::NAN, 1.0], None)] {
-            assert!(matches!(Distribution::of_limits(limits, mode, ANY), Err(UncertaintyError::Limits { .. })));
+            assert!(matches!(Distribution::from_limits(limits, mode, ANY), Err(UncertaintyError::Limits { .. })));
         }
     }
 }

@@ -10,8 +10,8 @@
 //! ```
 //! use uplift_uncertainty::{Distribution, Family, GaussianCopula, RandomVector, Sampling, unit_cube};
 //!
-//! let strength = Distribution::of_mean(Family::Lognormal, (0.1, 0.2), [0.0, 100.0])?;
-//! let restitution = Distribution::of_limits([0.9, 0.98], Some(0.95), [0.0, 1.0])?;
+//! let strength = Distribution::from_mean(Family::Lognormal, (0.1, 0.2), [0.0, 100.0])?;
+//! let restitution = Distribution::from_limits([0.9, 0.98], Some(0.95), [0.0, 1.0])?;
 //! let structure = RandomVector::new(vec![strength, restitution], GaussianCopula::new(2, &[(0, 1, 0.3)])?)?;
 //! let points = unit_cube(Sampling::Sobol, (64, 2), 1)?;
 //! let values: Vec<Vec<f64>> = points.chunks_exact(2).map(|point| structure.values(point)).collect();

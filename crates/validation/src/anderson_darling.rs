@@ -20,7 +20,7 @@ impl AndersonDarling {
     /// Of two samples.
     ///
     /// The statistics are NaN-free: with all values equal, or fewer than four together, they are 0.
-    pub fn of(one: &Sample, other: &Sample) -> Self {
+    pub fn from_samples(one: &Sample, other: &Sample) -> Self {
         let (n, m) = (one.len() as f64, other.len() as f64);
         let total = n + m;
         let values = distinct(one, other);

@@ -34,7 +34,7 @@ pub struct CramerVonMises {
 
 impl CramerVonMises {
     /// Of two samples.
-    pub fn of(one: &Sample, other: &Sample) -> Self {
+    pub fn from_samples(one: &Sample, other: &Sample) -> Self {
         let values = distinct(one, other);
         let (n, m) = (one.len(), other.len());
         let mut sums = [0.0; 2];

@@ -46,7 +46,7 @@ pub struct KolmogorovSmirnov {
 
 impl KolmogorovSmirnov {
     /// Of two samples, both sides.
-    pub fn of(one: &Sample, other: &Sample) -> Self {
+    pub fn from_samples(one: &Sample, other: &Sample) -> Self {
         let (n, m) = (one.len(), other.len());
         let (steps, has_ties) = largest_distance(one, other);
         let distance = steps as f64 / (n * m) as f64;
@@ -288,7 +288,7 @@ pub enum Evidence {
 
 impl Evidence {
     /// That of a p.
-    pub fn of(p: f64) -> Self {
+    pub fn from_p(p: f64) -> Self {
         match p {
             p if p < 0.01 => Self::VeryStrong,
             p if p < 0.05 => Self::Strong,
@@ -332,7 +332,7 @@ mod tests {
     fn many_values_take_no_longer() {
         let values = |shift: f64| Sample::new((0..200_000).map(|i| f64::from(i) + shift).collect()).unwrap();
         let begin = std::time::Instant::now();
-        let found = KolmogorovSmirnov::of(&values(0.0), &values(800.5));
+        let found = KolmogorovSmirnov::from_samples(&values(0.0), &values(800.5));
         assert!(!found.is_exact && (found.distance - 0.004_005).abs() < 1e-12, "{found:?}");
         assert!((found.p_exact / found.p_kstest2 - 1.0).abs() < 0.02, "{found:?}");
         let critical = KolmogorovSmirnov::critical_distance(200_000, 2000, 0.1);

@@ -21,8 +21,8 @@
 //! use uplift_validation::{Evidence, KolmogorovSmirnov, Sample};
 //! let measured = Sample::new(vec![0.02, 0.05, 0.07, 0.11, f64::INFINITY])?;
 //! let computed = Sample::new(vec![0.03, 0.04, 0.09, 0.16, f64::INFINITY])?;
-//! let test = KolmogorovSmirnov::of(&measured, &computed);
-//! assert_eq!(Evidence::of(test.p_exact), Evidence::SmallOrNone);
+//! let test = KolmogorovSmirnov::from_samples(&measured, &computed);
+//! assert_eq!(Evidence::from_p(test.p_exact), Evidence::SmallOrNone);
 //! # Ok::<(), uplift_validation::ValidationError>(())
 //! ```
 

@@ -22,7 +22,7 @@ pub struct MannWhitney {
 
 impl MannWhitney {
     /// Of two samples.
-    pub fn of(one: &Sample, other: &Sample) -> Self {
+    pub fn from_samples(one: &Sample, other: &Sample) -> Self {
         let (n, m) = (one.len() as f64, other.len() as f64);
         let total = n + m;
         let (mut below, mut ranks, mut ties) = (0.0, 0.0, 0.0);
@@ -58,7 +58,7 @@ mod tests {
             (300, 1.054_964_148_689_401_7e-99),
         ] {
             let sample = |from: i32| Sample::new((from..from + n).map(f64::from).collect()).unwrap();
-            let found = MannWhitney::of(&sample(0), &sample(1000));
+            let found = MannWhitney::from_samples(&sample(0), &sample(1000));
             assert!((found.p / p - 1.0).abs() < 1e-12, "{n}: {} beside {p}", found.p);
         }
     }

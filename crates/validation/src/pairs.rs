@@ -41,7 +41,7 @@ impl Pairs {
     ///
     /// # Errors
     /// As many of each, at least one; none NaN or −∞.
-    pub fn of(measured: &[f64], computed: &[f64]) -> Result<Self, ValidationError> {
+    pub fn from_peaks(measured: &[f64], computed: &[f64]) -> Result<Self, ValidationError> {
         check(measured, computed)?;
         let pairs = || measured.iter().copied().zip(computed.iter().copied());
         let (of_measured, of_computed): (Vec<f64>, Vec<f64>) =

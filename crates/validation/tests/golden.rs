@@ -70,17 +70,17 @@ fn goldens() -> [Golden; 3] {
 #[test]
 fn tests_of_two_samples() {
     for Golden { samples: [one, other], ks, ad, cvm, mw } in goldens() {
-        let found = KolmogorovSmirnov::of(&one, &other);
+        let found = KolmogorovSmirnov::from_samples(&one, &other);
         close(found.distance, ks[0]);
         close(found.p_exact, ks[1]);
         close(found.p_kolmogorov, ks[2]);
-        let found = AndersonDarling::of(&one, &other);
+        let found = AndersonDarling::from_samples(&one, &other);
         close(found.midrank, ad[0]);
         close(found.right, ad[1]);
-        let found = CramerVonMises::of(&one, &other);
+        let found = CramerVonMises::from_samples(&one, &other);
         close(found.statistic, cvm[0]);
         close(found.p, cvm[1]);
-        let found = MannWhitney::of(&one, &other);
+        let found = MannWhitney::from_samples(&one, &other);
         close(found.statistic, mw[0]);
         close(found.p, mw[1]);
     }
@@ -91,7 +91,7 @@ fn tests_of_two_samples() {
     close(wasserstein_distance(&ties[0], &ties[1]).unwrap(), 5.563_241_106_719_367);
     assert_eq!(energy_distance(&collapses[0], &collapses[1]), None);
     assert_eq!(wasserstein_distance(&collapses[0], &collapses[1]), None);
-    close(CramerVonMises::of(&plain[0], &plain[1]).p_limit, 0.282_433_640_998_765_8);
+    close(CramerVonMises::from_samples(&plain[0], &plain[1]).p_limit, 0.282_433_640_998_765_8);
 }
 
 /// A small p keeps its digits: `ks_2samp(range(40), [v + 39.5 for v in range(35)], method="exact")`.
@@ -99,7 +99,7 @@ fn tests_of_two_samples() {
 fn far_apart() {
     let one: Vec<f64> = (0..40).map(f64::from).collect();
     let other: Vec<f64> = (0..35).map(|v| f64::from(v) + 39.5).collect();
-    let found = KolmogorovSmirnov::of(&sample(&one), &sample(&other));
+    let found = KolmogorovSmirnov::from_samples(&sample(&one), &sample(&other));
     close(found.p_exact, 6.796_666_933_313_428e-22);
     // two orders of 75!/(40! 35!) have a distance of 1
     assert_eq!(found.distance, 1.0);
@@ -125,7 +125,7 @@ fn table_6_2_is_decoded() {
     }
     // with the sizes of all tests but none left out the third does not
     assert!((0..=26).all(|k: u32| ((100.0 * kstest2_p(26, 26, f64::from(k) / 26.0)).round() - 6.0).abs() > 0.5));
-    let words = |p| Evidence::of(p).words();
+    let words = |p| Evidence::from_p(p).words();
     assert_eq!([0.001, 0.02, 0.059, 0.139].map(words), ["very strong", "strong", "medium to weak", "small or none"]);
 }
 
@@ -137,7 +137,7 @@ fn exact_p_of_the_sets_of_table_6_2() {
         // the first k of the second sample lie below all of the first, the rest alternate
         let one: Vec<f64> = (0..n).map(f64::from).collect();
         let other: Vec<f64> = (0..n).map(|i| f64::from(i) + 0.5 - f64::from(k)).collect();
-        let found = KolmogorovSmirnov::of(&sample(&one), &sample(&other));
+        let found = KolmogorovSmirnov::from_samples(&sample(&one), &sample(&other));
         close(found.distance, f64::from(k) / f64::from(n));
         assert!((found.p_exact - expected).abs() < 0.001, "{n}: {}", found.p_exact);
     }
@@ -147,7 +147,7 @@ fn exact_p_of_the_sets_of_table_6_2() {
 fn pairs_with_collapses() {
     let measured = [0.4702, 0.2283, 0.1684, INF, 0.04258, 0.1698];
     let computed = [0.4932, 0.5565, 0.2529, INF, 0.04261, INF];
-    let found = Pairs::of(&measured, &computed).unwrap();
+    let found = Pairs::from_peaks(&measured, &computed).unwrap();
     close(found.log_bias.unwrap(), 0.336_529_903_069_562_6);
     close(found.log_dispersion.unwrap(), 0.411_716_072_376_903_3);
     close(found.pearson.unwrap(), 0.769_202_843_765_391_2);
@@ -157,8 +157,8 @@ fn pairs_with_collapses() {
     // 1.05, 2.44, 1.50, both, 1.00, one
     close(found.within_1_5, 3.0 / 6.0);
     close(found.within_2, 4.0 / 6.0);
-    assert!(Pairs::of(&measured, &computed[1..]).is_err());
-    assert!(Pairs::of(&[f64::NAN], &[1.0]).is_err());
+    assert!(Pairs::from_peaks(&measured, &computed[1..]).is_err());
+    assert!(Pairs::from_peaks(&[f64::NAN], &[1.0]).is_err());
 }
 
 #[test]
@@ -234,12 +234,12 @@ fn power_of_the_tests_of_the_dissertation() {
 #[test]
 fn one_value_each() {
     let (one, other) = (sample(&[0.01]), sample(&[7.5]));
-    let found = CramerVonMises::of(&one, &other);
+    let found = CramerVonMises::from_samples(&one, &other);
     assert_eq!((found.p, found.p_limit), (1.0, 1.0));
-    let found = KolmogorovSmirnov::of(&one, &other);
+    let found = KolmogorovSmirnov::from_samples(&one, &other);
     assert_eq!((found.distance, found.p_exact), (1.0, 1.0));
-    assert_eq!(AndersonDarling::of(&one, &other), AndersonDarling { midrank: 0.0, right: 0.0 });
-    assert_eq!(MannWhitney::of(&one, &other).p, 1.0);
+    assert_eq!(AndersonDarling::from_samples(&one, &other), AndersonDarling { midrank: 0.0, right: 0.0 });
+    assert_eq!(MannWhitney::from_samples(&one, &other).p, 1.0);
 }
 
 proptest! {
@@ -251,19 +251,19 @@ proptest! {
         let map = |values: &[f64]| sample(&values.iter().map(|value| value.ln()).collect::<Vec<f64>>());
         let (one, other) = (sample(&a), sample(&b));
         let (mapped, mapped_other) = (map(&a), map(&b));
-        let found = KolmogorovSmirnov::of(&one, &other);
-        prop_assert_eq!(found, KolmogorovSmirnov::of(&mapped, &mapped_other));
-        let swapped = KolmogorovSmirnov::of(&other, &one);
+        let found = KolmogorovSmirnov::from_samples(&one, &other);
+        prop_assert_eq!(found, KolmogorovSmirnov::from_samples(&mapped, &mapped_other));
+        let swapped = KolmogorovSmirnov::from_samples(&other, &one);
         prop_assert!((found.p_exact - swapped.p_exact).abs() < 1e-12);
-        prop_assert_eq!(CramerVonMises::of(&one, &other), CramerVonMises::of(&mapped, &mapped_other));
-        let exact = CramerVonMises::of(&one, &other);
-        let darling = AndersonDarling::of(&one, &other);
+        prop_assert_eq!(CramerVonMises::from_samples(&one, &other), CramerVonMises::from_samples(&mapped, &mapped_other));
+        let exact = CramerVonMises::from_samples(&one, &other);
+        let darling = AndersonDarling::from_samples(&one, &other);
         prop_assert!(darling.midrank.is_finite() && darling.right.is_finite());
-        for p in [exact.p_limit, found.p_kolmogorov, found.p_kstest2, MannWhitney::of(&one, &other).p] {
+        for p in [exact.p_limit, found.p_kolmogorov, found.p_kstest2, MannWhitney::from_samples(&one, &other).p] {
             prop_assert!((0.0..=1.0).contains(&p), "{p}");
         }
         prop_assert!(exact.p >= 0.0 && exact.p <= 1.0 && found.p_exact > 0.0 && found.p_exact <= 1.0);
-        let u = MannWhitney::of(&one, &other).statistic + MannWhitney::of(&other, &one).statistic;
+        let u = MannWhitney::from_samples(&one, &other).statistic + MannWhitney::from_samples(&other, &one).statistic;
         prop_assert!((u - (a.len() * b.len()) as f64).abs() < 1e-9);
     }
 
@@ -271,9 +271,9 @@ proptest! {
     #[test]
     fn nothing_differs_from_itself(a in prop::collection::vec(0.01..10.0_f64, 2..20)) {
         let one = sample(&a);
-        let found = KolmogorovSmirnov::of(&one, &one);
+        let found = KolmogorovSmirnov::from_samples(&one, &one);
         prop_assert_eq!((found.distance, found.p_exact), (0.0, 1.0));
         prop_assert_eq!(wasserstein_distance(&one, &one), Some(0.0));
-        prop_assert_eq!(MannWhitney::of(&one, &one).p, 1.0);
+        prop_assert_eq!(MannWhitney::from_samples(&one, &one).p, 1.0);
     }
 }

@@ -33,7 +33,7 @@ fn missed(evidence: &Evidence, scope: &Scope, consistency: &StoredConsistency, s
         None => (consistency.bias[site], consistency.verdict[site].as_str()),
         Some(poe) => {
             let ratio = consistency.ratio[[site, poe]];
-            (ratio, Verdict::of(ratio, ratio.ln().abs()).key())
+            (ratio, Verdict::from_bias(ratio, ratio.ln().abs()).key())
         }
     };
     (times.is_finite() && verdict == Verdict::Inconsistent.key()).then_some(times)

@@ -164,7 +164,7 @@ pub(super) fn exact_demand(
         let nudged = sweep.rounded.iter().map(|nudged| rate(nudged[OWN])).collect::<Result<Vec<_>, _>>()?;
         Ok(Noisy::around(rate(OWN)?, nudged))
     };
-    let [equal_displacement, equal_energy] = errors.map(|errors| Noisy::of(&errors));
+    let [equal_displacement, equal_energy] = errors.map(|errors| Noisy::from_sweep(&errors));
     // of every rule: its demand from that on the ZSBE oscillator, and the error of that against the structure's
     let mut by_rules = Vec::new();
     for &[_, zero, own] in [[OF_STUDY, ZERO_STIFFNESS, OWN]].iter().chain(&sweep.rounded) {
@@ -204,10 +204,10 @@ pub(super) fn exact_demand(
         // what has no capacity cannot overturn
         overturning: if capacity_m.is_some() { may_happen(overturning) } else { overturning },
         noise: DemandNoise {
-            demand_m: Noisy::of(&demands_m),
+            demand_m: Noisy::from_sweep(&demands_m),
             rule_errors: capacity_m.map(|_| RuleRanges { equal_displacement, equal_energy }),
-            beyond_capacity_per_year: capacity_m.map(|_| Noisy::of(&beyond)),
-            overturning_per_year: Noisy::of(&overturned),
+            beyond_capacity_per_year: capacity_m.map(|_| Noisy::from_sweep(&beyond)),
+            overturning_per_year: Noisy::from_sweep(&overturned),
         },
         rounding: DemandRounding {
             zero_stiffness_demand_of_spectrum_m: rounded_m(OF_STUDY)?,

@@ -18,7 +18,7 @@ pub(super) fn lognormal_bands(
     hazards: &[Hazard<'_>],
     scatter: &Scatter,
 ) -> Result<Vec<Option<Bands>>, DesignError> {
-    let Ok(found) = Fragilities::of(levels, demands_m) else { return Ok(vec![None; hazards.len()]) };
+    let Ok(found) = Fragilities::from_demands(levels, demands_m) else { return Ok(vec![None; hazards.len()]) };
     hazards.iter().map(|hazard| found.bands(hazard, scatter)).collect()
 }
 
@@ -36,7 +36,7 @@ impl Fragilities {
     ///
     /// # Errors
     /// Why one of them has no fit.
-    fn of(levels: &[f64], demands_m: &[f64]) -> Result<Self, FragilityError> {
+    fn from_demands(levels: &[f64], demands_m: &[f64]) -> Result<Self, FragilityError> {
         let stripes = Stripe::new(levels, demands_m)?;
         let all = fit_lognormal(&stripe_counts(&stripes, OVERTURNING_M)?)?.fragility;
         let each: Vec<Vec<usize>> = (0..stripes.record_count()).map(|record| vec![record]).collect();
@@ -95,7 +95,7 @@ mod tests {
         let levels: Vec<f64> = (1..=10).map(|level| 0.1 * f64::from(level)).collect();
         let rates: Vec<f64> = levels.iter().map(|level| 1e-4 * level.powf(-2.2)).collect();
         let weights = StripeWeights::new(&rates, None).unwrap();
-        let own = Fragilities::of(&levels, &demands(&FIRSTS)).unwrap();
+        let own = Fragilities::from_demands(&levels, &demands(&FIRSTS)).unwrap();
         let contributions = own.contributions(&weights).unwrap();
         let probabilities: Vec<f64> = levels.iter().map(|&level| own.all.probability(level)).collect();
         let per_year = weights.disaggregate(&probabilities).unwrap().total_per_year();
@@ -113,7 +113,7 @@ mod tests {
         // pairs of twins know as much as one of each
         let twins: Vec<usize> = FIRSTS.iter().flat_map(|&first| [first; 2]).collect();
         let pairs = Scatter { pairs: (0..12).map(|pair| vec![2 * pair, 2 * pair + 1]).collect(), earthquakes: None };
-        let of_twins = Fragilities::of(&levels, &demands(&twins)).unwrap();
+        let of_twins = Fragilities::from_demands(&levels, &demands(&twins)).unwrap();
         let twins = of_twins.bands(&Hazard { mean: &weights, branches: Vec::new() }, &pairs).unwrap().unwrap();
         assert!([0, 1].iter().all(|&end| (twins.by_record[end] / bands.by_record[end] - 1.0).abs() < 0.1), "{twins:?}");
     }
@@ -122,6 +122,6 @@ mod tests {
     fn a_fit_that_hangs_on_a_record_has_no_band() {
         let levels: Vec<f64> = (1..=10).map(f64::from).collect();
         // without the third nothing overlaps
-        assert!(Fragilities::of(&levels, &demands(&[4, 4, 5])).is_err());
+        assert!(Fragilities::from_demands(&levels, &demands(&[4, 4, 5])).is_err());
     }
 }

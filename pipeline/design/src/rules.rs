@@ -105,7 +105,7 @@ pub(super) fn apply_rules(
     }
     let check = |rule: Rule, demand_m: Option<f64>| -> Result<Option<RuleCheck>, StructureError> {
         let Some(demand_m) = demand_m else { return Ok(None) };
-        let check = Check::of(&structure.system, rule, safety_factor, demand_m)?;
+        let check = Check::from_system(&structure.system, rule, safety_factor, demand_m)?;
         Ok(Some(rule_check(structure, &check, demands.of_structure_m)))
     };
     let outcome = |rule: Rule| -> Result<RuleOutcome, StructureError> {

@@ -385,7 +385,7 @@ fn searched(
     extend(&mut tried, spread(range, VALUES, digits), attempt)?;
     for (part, step) in STEPS.into_iter().enumerate() {
         for _ in 0..ROUNDS {
-            let [best, lower, upper] = Frequencies::of(&tried, of_records)?.crossings(target_per_year);
+            let [best, lower, upper] = Frequencies::from_trials(&tried, of_records)?.crossings(target_per_year);
             // missed by the largest, or met by all
             if least(&tried, meets).is_none_or(|at| at == 0) {
                 break;
@@ -398,7 +398,7 @@ fn searched(
         }
     }
     narrow(&mut tried, (tolerance, digits), &mut *attempt, meets)?;
-    let frequencies = Frequencies::of(&tried, of_records)?;
+    let frequencies = Frequencies::from_trials(&tried, of_records)?;
     // by these, whatever the safe value shows
     let [_, _, upper] = frequencies.crossings(target_per_year);
     let best = least(&tried, meets).map_or(f64::INFINITY, |at| tried[at].0);

@@ -67,8 +67,8 @@ impl FromStr for TableMeasure {
 }
 
 impl TableOptions {
-    /// The measure of the rows of a result that has spectra by `known` ones, in order; none for all. Where none is asked
-    /// for it is PGV, as Table 4.2 is, or the first measure of a study without it.
+    /// The measure of the rows of a result that has spectra by `known` ones, in order; none for all. Where none is
+    /// asked for it is PGV, as Table 4.2 is, or the first measure of a study without it.
     pub(crate) fn measure_of_rows(&self, known: &[IntensityMeasure]) -> Option<IntensityMeasure> {
         match self.measure {
             None => Some(known.first().copied().unwrap_or(IntensityMeasure::Pgv)),

@@ -180,7 +180,7 @@ impl Fit {
     };
 
     /// What a fit found, if there is one.
-    pub fn of(fit: Option<&ExponentialFit>) -> Self {
+    pub fn from_exponential(fit: Option<&ExponentialFit>) -> Self {
         fit.map_or(Self::NONE, |fit| Self {
             c0_m: fit.c0,
             c1: fit.c1,
@@ -240,7 +240,7 @@ impl StoredSpectra {
 
 impl MeasureSpectra {
     /// Room for the spectra of a measure, `[site, poe, strength]`.
-    fn of_none(measure: IntensityMeasure, [sites, poes, strengths]: [usize; 3]) -> Self {
+    fn empty(measure: IntensityMeasure, [sites, poes, strengths]: [usize; 3]) -> Self {
         let nan = Array::from_fn([sites, poes, strengths], |_| f64::NAN);
         Self {
             measure,
@@ -306,7 +306,7 @@ impl ResultFile {
         let shape = [axes.sites.len(), axes.poes.len(), axes.strengths.len()];
         let mut measures = Vec::new();
         for measure in self.measures_in(urs::GROUP.root()) {
-            let mut spectra = MeasureSpectra::of_none(measure, shape);
+            let mut spectra = MeasureSpectra::empty(measure, shape);
             let lengths = spectra.lengths();
             regression::GROUP.read(self, &of_measure(measure), &lengths, &mut spectra.fits)?;
             urs::GROUP.read(self, &of_measure(measure), &lengths, &mut spectra)?;

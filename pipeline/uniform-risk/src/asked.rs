@@ -168,7 +168,7 @@ pub fn stored_spectra(spectra: &Spectra, coefficients: &Coefficients) -> Measure
         flags: spectra.ordinates.map(|ordinate| ordinate.flag),
         lower_tail_share: of(|ordinate| ordinate.lower_tail_share),
         upper_tail_share: of(|ordinate| ordinate.upper_tail_share),
-        fits: coefficients.fits.map(|fit| Fit::of(fit.as_ref().ok())),
+        fits: coefficients.fits.map(|fit| Fit::from_exponential(fit.as_ref().ok())),
     }
 }
 

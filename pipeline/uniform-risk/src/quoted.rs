@@ -43,7 +43,7 @@ impl QuotedUnits {
     ///
     /// # Errors
     /// A file that is damaged, or of another kind.
-    pub fn of_measures(file: &ResultFile) -> Result<Vec<Self>, UniformRiskError> {
+    pub fn from_file(file: &ResultFile) -> Result<Vec<Self>, UniformRiskError> {
         let question = Question::from_result(file)?;
         Ok(file.measures().into_iter().map(|measure| Self::read(file, measure, &question)).collect())
     }

@@ -100,7 +100,7 @@ fn of_set(
     let demand = PooledDemand::new(&Stripes::new(&measure.levels, &rows.collect::<Vec<_>>())?)?;
     let targets = &stored.targets_per_year;
     let sites: Vec<_> = measure.weights.iter().collect();
-    let replicates = Replicates::of(&demand, &sites, targets, resamples)?;
+    let replicates = Replicates::from_plan(&demand, &sites, targets, resamples)?;
     let units = resamples.units();
     let mut found = Vec::new();
     for (site, weights) in sites.into_iter().enumerate() {

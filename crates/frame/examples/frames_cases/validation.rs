@@ -31,14 +31,14 @@ pub(crate) fn validation_case(case: &Value, comparison: &mut Comparison) -> Resu
             }
             "cramer_von_mises_p_method" => {}
             "cramer_von_mises_p" => {
-                let found = CramerVonMises::of(&samples[0], &samples[1]);
+                let found = CramerVonMises::from_samples(&samples[0], &samples[1]);
                 let is_limit = expected.get("cramer_von_mises_p_method").and_then(Value::as_str) == Some("asymptotic");
                 let ours = if is_limit { found.p_limit } else { found.p };
                 comparison.within(name, Some(ours), value, NOTHING, comparison.tolerance);
             }
             "evidence" => {
-                let found = KolmogorovSmirnov::of(&samples[0], &samples[1]);
-                comparison.same(name, Evidence::of(found.p_exact).words(), value);
+                let found = KolmogorovSmirnov::from_samples(&samples[0], &samples[1]);
+                comparison.same(name, Evidence::from_p(found.p_exact).words(), value);
             }
             _ => match statistic(name, &measured, &computed, &samples)? {
                 Ok(ours) => comparison.within(name, ours, value, NOTHING, comparison.tolerance),
@@ -58,9 +58,9 @@ fn statistic(
     computed: &[f64],
     [one, other]: &[Sample; 2],
 ) -> Result<Result<Option<f64>, Unknown>, String> {
-    let ks = || KolmogorovSmirnov::of(one, other);
-    let ad = || AndersonDarling::of(one, other);
-    let pairs = || Pairs::of(measured, computed).map_err(|error| error.to_string());
+    let ks = || KolmogorovSmirnov::from_samples(one, other);
+    let ad = || AndersonDarling::from_samples(one, other);
+    let pairs = || Pairs::from_peaks(measured, computed).map_err(|error| error.to_string());
     let finite = |value: f64| value.is_finite().then_some(value);
     Ok(Ok(match name {
         "ks_d" => Some(ks().distance),
@@ -69,9 +69,9 @@ fn statistic(
         "ks_p_kstest2" => Some(kstest2_p(one.len(), other.len(), ks().distance)),
         "anderson_darling_midrank" => Some(ad().midrank),
         "anderson_darling_right" => Some(ad().right),
-        "cramer_von_mises" => Some(CramerVonMises::of(one, other).statistic),
-        "mann_whitney_u" => Some(MannWhitney::of(one, other).statistic),
-        "mann_whitney_p" => Some(MannWhitney::of(one, other).p),
+        "cramer_von_mises" => Some(CramerVonMises::from_samples(one, other).statistic),
+        "mann_whitney_u" => Some(MannWhitney::from_samples(one, other).statistic),
+        "mann_whitney_p" => Some(MannWhitney::from_samples(one, other).p),
         "median_measured" => finite(one.median()),
         "median_computed" => finite(other.median()),
         "e50" => finite((other.median() / one.median() - 1.0).abs()),

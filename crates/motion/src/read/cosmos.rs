@@ -185,7 +185,7 @@ impl<'a> DataLine<'a> {
         let by_word = match word.to_ascii_lowercase().as_str() {
             "" => None,
             "counts" | "count" => Some(Unit::Counts),
-            word => Some(Unit::Acceleration(FileUnit::of_word(word).ok_or_else(unknown)?)),
+            word => Some(Unit::Acceleration(FileUnit::from_word(word).ok_or_else(unknown)?)),
         };
         match (by_word, by_code) {
             (Some(Unit::Acceleration(a)), Some(Unit::Acceleration(b))) if a != b => Err(unknown()),

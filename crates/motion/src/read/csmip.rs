@@ -140,7 +140,7 @@ fn component_of_pairs(
     let point_count = head.point_count().ok_or_else(|| source.lacks("number of points"))?;
     let unit = head.unit_or(source, options)?;
     let first_line = lines.peek().map_or(0, |(index, _)| index + 1);
-    let numbers = read_block(source, lines, Some(Format::of_width(7)), point_count, 2)?;
+    let numbers = read_block(source, lines, Some(Format::from_width(7)), point_count, 2)?;
     let (pairs, _) = numbers.as_chunks::<2>();
     let (Some([begin_s, _]), Some([end_s, _])) = (pairs.first(), pairs.last()) else {
         return Err(source.lacks("value"));

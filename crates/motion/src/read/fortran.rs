@@ -40,7 +40,7 @@ enum Kind {
 
 impl Format {
     /// Numbers with a point in fields of `width` characters.
-    pub(super) fn of_width(width: usize) -> Self {
+    pub(super) fn from_width(width: usize) -> Self {
         Self { kind: Kind::Exponent, width, decimals: None }
     }
 

@@ -59,7 +59,7 @@ pub(super) struct FileUnit {
 
 impl FileUnit {
     /// The unit called `word`; beside those of [`AccelerationUnit`] the ones that only volumes have.
-    pub(super) fn of_word(word: &str) -> Option<Self> {
+    pub(super) fn from_word(word: &str) -> Option<Self> {
         let word = word.trim().trim_end_matches('.').to_ascii_lowercase();
         let (unit, factor) = match word.as_str() {
             "mg" => (AccelerationUnit::G, 1e-3),
@@ -73,7 +73,7 @@ impl FileUnit {
 
     /// The first unit among the words of `text`.
     pub(super) fn find(text: &str) -> Option<Self> {
-        text.split(|c: char| c.is_whitespace() || "(),;:=".contains(c)).find_map(Self::of_word)
+        text.split(|c: char| c.is_whitespace() || "(),;:=".contains(c)).find_map(Self::from_word)
     }
 
     /// `value`, in this unit, in m/s².
@@ -88,7 +88,7 @@ pub(super) fn stated_peak(text: &str) -> Option<(f64, FileUnit)> {
     let number_end = text.find(|c: char| c.is_ascii_digit() || c == '.')?;
     let unit = text.get(number_end..)?.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
     let unit = unit.split_whitespace().next()?.trim_end_matches(',');
-    Some((value, FileUnit::of_word(unit)?))
+    Some((value, FileUnit::from_word(unit)?))
 }
 
 /// The moment magnitude in a text like `ML=4.9, Mw=4.8(CIT)`, else another.

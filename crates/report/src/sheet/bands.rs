@@ -33,7 +33,7 @@ pub(crate) fn bands(rows: &[FindingRow]) -> Vec<String> {
 }
 
 fn drawing(rows: &[&FindingRow], (scale, label): (Scale, &str)) -> Option<String> {
-    let axis = Axis::of(rows, scale)?;
+    let axis = Axis::from_rows(rows, scale)?;
     let fits = |label: &String| label.chars().count() <= LETTERS;
     let mut text = String::new();
     let mut line = 0.0;
@@ -109,7 +109,7 @@ struct Axis {
 
 impl Axis {
     /// One that holds all numbers and limits of `rows`; none where these have no extent.
-    fn of(rows: &[&FindingRow], scale: Scale) -> Option<Self> {
+    fn from_rows(rows: &[&FindingRow], scale: Scale) -> Option<Self> {
         let axis = Self { scale, ends: [0.0; 2] };
         let numbers = rows.iter().flat_map(|row| [row.limits[0], row.limits[1], row.value]);
         let positions =

@@ -19,7 +19,7 @@ const TILT: f64 = 0.35;
 /// The drawing; empty for a description without a geometry, which is no structure.
 pub(crate) fn drawing(description: &StructureDescription) -> String {
     let Ok(geometry) = description.geometry() else { return String::new() };
-    let scene = Scene::of(description, &geometry);
+    let scene = Scene::from_description(description, &geometry);
     let mut svg = Svg { text: String::new(), scene: &scene };
     svg.ground();
     match description.kind {
@@ -56,7 +56,7 @@ struct Scene {
 }
 
 impl Scene {
-    fn of(description: &StructureDescription, geometry: &Geometry) -> Self {
+    fn from_description(description: &StructureDescription, geometry: &Geometry) -> Self {
         let is_frame = description.columns.is_some();
         let columns = description.columns.unwrap_or(1).clamp(1, MOST_COLUMNS);
         let (width_m, height_m) = (geometry.width_m(), top_m(description, geometry));

@@ -50,7 +50,7 @@ pub(crate) fn refused(file: &Path, text: String, mut findings: Vec<Finding>, ove
         help: finding.help,
     });
     let listed = listed.collect();
-    StudyError::of_mistakes(file, text, listed, left_out)
+    StudyError::from_mistakes(file, text, listed, left_out)
 }
 
 /// The bytes `span` of `text` with their line and column.

@@ -65,7 +65,7 @@ pub(crate) fn parse_table(file: &Path, text: &str) -> Result<Table, StudyError> 
         });
         let listed: Vec<_> = listed.collect();
         let left_out = errors.len() - listed.len();
-        StudyError::of_mistakes(file, text.to_owned(), listed, left_out)
+        StudyError::from_mistakes(file, text.to_owned(), listed, left_out)
     })
 }
 

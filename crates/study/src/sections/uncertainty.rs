@@ -361,15 +361,15 @@ fn read_quantity(
     let range = [quantity.range().least, quantity.range().most];
     let distribution = |family: Family| -> Option<Result<Distribution, UncertaintyError>> {
         if let Some(percentiles) = percentiles {
-            return Some(Distribution::of_percentiles(family, percentiles?, range));
+            return Some(Distribution::from_percentiles(family, percentiles?, range));
         }
         if by_limits {
             let limits = [lower??, upper??];
             return match (family, mode) {
-                (Family::Uniform, None) => Some(Distribution::of_limits(limits, None, range)),
+                (Family::Uniform, None) => Some(Distribution::from_limits(limits, None, range)),
                 (Family::Triangular, mode) => {
                     let mode = mode.unwrap_or(Some(0.5 * (limits[0] + limits[1])));
-                    Some(Distribution::of_limits(limits, Some(mode?), range))
+                    Some(Distribution::from_limits(limits, Some(mode?), range))
                 }
                 _ => None,
             };
@@ -379,7 +379,7 @@ fn read_quantity(
             (None, Described::As(value) | Described::Assumed(value)) => value,
             (None, _) => return None,
         };
-        Some(Distribution::of_mean(family, (mean, variation??), range))
+        Some(Distribution::from_mean(family, (mean, variation??), range))
     };
     let found = family.and_then(distribution);
     let found = match found? {

@@ -66,7 +66,7 @@ impl CurveFile {
 
     /// The other units that a curve of its measure may have.
     pub fn other_units(&self) -> impl Iterator<Item = CurveUnit> {
-        MeasureKeys::of(self.measure).units.iter().copied().filter(|unit| *unit != self.unit)
+        MeasureKeys::from_measure(self.measure).units.iter().copied().filter(|unit| *unit != self.unit)
     }
 }
 
@@ -90,7 +90,7 @@ fn write_unit<S: Serializer>(unit: &CurveUnit, serializer: S) -> Result<S::Ok, S
 
 /// Reads a curve: a path, or a table.
 pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) -> Option<CurveFile> {
-    let units = MeasureKeys::of(measure).units;
+    let units = MeasureKeys::from_measure(measure).units;
     match field.node.value {
         Value::Text(_) => {
             return Some(CurveFile {

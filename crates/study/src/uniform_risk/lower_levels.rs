@@ -67,7 +67,7 @@ pub fn levels_key(measure: IntensityMeasure) -> String {
 
 /// Where the levels of `measure` are written: the section, `pgv` or `measures.sa_1s`, and the key in it.
 pub fn levels_place(measure: IntensityMeasure) -> (String, &'static str) {
-    (section_of(measure), MeasureKeys::of(measure).levels.name)
+    (section_of(measure), MeasureKeys::from_measure(measure).levels.name)
 }
 
 /// The power of ten at or below `value`.

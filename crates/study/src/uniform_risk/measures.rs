@@ -74,7 +74,7 @@ pub(super) struct MeasureKeys {
 }
 
 impl MeasureKeys {
-    pub(super) fn of(measure: IntensityMeasure) -> Self {
+    pub(super) fn from_measure(measure: IntensityMeasure) -> Self {
         const ACCELERATION: &[CurveUnit] = &[CurveUnit::G, CurveUnit::MPerS2, CurveUnit::CmPerS2];
         const LENGTH: &[CurveUnit] = &[CurveUnit::Cm, CurveUnit::M];
         const CUMULATIVE: &[CurveUnit] = &[CurveUnit::CmPerS, CurveUnit::MPerS, CurveUnit::GS];
@@ -104,7 +104,7 @@ pub(super) fn write<S: Serializer>(plans: &[MeasurePlan], serializer: S) -> Resu
     struct Levels<'a>(&'a MeasurePlan);
     impl Serialize for Levels<'_> {
         fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-            serializer.collect_map([(MeasureKeys::of(self.0.measure).levels.name, &self.0.levels)])
+            serializer.collect_map([(MeasureKeys::from_measure(self.0.measure).levels.name, &self.0.levels)])
         }
     }
     /// One of them, or the section of those that Chapter 4 has not.
@@ -132,7 +132,7 @@ pub(super) fn write<S: Serializer>(plans: &[MeasurePlan], serializer: S) -> Resu
 /// The default levels of `measure` within a curve from `least` to `most`, and the ends of that curve if it cuts them,
 /// as a study writes them: key and grid. None where all of them are within, or hardly any.
 pub fn levels_within(measure: IntensityMeasure, least: f64, most: f64) -> Option<(String, String)> {
-    let keys = MeasureKeys::of(measure);
+    let keys = MeasureKeys::from_measure(measure);
     let mut parts = Vec::new();
     let [mut lowest, mut highest] = [f64::INFINITY, 0.0_f64];
     let (mut first, mut last) = (f64::INFINITY, 0.0_f64);
@@ -236,7 +236,7 @@ pub(super) fn read(root: &mut Section<'_>) -> (Vec<IntensityMeasure>, Option<Vec
     let switched_on = sections.iter().map(|(measure, _)| *measure).collect();
     let mut plans = Some(Vec::new());
     for (measure, mut section) in sections {
-        let keys = MeasureKeys::of(measure);
+        let keys = MeasureKeys::from_measure(measure);
         let levels = section.read(&keys.levels);
         section.finish();
         match (&mut plans, levels) {

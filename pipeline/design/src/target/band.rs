@@ -39,7 +39,7 @@ pub(super) struct Frequencies {
 
 impl Frequencies {
     /// Of what was `tried`, ascending.
-    pub(super) fn of(
+    pub(super) fn from_trials(
         tried: &[(f64, Attempt)],
         (hazard, scatter): (&Hazard<'_>, &Scatter),
     ) -> Result<Self, DesignError> {

@@ -100,7 +100,7 @@ fn aleatory(finding: UncertainFinding) -> AleatoryResult {
 
 /// A quantile of a lognormal quantity of that mean and coefficient of variation.
 fn quantile(mean: f64, variation: f64, share: f64) -> f64 {
-    let of = Distribution::of_mean(Family::Lognormal, (mean, variation), [0.0, f64::INFINITY]);
+    let of = Distribution::from_mean(Family::Lognormal, (mean, variation), [0.0, f64::INFINITY]);
     of.unwrap().quantile(share)
 }
 

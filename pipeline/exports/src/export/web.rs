@@ -61,7 +61,7 @@ pub(super) fn web(file: &ResultFile) -> Result<Value, ExportsError> {
     file.refuse_records_at_level("the page scales each record to every level")?;
     let stripes = StoredStripes::read(file)?;
     let (head, mut study) = (file.head()?, file.stored_study()?);
-    let units = QuotedUnits::of_measures(file)?;
+    let units = QuotedUnits::from_file(file)?;
     let name = file.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
     let measure = |(of, units): (&uplift_uniform_risk::StoredMeasure, QuotedUnits)| {
         json!({

@@ -70,11 +70,11 @@ impl Fragility {
             let threshold_m = limit.threshold_m;
             let counts = stripe_counts(stripes, threshold_m)?;
             let lognormal = fit_lognormal(&counts).map(|fit| {
-                let goodness = Goodness::of(&counts, |level| fit.fragility.probability(level));
+                let goodness = Goodness::from_counts(&counts, |level| fit.fragility.probability(level));
                 (fit.fragility, goodness)
             });
             let zero_inflated = fit_zero_inflated(stripes, uplift_m, threshold_m)
-                .map(|fit| (fit, Goodness::of(&counts, |level| fit.probability(level))));
+                .map(|fit| (fit, Goodness::from_counts(&counts, |level| fit.probability(level))));
             Ok::<_, ExportsError>(StateFragility {
                 name: limit.name.clone(),
                 displacement_m: limit.displacement_m,

@@ -48,7 +48,8 @@ impl FitReport {
             dispersion: fragility.map(|own| own.dispersion()),
             log_median_standard_error: spread.map(|spread| spread.log_median),
             dispersion_standard_error: spread.map(|spread| spread.dispersion),
-            largest_error: fragility.map(|own| Goodness::of(&counts, |level| own.probability(level)).largest_error),
+            largest_error: fragility
+                .map(|own| Goodness::from_counts(&counts, |level| own.probability(level)).largest_error),
             problem: problem(fit),
         })
     }

@@ -53,7 +53,7 @@ pub(super) struct LibrarySystem {
 }
 
 impl LibrarySystem {
-    fn of_block(block: RockingBlock) -> Self {
+    fn from_block(block: RockingBlock) -> Self {
         Self {
             with_free_peak: true,
             uplift_m_s2: block.uplift_acceleration_m_s2(),
@@ -63,7 +63,7 @@ impl LibrarySystem {
         }
     }
 
-    fn of_oscillator(oscillator: Oscillator, with_free_peak: bool) -> Self {
+    fn from_oscillator(oscillator: Oscillator, with_free_peak: bool) -> Self {
         let (uplift_m_s2, uplift_m) = (oscillator.uplift_acceleration_m_s2(), oscillator.uplift_displacement_m());
         let rate = |capacity_m: f64| (uplift_m_s2 / (capacity_m - uplift_m)).sqrt();
         Self {
@@ -117,7 +117,7 @@ fn of_blocks(grid: &BlockGrid, gravity_m_s2: f64, systems: &mut Vec<LibrarySyste
             let block = RockingBlock::new(size_m, slenderness_rad)?.with_gravity(gravity_m_s2)?;
             for restitution in &restitutions {
                 let block = restitution.map_or(Ok(block), |restitution| block.with_restitution(restitution))?;
-                systems.push(LibrarySystem::of_block(block));
+                systems.push(LibrarySystem::from_block(block));
             }
         }
     }
@@ -135,7 +135,7 @@ fn of_oscillators(
                 if capacity_m.is_finite() { PostUplift::Negative { capacity_m } } else { PostUplift::Zero };
             for &strength in family.strengths.iter() {
                 let oscillator = Oscillator::new(strength, gravity_m_s2, uplift_m, family.restitution, post_uplift)?;
-                systems.push(LibrarySystem::of_oscillator(oscillator, family.free_vibration));
+                systems.push(LibrarySystem::from_oscillator(oscillator, family.free_vibration));
             }
         }
     }

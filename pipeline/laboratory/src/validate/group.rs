@@ -117,7 +117,7 @@ impl GroupReport {
             .map(|peaks| peaks.iter().map(|peak| peak.ranked()).collect::<Vec<f64>>());
         let [measured, computed] = [Sample::new(values[0].clone())?, Sample::new(values[1].clone())?];
         let resampling = Resampling { replicates: options.replicates, seed: options.seed, stop };
-        let test = KolmogorovSmirnov::of(&measured, &computed);
+        let test = KolmogorovSmirnov::from_samples(&measured, &computed);
         let p = match options.p_rule {
             PRule::Exact => test.p_exact,
             PRule::Kolmogorov => test.p_kolmogorov,
@@ -153,14 +153,14 @@ impl GroupReport {
             measured: measured.len(),
             computed: computed.len(),
             p,
-            evidence: Evidence::of(p),
+            evidence: Evidence::from_p(p),
             p_holm: p,
             p_permutation,
             detectable_factor: detectable,
             dispersion,
-            anderson_darling: AndersonDarling::of(&measured, &computed),
-            cramer_von_mises: CramerVonMises::of(&measured, &computed),
-            mann_whitney: MannWhitney::of(&measured, &computed),
+            anderson_darling: AndersonDarling::from_samples(&measured, &computed),
+            cramer_von_mises: CramerVonMises::from_samples(&measured, &computed),
+            mann_whitney: MannWhitney::from_samples(&measured, &computed),
             wasserstein: wasserstein_distance(&measured, &computed),
             energy: energy_distance(&measured, &computed),
             median_measured: of_measured.known,
@@ -210,10 +210,10 @@ fn finite(value: f64) -> Option<f64> {
 
 /// Statistics of pairs. A peak above a limit is no collapse, and agrees with none whatever the other is.
 fn pairs(peers: &Peers, values: &[Vec<f64>; 2]) -> Result<Pairs, ValidationError> {
-    let ranked = Pairs::of(&values[0], &values[1])?;
+    let ranked = Pairs::from_peaks(&values[0], &values[1])?;
     let limits =
         [&peers.measured, &peers.computed].map(|peaks| peaks.iter().map(|peak| peak.at_limit()).collect::<Vec<f64>>());
-    let collapses = Pairs::of(&limits[0], &limits[1])?.collapses;
+    let collapses = Pairs::from_peaks(&limits[0], &limits[1])?.collapses;
     let both_infinite = values[0].iter().zip(&values[1]).filter(|(m, c)| m.is_infinite() && c.is_infinite()).count();
     let taken_for_agreeing = (both_infinite - collapses.both) as f64 / values[0].len() as f64;
     Ok(Pairs {

@@ -32,7 +32,7 @@ pub fn resampled(file: ResultFile, events: &dyn Events) -> Result<ResultFile, Qu
     let stored = StoredStripes::read(&file)?;
     // where the bootstrap made bands of repaired spectra as well
     let reweighing = if file.has_repaired_bands() { Reweighing::from_result(&file)? } else { None };
-    let quoted = QuotedUnits::of_measures(&file)?;
+    let quoted = QuotedUnits::from_file(&file)?;
     let source =
         Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, quoted: &quoted, settings: &settings };
     let measures = compute(&source, None, events)?.into_iter().map(|bands| bands.stored()).collect();

@@ -141,7 +141,7 @@ pub(super) fn bands_of_strength(
     let mut done = StrengthBands { bands: Vec::new(), replicates_m: Vec::new() };
     for (site, weights) in measure.weights.iter().enumerate() {
         let sites: [&StripeWeights; 1] = [weights];
-        let replicates = Replicates::of(&demand, &sites, targets, plan)?;
+        let replicates = Replicates::from_plan(&demand, &sites, targets, plan)?;
         let without_each = match settings.interval {
             Interval::Percentile => Vec::new(),
             Interval::Bca => without_each(&demand, weights, targets, &left_out)?,

@@ -84,7 +84,7 @@ pub fn bootstrap(
     announce((&file, &stored), &plan, events)?;
 
     let start = Instant::now();
-    let quoted = QuotedUnits::of_measures(&file)?;
+    let quoted = QuotedUnits::from_file(&file)?;
     let source =
         Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, quoted: &quoted, settings: &settings };
     let checkpoint = Checkpoint::new(&source);

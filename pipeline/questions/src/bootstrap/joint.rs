@@ -64,7 +64,7 @@ pub(super) fn joint_bands(
     confidence: f64,
 ) -> Result<Vec<Band>, BootstrapError> {
     let weights: Vec<&StripeWeights> = branches.iter().map(|(_, weights)| weights).collect();
-    let replicates = Replicates::of(demand, &weights, targets_per_year, plan)?;
+    let replicates = Replicates::from_plan(demand, &weights, targets_per_year, plan)?;
     let mut bands = Vec::with_capacity(targets_per_year.len() * plan.sizes().len());
     for poe in 0..targets_per_year.len() {
         for size in 0..plan.sizes().len() {

@@ -104,7 +104,7 @@ fn efficiency_of(
     let u_up = stored.uplift_displacement_m;
     let of_strength = |strength: usize| -> Result<OfStrength, QuestionsError> {
         let stripes = measure.stripes(strength)?;
-        let dispersions = (0..measure.levels.len()).map(|level| Dispersion::of(&stripes, level)).collect();
+        let dispersions = (0..measure.levels.len()).map(|level| Dispersion::from_stripes(&stripes, level)).collect();
         let uplift = uplift.map_or_else(|| uplift_levels(&stripes, u_up), |of| of[strength].clone());
         let uplift: Vec<f64> = uplift.into_iter().filter(|level| level.is_finite()).collect();
         let residuals = mean_residuals(&stripes, u_up);

@@ -85,7 +85,7 @@ pub(super) fn stored(
             let least = |site| repaired(site)?.diagnosis.least_effective.map(|least| least.records);
             (0..sites).map(|site| least(site).unwrap_or(f64::NAN)).collect()
         }),
-        fits: repairs.map(|repairs| repairs.fits.map(|fit| Fit::of(fit.as_ref().ok()))),
+        fits: repairs.map(|repairs| repairs.fits.map(|fit| Fit::from_exponential(fit.as_ref().ok()))),
         u_m: repairs.map(|repairs| {
             repairs.ordinates.map(|ordinate| ordinate.map_or(f64::NAN, |ordinate| ordinate.displacement_m))
         }),

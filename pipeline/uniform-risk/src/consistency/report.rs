@@ -390,7 +390,7 @@ fn two_sided(question: &Question, findings: &[Finding]) -> Vec<TwoSidedRow> {
             findings.iter().find(is_own)?.diagnosis.deviation.as_ref()
         };
         let (pgv, pga) = (IntensityMeasure::Pgv, IntensityMeasure::Pga);
-        let both = TwoSided::of(deviation(pgv, pga)?, deviation(pga, pgv)?);
+        let both = TwoSided::from_deviations(deviation(pgv, pga)?, deviation(pga, pgv)?);
         Some(TwoSidedRow { site: question.sites[site].clone(), location: both.location, spread: both.spread })
     };
     (0..question.sites.len()).filter_map(of_site).collect()
@@ -414,9 +414,9 @@ fn agreement(question: &Question, plain_m: &[(IntensityMeasure, Array<3>)], repa
                 let [pga, pgv] = [pga, pgv].map(|own| displacement(own.ordinates.block([site])));
                 pga.into_iter().zip(pgv).collect::<Vec<_>>()
             };
-            Agreement::of(sites.iter().flat_map(of_site), COMPARED_FROM_M, f64::INFINITY)
+            Agreement::from_pairs(sites.iter().flat_map(of_site), COMPARED_FROM_M, f64::INFINITY)
         });
-        (Agreement::of(plain, COMPARED_FROM_M, f64::INFINITY).map(numbers), repaired.map(numbers))
+        (Agreement::from_pairs(plain, COMPARED_FROM_M, f64::INFINITY).map(numbers), repaired.map(numbers))
     };
     let all: Vec<usize> = (0..question.sites.len()).collect();
     let mut rows = Vec::new();

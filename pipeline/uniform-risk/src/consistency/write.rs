@@ -103,7 +103,7 @@ fn write_measure(
         WEIGHTS.write_rows(writer, &names, &lengths, repaired())?;
     }
     REPAIRED_SPECTRA.write_rows(writer, &names, &lengths, repairs.ordinates.values().iter().map(Option::as_ref))?;
-    let fits = repairs.fits.map(|fit| Fit::of(fit.as_ref().ok()));
+    let fits = repairs.fits.map(|fit| Fit::from_exponential(fit.as_ref().ok()));
     REPAIRED_FITS.write(writer, &names, &lengths, &fits)?;
     write_branches(writer, question, repairs)
 }

@@ -183,7 +183,7 @@ impl Place<'_> {
         };
         for (strength, demand) in demands.iter().enumerate() {
             let limits = inferred_limits(demand, stripes, &alone, targets, (&[drawn.len()], CONFIDENCE))?;
-            let replicates = resamples.as_ref().map(|plan| Replicates::of(demand, &[stripes], targets, plan));
+            let replicates = resamples.as_ref().map(|plan| Replicates::from_plan(demand, &[stripes], targets, plan));
             let replicates = replicates.transpose()?;
             for (poe, limits) in limits.iter().enumerate() {
                 let truth_m = self.measure.exact_m[[site, poe, strength]];

@@ -137,7 +137,7 @@ impl<'a> Head<'a> {
         }
         let (printed, unit) = stated_peak(after(self.line_after("units of")?, "max")?)?;
         let mut first_reals = self.lines.get(VOLUME_1_TEXT + 7)?.lines().enumerate().peekable();
-        let precise = read_header(&mut first_reals, Some(Format::of_width(10)), 8).get(6).copied();
+        let precise = read_header(&mut first_reals, Some(Format::from_width(10)), 8).get(6).copied();
         let same = |value: &f64| (value.abs() - printed.abs()).abs() <= HALF_PRINTED_DIGIT * 1.001;
         Some((precise.filter(same).unwrap_or(printed), unit))
     }
