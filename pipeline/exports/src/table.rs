@@ -30,10 +30,10 @@ use uplift_uniform_risk::{AskedRisk, at};
 
 use crate::error::ExportsError;
 
-/// Which table, and what stands beside it: a CSV table which for uniform risk spectra has the columns `site`, `poe_50y`
-/// (or `poe`), `c0_m`, `c1`, `c2_m`, `rmse_m`; for displacement spectra `record_set`, `scaling`, `quantity`, `value` and,
-/// for oscillators, `rule`; for a shaking table `level` and `exc_id` in the order of the tests. Displacement spectra have
-/// neither measure nor risk.
+/// Which table, and what stands beside it. A reference has, for uniform risk spectra, the columns `site`, `poe_50y`
+/// (or `poe`), `c0_m`, `c1`, `c2_m`, `rmse_m`; for displacement spectra, which have neither measure nor risk,
+/// `record_set`, `scaling`, `quantity`, `value` and, for oscillators, `rule`; for a shaking table `level` and `exc_id`
+/// in the order of the tests.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct TableOptions {
     /// Result file, or a structure file with columns

@@ -1,15 +1,13 @@
 //! Arguments that several commands take.
 
 mod figures;
-mod keep;
 mod result;
 mod structure;
 mod study;
 
 pub(crate) use figures::FigureArguments;
-pub(crate) use keep::KeepArgument;
 pub(crate) use result::ResultArguments;
-pub(crate) use structure::StructureArguments;
+pub(crate) use structure::{KeepArgument, StructureArguments};
 pub(crate) use study::{StudyArguments, command_line, run_options, shard};
 pub(crate) use uplift::typed::{RARE, number, number_or_per_cent};
 

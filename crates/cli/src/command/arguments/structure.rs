@@ -4,13 +4,15 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use uplift::result::Finding;
+use uplift::structure::keep;
 use uplift_ida::Shard;
 use uplift_study::Structure;
 
 use super::RARE;
-use super::keep::KeepArgument;
 use super::study::shard;
 use crate::error::CommandError;
+use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(crate) struct StructureArguments {
@@ -41,5 +43,28 @@ impl StructureArguments {
     /// The structure.
     pub(crate) fn load(&self) -> Result<Structure, CommandError> {
         Ok(Structure::load(&self.structure)?)
+    }
+}
+
+/// Whether the answer is kept.
+#[derive(Debug, Args)]
+pub(crate) struct KeepArgument {
+    /// Do not keep the answer in the result
+    #[arg(long, help_heading = RARE)]
+    no_keep: bool,
+}
+
+impl KeepArgument {
+    /// Keeps what `finding` makes, in the result at `result`, unless it is not to be.
+    pub(crate) fn keep(
+        &self,
+        finding: impl FnOnce() -> Result<Finding, uplift::UpliftError>,
+        result: &Path,
+        terminal: &Terminal,
+    ) -> Result<(), CommandError> {
+        if !self.no_keep {
+            keep(&finding()?, result, terminal);
+        }
+        Ok(())
     }
 }
