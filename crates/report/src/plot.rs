@@ -8,7 +8,7 @@ use uplift::hazard_curves::{CurveOptions, read as read_curves};
 use uplift::library::LibraryReport;
 use uplift::outputs::{self, Output, beside, provide_folder};
 use uplift::pulses::{PULSE_FIGURES, PulseReport};
-use uplift::response::{BlockResponseReport, FrameResponseReport, ResponseReport, ShakenBy};
+use uplift::response::{BlockResponseReport, FrameResponseReport, ResponseReport, ShakingRecord};
 use uplift::result::ResultFile;
 use uplift::structure::{FrameRiskReport, OverturningReport};
 use uplift::sweep::SweepReport;
@@ -166,7 +166,7 @@ fn no_history() -> UpliftError {
 }
 
 /// The record and its scale, for a title.
-fn shaken(by: &ShakenBy) -> String {
+fn shaken(by: &ShakingRecord) -> String {
     format!("{} times {}", by.record.file_name().unwrap_or_default().to_string_lossy(), by.scale)
 }
 

@@ -193,7 +193,7 @@ impl DesignReport {
 /// # Errors
 /// A safety factor below 1 or implausibly large; a file that is missing, damaged, no result, or without sites; spectra
 /// of another system than ZSBE; a site or measure that the result does not have, or no repaired spectrum where one is
-/// asked for; a risk that is none, or several; records of a manifest that was given and cannot be read; shards that do
+/// asked for; a risk that is none; records of a manifest that was given and cannot be read; shards that do
 /// not belong together; [`JobError::Paused`] where `events` say so, [`JobError::Interrupted`] where no checkpoint
 /// can be written beside the result.
 pub fn design(

@@ -173,7 +173,7 @@ pub struct FrameOverturning {
 /// # Errors
 /// A structure that is no frame, or of rectangular columns that are to wobble; a file that is missing, damaged, no
 /// result, or without sites; spectra of another system than ZSBE; a site or measure that the result does not have; a
-/// risk that is none, or several; records that cannot be read; tables that cannot be written or would replace something
+/// risk that is none; records that cannot be read; tables that cannot be written or would replace something
 /// else; shards that do not belong together; [`JobError::Paused`](uplift_job::JobError::Paused) where `events` say so,
 /// [`JobError::Interrupted`](uplift_job::JobError::Interrupted) where no checkpoint can be written beside the result.
 pub fn frame_risk(

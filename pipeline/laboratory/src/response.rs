@@ -21,7 +21,7 @@ pub use block::{BlockHistory, BlockResponseOptions, BlockResponseReport, block_r
 pub use frame::{ComponentFile, FrameResponseOptions, FrameResponseReport, FrameRun, ShakenComponent, frame_response};
 pub use frame_history::{FrameHistory, FrameHistoryRow};
 pub use history::{HistoryRow, ResponseHistory};
-pub use shaking::{ShakenBy, Shaking};
+pub use shaking::{Shaking, ShakingRecord};
 
 use crate::error::LaboratoryError;
 use uplift_job::JobError;
@@ -113,7 +113,7 @@ impl ResponseOptions {
 pub struct ResponseReport {
     /// The record.
     #[serde(flatten)]
-    pub shaken_by: ShakenBy,
+    pub shaken_by: ShakingRecord,
     /// Strength η.
     pub strength: f64,
     /// Displacement at uplift, m.

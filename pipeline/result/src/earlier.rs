@@ -10,9 +10,9 @@ use uplift_job::outputs::{beside, digest_said, is_of_digest, is_of_result, provi
 use uplift_job::text::counted;
 use uplift_labelled::LabelledReader;
 
-use super::additions::Additions;
 use super::file::ResultFile;
 use super::head::Overview;
+use super::kept_groups::KeptGroups;
 use super::layout::LAYOUT;
 use crate::error::ResultError;
 
@@ -43,7 +43,7 @@ impl Earlier {
     ///
     /// # Errors
     /// A folder that cannot be written.
-    pub fn keep(result: &Path, digest: &str, carried_over: Option<&Additions>) -> Result<Self, ResultError> {
+    pub fn keep(result: &Path, digest: &str, carried_over: Option<&KeptGroups>) -> Result<Self, ResultError> {
         let opened = ResultFile::open(result).and_then(|file| Ok((file.head()?.study_digest(), file.overview()?)));
         let own_digest = opened.as_ref().ok().map(|(of, _)| of.clone());
         let name = match opened {

@@ -6,9 +6,9 @@ use serde::Serialize;
 use uplift_labelled::LabelledReader;
 use uplift_study::Kind;
 
-use super::additions::added;
 use super::digest::UNSAID_NUMERICS;
 use super::file::ResultFile;
+use super::kept_groups::added;
 use super::layout::axis;
 use super::{MOTIONS, PEAKS, RESTRAINED_DESIGN, SPECTRA, TABLE_EXCITATIONS};
 use crate::error::ResultError;

@@ -19,12 +19,12 @@ pub(super) fn added() -> [(&'static str, &'static str); 4] {
 }
 
 /// The groups of a result that stay valid in a new result of the same analyses.
-pub struct Additions {
+pub struct KeptGroups {
     file: ResultFile,
     groups: Vec<&'static str>,
 }
 
-impl Additions {
+impl KeptGroups {
     /// The additions to `file` that do not depend on what `study` changes.
     ///
     /// The study may differ from that of the file in `[bootstrap]` and `[consistency]` alone: anything else that counts

@@ -3,7 +3,6 @@
 //! [`ResultFile`] opens a result and reads it part by part; arrays are [`declared`] beside the values that they hold,
 //! and [`layout`] names the axes.
 
-mod additions;
 mod asked_spectra;
 mod bands;
 mod consistency;
@@ -20,6 +19,7 @@ mod findings;
 mod hazard;
 mod head;
 mod influence;
+mod kept_groups;
 pub mod layout;
 mod other_file;
 mod peaks;
@@ -31,7 +31,6 @@ mod spread;
 mod study;
 mod target;
 
-pub use additions::Additions;
 pub use asked_spectra::AskedSpectra;
 pub use bands::{
     BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, REPAIRED_BANDS, SIMULTANEOUS_BANDS,
@@ -61,6 +60,7 @@ pub use hazard::{HAZARD_CURVE, branch_curve_name, curve_name};
 pub use hazard::{StoredBranch, StoredCurves, StoredHazard};
 pub use head::{Head, Overview};
 pub use influence::{DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, StoredInfluence};
+pub use kept_groups::KeptGroups;
 pub use peaks::{FACTORS, IMPACTS, PEAKS, RISK_SURFACE, SHARES};
 pub use peaks::{SetsOfLevels, StoredPeaks};
 pub use provenance::Origin;

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use uplift::response::{BlockResponseReport, ResponseReport, ShakenBy};
+use uplift::response::{BlockResponseReport, ResponseReport, ShakingRecord};
 
 use super::alarms::print_warnings;
 use crate::error::CommandError;
@@ -77,9 +77,9 @@ pub(crate) fn print_block_response(
     print_files(report.history_file.as_deref(), figure, terminal)
 }
 
-pub(super) fn print_record(shaken_by: &ShakenBy) -> Result<(), CommandError> {
+pub(super) fn print_record(shaken_by: &ShakingRecord) -> Result<(), CommandError> {
     let mut out = output();
-    let ShakenBy { samples, dt_s, scale, pga_g, pgv_cm_s, pgd_m, .. } = shaken_by;
+    let ShakingRecord { samples, dt_s, scale, pga_g, pgv_cm_s, pgd_m, .. } = shaken_by;
     let record = shaken_by.record.display();
     writeln!(out, "record    {record}: {samples} samples every {dt_s} s, scaled by {scale}")?;
     Ok(writeln!(out, "          PGA {pga_g:.4} g, PGV {pgv_cm_s:.3} cm/s, PGD {pgd_m:.5} m")?)

@@ -12,7 +12,7 @@ use uplift_job::table::{ColumnsOf, write_table};
 use uplift_motion::Accelerogram;
 use uplift_plausible::{LENGTH, RESTITUTION, SIZE, USUAL_LENGTH, USUAL_RESTITUTION};
 
-use super::{ShakenBy, Shaking};
+use super::{Shaking, ShakingRecord};
 use crate::error::LaboratoryError;
 
 /// Which block is shaken, and by what. Two numbers make a block: width and height, or a slenderness and one length.
@@ -99,7 +99,7 @@ impl BlockResponseOptions {
 pub struct BlockResponseReport {
     /// The record.
     #[serde(flatten)]
-    pub shaken_by: ShakenBy,
+    pub shaken_by: ShakingRecord,
     /// Width 2b, m.
     pub width_m: f64,
     /// Height 2h, m.

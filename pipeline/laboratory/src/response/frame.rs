@@ -12,7 +12,7 @@ use uplift_motion::{AccelerationUnit, Accelerogram};
 use uplift_plausible::{RESTITUTION, USUAL_RESTITUTION};
 use uplift_study::Structure;
 
-use super::{FrameHistory, ShakenBy, Shaking};
+use super::{FrameHistory, Shaking, ShakingRecord};
 use crate::error::LaboratoryError;
 
 /// One component of the ground's motion.
@@ -98,7 +98,7 @@ pub struct ShakenComponent {
     pub component: &'static str,
     /// The record.
     #[serde(flatten)]
-    pub shaken_by: ShakenBy,
+    pub shaken_by: ShakingRecord,
 }
 
 /// What became of the frame.

@@ -133,9 +133,9 @@ impl Shaking {
     }
 
     /// What is reported about `motion`, the record that was read.
-    pub(super) fn told(&self, motion: &Accelerogram) -> ShakenBy {
+    pub(super) fn told(&self, motion: &Accelerogram) -> ShakingRecord {
         let scale = self.scale.abs();
-        ShakenBy {
+        ShakingRecord {
             record: self.record.clone(),
             samples: motion.len(),
             dt_s: motion.dt_s(),
@@ -151,7 +151,7 @@ impl Shaking {
 
 /// The record that shook a system.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ShakenBy {
+pub struct ShakingRecord {
     /// The record's file.
     pub record: PathBuf,
     /// Its samples.
@@ -172,7 +172,7 @@ pub struct ShakenBy {
     pub free_vibration_s: f64,
 }
 
-impl ShakenBy {
+impl ShakingRecord {
     /// What stands beside the table of a history of `system`.
     pub(super) fn line(&self, system: &str) -> String {
         format!("{}; record {}, scale {}, {system}", outputs::mark(), self.record.display(), self.scale)

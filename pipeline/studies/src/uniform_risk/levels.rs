@@ -89,7 +89,7 @@ impl Tails<'_> {
 
 /// What is to be raised of the ends of the levels.
 #[derive(Debug, Default)]
-pub(super) struct OfEnds {
+pub(super) struct LevelEnds {
     pub(super) lower: Vec<Case>,
     pub(super) upper: Vec<Case>,
 }
@@ -104,7 +104,7 @@ pub(super) fn check_levels(
     measure: &MeasurePlan,
     inputs: (&RecordSet, &[System]),
     hazard: &[SiteHazard],
-) -> Result<(Option<LevelCheck>, OfEnds), StudiesError> {
+) -> Result<(Option<LevelCheck>, LevelEnds), StudiesError> {
     let Some(trial) = Trial::new(study, measure, inputs, hazard)? else {
         return Ok((None, of_ends(study, measure, &untried(study, hazard))?));
     };
@@ -146,8 +146,8 @@ fn untried<'a>(study: &UniformRiskStudy, hazard: &'a [SiteHazard]) -> Vec<Tails<
 }
 
 /// What is to be raised of the first and the last level of `measure`.
-fn of_ends(study: &UniformRiskStudy, measure: &MeasurePlan, spectra: &[Tails<'_>]) -> Result<OfEnds, StudiesError> {
-    let mut cases = OfEnds::default();
+fn of_ends(study: &UniformRiskStudy, measure: &MeasurePlan, spectra: &[Tails<'_>]) -> Result<LevelEnds, StudiesError> {
+    let mut cases = LevelEnds::default();
     for tails in spectra {
         let curve = &tails.site.curve.curve;
         let end = UpperEnd {

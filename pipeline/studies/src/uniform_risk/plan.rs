@@ -21,7 +21,7 @@ use uplift_study::{MeasurePlan, Repair, UniformRiskStudy};
 use uplift_uniform_risk::consistency::{Answer, ConsistencyReport};
 use uplift_uniform_risk::{plan_own_stripes, systems, systems_under};
 
-use super::levels::{LevelCheck, OfEnds, check_levels};
+use super::levels::{LevelCheck, LevelEnds, check_levels};
 use super::site_table;
 use crate::error::StudiesError;
 
@@ -58,7 +58,7 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
         .map(|measure| plan_own_stripes(study, measure, &records, &own_systems))
         .collect::<Result<Vec<_>, _>>()?;
     let (motions, systems) = (records.clone().without_structures(), systems(study)?);
-    let (mut levels, mut of_ends) = (Vec::new(), OfEnds::default());
+    let (mut levels, mut of_ends) = (Vec::new(), LevelEnds::default());
     for (measure, hazard) in study.measures.iter().zip(&hazard) {
         let (tried, cases) = check_levels(study, measure, (&motions, &systems), hazard)?;
         levels.extend(tried);

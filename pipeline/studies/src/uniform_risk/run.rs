@@ -9,7 +9,7 @@ use uplift_inputs::{OtherHazard, RecordSet, SiteHazard, input_checksums, read_ha
 use uplift_job::events::Events;
 use uplift_job::study_run::Place;
 use uplift_result::earlier::Earlier;
-use uplift_result::{Additions, Provenance, ResultFile, StoredSpectra};
+use uplift_result::{KeptGroups, Provenance, ResultFile, StoredSpectra};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::Answer;
 use uplift_uniform_risk::{
@@ -132,13 +132,13 @@ pub fn run(
 
 /// The additions to the earlier result that stay valid: of a result with other numbers, or of one that is written
 /// `again`, none.
-fn valid_additions(outcome: &ComputedStudy<'_>, place: &Place<'_>) -> Result<Option<Additions>, StudiesError> {
+fn valid_additions(outcome: &ComputedStudy<'_>, place: &Place<'_>) -> Result<Option<KeptGroups>, StudiesError> {
     let Ok(file) = ResultFile::open(place.path) else { return Ok(None) };
     let same_numbers = file.head()?.study_digest() == outcome.provenance.study_digest;
     if place.options.again || !same_numbers || !is_of_records(&file, outcome.study, &outcome.records.records)? {
         return Ok(None);
     }
-    Ok(Some(Additions::valid_for(file, outcome.study)?))
+    Ok(Some(KeptGroups::valid_for(file, outcome.study)?))
 }
 
 /// All that a study computed, by measure where it depends on it.

@@ -10,7 +10,7 @@ use uplift_motion::{Combination, IntensityMeasure};
 use uplift_result::declared::of_measure;
 use uplift_result::layout::{HALF_WIDTHS, URS_PRECISION, axis};
 use uplift_result::{
-    Additions, DRAWN_QUANTITY, DRAWN_STRUCTURE, FACTORS, IMPACTS, INTENSITY, MOTION_KEYS, MeasureSpectra, Origin,
+    DRAWN_QUANTITY, DRAWN_STRUCTURE, FACTORS, IMPACTS, INTENSITY, KeptGroups, MOTION_KEYS, MeasureSpectra, Origin,
     PEAKS, RECORDS, RISK_SURFACE, SHARES, StoredRecords, drawn_names, intensity_names, urs,
 };
 use uplift_uniform_risk::consistency::Keep;
@@ -26,7 +26,7 @@ use crate::error::StudiesError;
 pub fn write_result(
     path: &Path,
     outcome: &ComputedStudy<'_>,
-    additions: Option<Additions>,
+    additions: Option<KeptGroups>,
 ) -> Result<(), StudiesError> {
     let mut writer = LabelledWriter::create(path)?;
     write_root(&mut writer, outcome)?;
@@ -38,7 +38,7 @@ pub fn write_result(
     for (index, stored) in spectra.measures.iter().enumerate() {
         write_measure(&mut writer, outcome, index, stored)?;
     }
-    if !additions.as_ref().is_some_and(Additions::has_repair) {
+    if !additions.as_ref().is_some_and(KeptGroups::has_repair) {
         outcome.consistency.add(&mut writer, Keep::Exponents)?;
     }
     if let Some(additions) = additions {
