@@ -62,12 +62,7 @@ impl Excitation<'_> {
     pub(crate) fn taylor(&self, segment: usize, offset_s: f64, step_s: f64) -> Forcing {
         match self {
             Self::Record(record) => {
-                let [begin, end] = [segment, segment + 1].map(|i| record.acceleration_m_s2()[i]);
-                let slope = (end - begin) / record.dt_s();
-                let mut forcing = Forcing::default();
-                forcing.push(begin + slope * offset_s);
-                forcing.push(slope * step_s);
-                forcing
+                line([segment, segment + 1].map(|i| record.acceleration_m_s2()[i]), record.dt_s(), offset_s, step_s)
             }
             Self::Pulse(pulse) => {
                 let t_s = pulse.start_s() + (segment as f64 * pulse.segment_s() + offset_s);
@@ -79,10 +74,23 @@ impl Excitation<'_> {
     /// Refuses accelerations that no ground has.
     pub(crate) fn check(&self) -> Result<(), BlockError> {
         if let Self::Record(record) = self {
-            for a in record.acceleration_m_s2() {
-                within("ground acceleration", *a, "m/s2", -1e6..=1e6, "between -1e6 and 1e6 m/s2")?;
-            }
+            record.acceleration_m_s2().iter().try_for_each(|a| check_acceleration(*a))?;
         }
         Ok(())
     }
+}
+
+/// Refuses what no ground has.
+pub(crate) fn check_acceleration(acceleration_m_s2: f64) -> Result<(), BlockError> {
+    let range = -1e6..=1e6;
+    within("ground acceleration", acceleration_m_s2, "m/s2", range, "between -1e6 and 1e6 m/s2").map(|_| ())
+}
+
+/// The part of a straight line between two `samples` that begins at `offset_s` and lasts `step_s`, in powers of
+/// (time − `offset_s`)/`step_s`.
+pub(crate) fn line([begin, end]: [f64; 2], dt_s: f64, offset_s: f64, step_s: f64) -> Forcing {
+    let change = end - begin;
+    let mut forcing = Forcing::default();
+    forcing.set_line(begin + change * (offset_s / dt_s), change * (step_s / dt_s));
+    forcing
 }

@@ -8,6 +8,7 @@ use crate::block::{LYING_RAD, RockingBlock};
 use crate::observer::{HistoryRow, Moment, Observer};
 use crate::rest::RestRule;
 use crate::series::Series;
+use crate::sine::sine_and_cosine;
 
 /// Impacts in one segment after which a block that cannot be shown to come to rest is taken to be.
 ///
@@ -16,7 +17,7 @@ use crate::series::Series;
 const MOST_IMPACTS: u32 = 100_000;
 
 /// Longest step in units of 1/p: the series has converged by then at order 14 or so.
-pub(crate) const LONGEST_STEP: f64 = 0.5;
+const LONGEST_STEP: f64 = 0.5;
 
 /// Why the motion ends before the excitation, or before the time asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,13 +31,13 @@ pub(crate) enum Ending {
 /// State of a block in motion, in the frame of the corner it stands on.
 #[derive(Debug)]
 pub(crate) struct Motion<'a, O> {
-    block: &'a RockingBlock,
+    pub(crate) block: &'a RockingBlock,
     p: f64,
     tangent: f64,
     cosine: f64,
     rest_rule: RestRule,
     /// Sign of the rotation: which corner.
-    side: f64,
+    pub(crate) side: f64,
     /// |θ| \[rad\].
     pub(crate) x: f64,
     /// d|θ|/dt \[rad/s\].
@@ -53,7 +54,7 @@ pub(crate) struct Motion<'a, O> {
 impl<'a, O: Observer> Motion<'a, O> {
     /// A block at rest.
     pub(crate) fn new(block: &'a RockingBlock, rest_rule: RestRule, observer: O) -> Self {
-        let (sine, cosine) = block.slenderness_rad().sin_cos();
+        let (sine, cosine) = sine_and_cosine(block.slenderness_rad());
         Self {
             block,
             p: block.frequency_parameter_rad_s(),
@@ -81,6 +82,11 @@ impl<'a, O: Observer> Motion<'a, O> {
         self.peak = self.x;
     }
 
+    /// Longest step that is taken \[s\].
+    pub(crate) fn longest_step_s(&self) -> f64 {
+        LONGEST_STEP / self.p
+    }
+
     /// Whether the block never comes back without further shaking.
     pub(crate) fn is_lost(&self) -> bool {
         !self.resting && self.block.is_lost(self.x, self.v)
@@ -91,11 +97,12 @@ impl<'a, O: Observer> Motion<'a, O> {
         self.observer.observe(HistoryRow { time_s, rotation_rad, velocity_rad_s, moment });
     }
 
-    /// Moves through a segment of `length_s` that begins at `start_s`; `shaking` gives the ground acceleration \[m/s²\]
-    /// from an offset in the segment on, in powers of (time − offset)/step. With `until_peak` it ends early,
-    /// when |θ| has passed a maximum.
+    /// Moves through a segment of `length_s` that begins at `start_s`, a step after the other in `series`; `shaking`
+    /// gives the ground acceleration \[m/s²\] from an offset in the segment on, in powers of (time − offset)/step. With
+    /// `until_peak` it ends early, when |θ| has passed a maximum.
     pub(crate) fn advance(
         &mut self,
+        series: &mut Series,
         start_s: f64,
         length_s: f64,
         until_peak: bool,
@@ -118,7 +125,7 @@ impl<'a, O: Observer> Motion<'a, O> {
                 }
             }
 
-            let longest = (length_s - offset).min(LONGEST_STEP / self.p);
+            let longest = (length_s - offset).min(self.longest_step_s());
             let mut step = longest;
             let mut forcing = shaking(offset, step).times(self.side / gravity);
             if starts_at_threshold {
@@ -137,7 +144,7 @@ impl<'a, O: Observer> Motion<'a, O> {
                     step = rebound;
                 }
             }
-            let series = Series::expand(self.x, self.v, &forcing, step, self.p * self.p, self.block.slenderness_rad());
+            series.expand(self.x, self.v, &forcing, step, self.p * self.p, self.block.slenderness_rad());
             let leaves = leading_sign(series.x().iter()) > 0.0;
             if self.resting || !leaves {
                 if !leaves {
@@ -153,7 +160,7 @@ impl<'a, O: Observer> Motion<'a, O> {
 
             let begin = offset;
             offset = if series.step_s >= length_s - begin { length_s } else { begin + series.step_s };
-            if let Some(s) = self.step(&series, |s| start_s + (begin + s * series.step_s), until_peak)? {
+            if let Some(s) = self.step(series, |s| start_s + (begin + s * series.step_s), until_peak)? {
                 offset = begin + s * series.step_s;
                 if !self.resting && self.impacts - impacts_before >= u64::from(MOST_IMPACTS) {
                     self.was_cut = true;

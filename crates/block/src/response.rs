@@ -7,9 +7,10 @@ use uplift_taylor::Forcing;
 use crate::block::{LYING_RAD, RockingBlock};
 use crate::error::{BlockError, within};
 use crate::excitation::Excitation;
-use crate::motion::{Ending, LONGEST_STEP, Motion};
+use crate::motion::{Ending, Motion};
 use crate::observer::{History, Moment, Observer, Unobserved};
 use crate::rest::RestRule;
+use crate::series::Series;
 
 /// Longest motion computed, in units of 1/p.
 const LONGEST_MOTION: f64 = 1e7;
@@ -60,6 +61,24 @@ pub struct BlockResponse {
 }
 
 impl BlockResponse {
+    /// What came of a motion that `ending` ended, if not time.
+    pub(crate) fn from_motion<O: Observer>(motion: &Motion<'_, O>, ending: Option<Ending>) -> Self {
+        let is_overturned = ending == Some(Ending::Overturned);
+        Self {
+            rotation_rad: motion.peak,
+            displacement_m: if is_overturned { f64::INFINITY } else { motion.block.top_displacement_m(motion.peak) },
+            time_s: motion.peak_s,
+            uplift_s: motion.uplift_s,
+            impacts: motion.impacts,
+            overturning: match (is_overturned, motion.impacts) {
+                (false, _) => Overturning::None,
+                (true, 0) => Overturning::WithoutImpact,
+                (true, _) => Overturning::AfterImpact,
+            },
+            chatter_was_cut: motion.was_cut,
+        }
+    }
+
     /// Whether the block overturns.
     pub fn is_overturned(&self) -> bool {
         self.overturning != Overturning::None
@@ -121,56 +140,46 @@ pub(crate) fn run<O: Observer>(
     rest_rule: RestRule,
     observer: O,
 ) -> Result<(BlockResponse, O), BlockError> {
-    let shaken_s = excitation.map_or(0.0, |excitation| excitation.duration_s());
+    excitation.map_or(Ok(()), |excitation| excitation.check())?;
+    check_duration(block, excitation.map_or(0.0, |excitation| excitation.duration_s()), free)?;
+    let mut motion = Motion::new(block, rest_rule, observer);
+    motion.release(rotation_rad);
+    let ending = follow(&mut motion, excitation, free);
+    Ok((BlockResponse::from_motion(&motion, ending), motion.observer))
+}
+
+/// Refuses motions that last too many times the block's own time.
+pub(crate) fn check_duration(block: &RockingBlock, shaken_s: f64, free: FreeRocking) -> Result<(), BlockError> {
     let free_s = match free {
         FreeRocking::FirstPeak => 0.0,
         FreeRocking::Lasting { duration_s } => {
             within("time of free rocking", duration_s, "s", 0.0..=f64::MAX, "finite and not negative")?
         }
     };
-    excitation.map_or(Ok(()), |excitation| excitation.check())?;
     let p = block.frequency_parameter_rad_s();
     let (duration_s, time_s) = (shaken_s + free_s, 1.0 / p);
     let ratio = duration_s * p;
-    if !(ratio <= LONGEST_MOTION) {
-        return Err(BlockError::TooLong { duration_s, time_s, ratio, most: LONGEST_MOTION });
+    if ratio <= LONGEST_MOTION {
+        Ok(())
+    } else {
+        Err(BlockError::TooLong { duration_s, time_s, ratio, most: LONGEST_MOTION })
     }
-
-    let mut motion = Motion::new(block, rest_rule, observer);
-    motion.release(rotation_rad);
-    let is_overturned = follow(&mut motion, excitation, free, LONGEST_STEP / p) == Some(Ending::Overturned);
-    let overturning = match (is_overturned, motion.impacts) {
-        (false, _) => Overturning::None,
-        (true, 0) => Overturning::WithoutImpact,
-        (true, _) => Overturning::AfterImpact,
-    };
-    let response = BlockResponse {
-        rotation_rad: motion.peak,
-        displacement_m: if is_overturned { f64::INFINITY } else { block.top_displacement_m(motion.peak) },
-        time_s: motion.peak_s,
-        uplift_s: motion.uplift_s,
-        impacts: motion.impacts,
-        overturning,
-        chatter_was_cut: motion.was_cut,
-    };
-    Ok((response, motion.observer))
 }
 
-/// Shaking, then free rocking in steps of `step_s`; what ended it, if not time.
+/// Shaking, then free rocking; what ended it, if not time.
 fn follow<O: Observer>(
     motion: &mut Motion<'_, O>,
     excitation: Option<Excitation<'_>>,
     free: FreeRocking,
-    step_s: f64,
 ) -> Option<Ending> {
-    let mut end_s = 0.0;
+    let (mut end_s, mut series) = (0.0, Series::EMPTY);
     if let Some(excitation) = excitation {
         let (start_s, length_s) = (excitation.start_s(), excitation.segment_s());
         motion.observe(start_s, Moment::Sample);
         for segment in 0..excitation.segments() {
             let begin_s = start_s + segment as f64 * length_s;
             let shaking = |offset, step| excitation.taylor(segment, offset, step);
-            if let ControlFlow::Break(ending) = motion.advance(begin_s, length_s, false, shaking) {
+            if let ControlFlow::Break(ending) = motion.advance(&mut series, begin_s, length_s, false, shaking) {
                 return Some(ending);
             }
             motion.observe(start_s + (segment + 1) as f64 * length_s, Moment::Sample);
@@ -179,11 +188,21 @@ fn follow<O: Observer>(
     } else {
         motion.observe(0.0, Moment::Sample);
     }
+    rock_on(motion, &mut series, end_s, free)
+}
 
+/// Free rocking from `end_s` on; what ended it, if not time.
+pub(crate) fn rock_on<O: Observer>(
+    motion: &mut Motion<'_, O>,
+    series: &mut Series,
+    end_s: f64,
+    free: FreeRocking,
+) -> Option<Ending> {
     let (until_peak, last_s) = match free {
         FreeRocking::FirstPeak => (true, f64::INFINITY),
         FreeRocking::Lasting { duration_s } => (false, duration_s),
     };
+    let step_s = motion.longest_step_s();
     let mut steps = 0.0;
     loop {
         let begin_s = steps * step_s;
@@ -195,7 +214,7 @@ fn follow<O: Observer>(
         }
         let length_s = step_s.min(last_s - begin_s);
         if let ControlFlow::Break(ending) =
-            motion.advance(end_s + begin_s, length_s, until_peak, |_, _| Forcing::none())
+            motion.advance(series, end_s + begin_s, length_s, until_peak, |_, _| Forcing::none())
         {
             return Some(ending);
         }

@@ -2,6 +2,9 @@
 
 use uplift_taylor::{Forcing, Rebound};
 
+/// The ground does not move up and down.
+static STILL: Forcing = Forcing::none();
+
 /// How it is decided that the block rests.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum RestRule {
@@ -16,7 +19,7 @@ impl RestRule {
     /// Whether the block surely comes to rest on a step of `step_s`, under `forcing` in units of g, without a new peak.
     pub(crate) fn comes_to_rest(self, block: &Rebound, forcing: &Forcing, step_s: f64) -> bool {
         match self {
-            Self::Proven => block.is_over_within(step_s, forcing, &Forcing::none()),
+            Self::Proven => block.is_over_within(step_s, forcing, &STILL),
             #[cfg(test)]
             Self::Below(velocity) => block.velocity < velocity && forcing.value(0.0).abs() < block.tangent,
         }

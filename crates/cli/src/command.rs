@@ -21,7 +21,7 @@ use std::fmt::Write as _;
 use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use uplift_oscillator::InstructionSet;
+use uplift_instructions::InstructionSet;
 
 use crate::error::CommandError;
 use crate::terminal::{Form, Terminal, tell};

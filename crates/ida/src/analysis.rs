@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use rayon::prelude::*;
-use uplift_block::{FreeRocking, RockingBlock, respond};
+use uplift_block::{BlockResponse, FreeRocking, RockingBlock, respond_at_scales};
 use uplift_frame::{Model, Options, RockingFrame, Until};
 use uplift_motion::{Accelerogram, MotionError};
 use uplift_oscillator::{GroundMotion, Oscillator, Peak, Sweep};
@@ -36,7 +36,7 @@ pub fn analyse(plan: &Plan<'_>, watch: &dyn Watch) -> Result<Peaks, IdaError> {
 ///
 /// Rows are shared out among the threads; the scale factors of a system that is not [swept](System::is_swept) as well,
 /// so that a few long rows keep all threads busy too. `watch` is asked before every row, and before every run of a
-/// system that is not swept.
+/// system that is not swept, or every 32 of a block.
 ///
 /// # Errors
 /// As [`analyse`]; what `keep` was given is finished all the same.
@@ -74,6 +74,21 @@ pub fn complete(
                     let from = |ground| swept(oscillator, ground, plan.with_free_peak(), &scales);
                     of_azimuths.iter().map(from).collect()
                 }
+                (System::Block(block), _) if grounds.iter().all(|ground| ground.upwards.is_none()) => {
+                    let run = |ground: &Ground<'_>, scales: &[f64]| {
+                        if watch.cancelled() {
+                            return Err(IdaError::Cancelled);
+                        }
+                        let peaks = rocked(block, ground, scales, plan.with_free_peak())?;
+                        watch.finished(scales.len() as u64);
+                        Ok(peaks)
+                    };
+                    let from = |ground| {
+                        let parts = scales.par_chunks(SCALES_TOGETHER).map(|scales| run(ground, scales));
+                        Ok(parts.collect::<Result<Vec<_>, _>>()?.concat())
+                    };
+                    grounds.par_iter().map(from).collect::<Result<_, _>>()?
+                }
                 (one_by_one, _) => {
                     let run = |ground: &Ground<'_>, scale: f64| {
                         if watch.cancelled() {
@@ -109,6 +124,9 @@ pub fn complete(
     )?;
     Ok(cells)
 }
+
+/// Scale factors at which a thread follows a block before it looks for other work, or is told to stop.
+const SCALES_TOGETHER: usize = 32;
 
 /// The smallest of `peaks`, one an azimuth, that `percentile` per cent of them do not exceed; what overturned is the
 /// largest.
@@ -194,7 +212,7 @@ pub(crate) fn single(system: &System, ground: &Ground<'_>, scale: f64, with_free
             let shaken = ShakenFrame { frame, model: Model::Planar, restitution, rest_amplitude_rad: None };
             wobbled(&shaken, ground, scale, with_free_peak)
         }
-        System::Block(block) => rocked(block, ground, scale, with_free_peak),
+        System::Block(block) => Ok(rocked(block, ground, &[scale], with_free_peak)?[0]),
         System::Frame(shaken) => wobbled(shaken, ground, scale, with_free_peak),
     }
 }
@@ -221,14 +239,21 @@ fn wobbled(shaken: &ShakenFrame, ground: &Ground<'_>, scale: f64, with_free_peak
     Ok(Peak { displacement_m: response.displacement.value, impacts })
 }
 
-fn rocked(block: &RockingBlock, ground: &Ground<'_>, scale: f64, with_free_peak: bool) -> Result<Peak, IdaError> {
+/// Peaks of a block at `scales`, together.
+fn rocked(
+    block: &RockingBlock,
+    ground: &Ground<'_>,
+    scales: &[f64],
+    with_free_peak: bool,
+) -> Result<Vec<Peak>, IdaError> {
     let free = if with_free_peak { FreeRocking::FirstPeak } else { FreeRocking::Lasting { duration_s: 0.0 } };
-    let named = || ground.id.to_owned();
-    let motion =
-        ground.along.scaled(scale).map_err(|source| IdaError::Motion { motion: named(), source: source.into() })?;
-    let response =
-        respond(block, &motion, free).map_err(|source| IdaError::Block { motion: named(), source: source.into() })?;
-    Ok(Peak { displacement_m: response.displacement_m, impacts: u32::try_from(response.impacts).unwrap_or(u32::MAX) })
+    let responses = respond_at_scales(block, ground.along, scales, free)
+        .map_err(|source| IdaError::Block { motion: ground.id.to_owned(), source: source.into() })?;
+    let peak = |response: BlockResponse| {
+        let impacts = u32::try_from(response.impacts).unwrap_or(u32::MAX);
+        Peak { displacement_m: response.displacement_m, impacts }
+    };
+    Ok(responses.into_iter().map(peak).collect())
 }
 
 #[cfg(test)]

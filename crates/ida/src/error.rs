@@ -3,6 +3,7 @@
 use thiserror::Error;
 use uplift_block::BlockError;
 use uplift_frame::FrameError;
+use uplift_instructions::InstructionsError;
 use uplift_motion::MotionError;
 use uplift_oscillator::OscillatorError;
 
@@ -167,7 +168,7 @@ pub enum IdaError {
     },
     /// The processor's instructions that were asked for are not to be had.
     #[error(transparent)]
-    Instructions(OscillatorError),
+    Instructions(InstructionsError),
     /// The analysis was told to stop.
     #[error("the analysis was interrupted")]
     Cancelled,

@@ -1,7 +1,8 @@
 //! Motions with their scale factors, and systems, checked before the first analysis.
 
+use uplift_instructions::InstructionSet;
 use uplift_motion::Accelerogram;
-use uplift_oscillator::{Excitation, InstructionSet};
+use uplift_oscillator::Excitation;
 
 use crate::error::IdaError;
 use crate::peaks::Axes;

@@ -69,7 +69,7 @@ impl System {
     }
 
     /// Whether all scale factors of a motion are followed together, at a fraction of their cost one by one. What is not
-    /// swept may be stopped between any two scale factors, and shares them out among the threads.
+    /// swept may be stopped between scale factors, and shares them out among the threads.
     pub fn is_swept(&self) -> bool {
         match self {
             Self::Oscillator(_) => true,
@@ -107,9 +107,10 @@ impl System {
                 ]
             }
             Self::Block(block) => {
+                let [size_m, slenderness_rad] = [block.size_m(), block.slenderness_rad()];
                 // where the ground moves upwards the frame's solver follows it
-                let version = f64::from(uplift_frame::NUMERICS);
-                vec![1.0, block.size_m(), block.slenderness_rad(), block.restitution(), block.gravity_m_s2(), version]
+                let versions = [uplift_block::NUMERICS, uplift_frame::NUMERICS].map(f64::from);
+                vec![1.0, size_m, slenderness_rad, block.restitution(), block.gravity_m_s2(), versions[0], versions[1]]
             }
             Self::Frame(shaken) => {
                 let model = match shaken.model {

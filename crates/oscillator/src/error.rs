@@ -78,16 +78,4 @@ pub enum OscillatorError {
         /// The value found.
         value: f64,
     },
-    /// A set of instructions that is asked for by the environment, and is unknown or not of this processor.
-    #[error(
-        "{variable} is \"{wanted}\": this processor has {available}; take one of these, or leave the variable unset"
-    )]
-    Instructions {
-        /// The variable of the environment.
-        variable: &'static str,
-        /// Its value.
-        wanted: String,
-        /// The sets of this processor.
-        available: String,
-    },
 }

@@ -1,115 +1,22 @@
-//! The same runs, compiled for more of the processor's instructions.
-//!
-//! Longer vectors, operations with three operands and more registers save a tenth of the time on real records. The
-//! arithmetic is the same, operation by operation, and so are the bits: nothing is fused.
+//! Runs compiled for the processor's instructions.
 
-#![allow(unsafe_code)]
+use uplift_instructions::{Instructions, Work};
 
-use std::fmt;
-use std::sync::OnceLock;
-
-use crate::error::OscillatorError;
 use crate::side_by_side::{self, PendingRun};
 use crate::sweep::{Peak, Sweep};
 
-/// The variable of the environment that names the set to be used, in place of the best one.
-pub const INSTRUCTIONS_VARIABLE: &str = "UPLIFT_INSTRUCTIONS";
-
-/// A set of instructions that the runs are compiled for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum InstructionSet {
-    /// What every processor of the architecture has.
-    Portable,
-    /// AVX2 of x86-64.
-    Avx2,
-    /// AVX-512 F, VL and DQ of x86-64.
-    Avx512,
+struct Following<'a, const RUNS: usize, const STIFFNESS: bool> {
+    sweep: &'a Sweep<'a>,
+    pending: &'a [PendingRun],
+    peaks: &'a mut [Peak],
 }
 
-impl InstructionSet {
-    /// Every set, the shorter vectors first.
-    pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
+impl<const RUNS: usize, const STIFFNESS: bool> Work for Following<'_, RUNS, STIFFNESS> {
+    type Output = ();
 
-    /// Its word in [`INSTRUCTIONS_VARIABLE`].
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Portable => "portable",
-            Self::Avx2 => "avx2",
-            Self::Avx512 => "avx512",
-        }
-    }
-
-    /// The sets of this processor, the best last.
-    pub fn available() -> Vec<Self> {
-        Self::ALL.into_iter().filter(|set| Instructions::from_set(*set).is_some()).collect()
-    }
-
-    /// The set that runs are followed with: that of [`INSTRUCTIONS_VARIABLE`] if it is set, else the best of this
-    /// processor. The variable is looked at once in the life of the program.
-    ///
-    /// # Errors
-    /// [`OscillatorError::Instructions`] where the variable holds another word, or a set that this processor lacks;
-    /// runs are followed with the best one then.
-    pub fn chosen() -> Result<Self, OscillatorError> {
-        chosen().clone()
-    }
-}
-
-impl fmt::Display for InstructionSet {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.key())
-    }
-}
-
-fn chosen() -> &'static Result<InstructionSet, OscillatorError> {
-    static CHOSEN: OnceLock<Result<InstructionSet, OscillatorError>> = OnceLock::new();
-    CHOSEN.get_or_init(|| match std::env::var_os(INSTRUCTIONS_VARIABLE) {
-        None => Ok(Instructions::best().0),
-        Some(word) => named(&word.to_string_lossy()),
-    })
-}
-
-/// The set of this processor that `word` names.
-fn named(word: &str) -> Result<InstructionSet, OscillatorError> {
-    let available = InstructionSet::available();
-    available.iter().find(|set| set.key() == word).copied().ok_or_else(|| OscillatorError::Instructions {
-        variable: INSTRUCTIONS_VARIABLE,
-        wanted: word.to_owned(),
-        available: available.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
-    })
-}
-
-/// A set that this processor is known to have: only [`of`](Self::of) says so.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Instructions(InstructionSet);
-
-impl Instructions {
-    /// `set`, if this processor has it.
-    pub(crate) fn from_set(set: InstructionSet) -> Option<Self> {
-        #[cfg(target_arch = "x86_64")]
-        let has = match set {
-            InstructionSet::Portable => true,
-            InstructionSet::Avx2 => is_x86_feature_detected!("avx2"),
-            InstructionSet::Avx512 => {
-                is_x86_feature_detected!("avx512f")
-                    && is_x86_feature_detected!("avx512vl")
-                    && is_x86_feature_detected!("avx512dq")
-            }
-        };
-        #[cfg(not(target_arch = "x86_64"))]
-        let has = set == InstructionSet::Portable;
-        has.then_some(Self(set))
-    }
-
-    /// The best that this processor has.
-    fn best() -> Self {
-        let best = InstructionSet::ALL.into_iter().rev().find_map(Self::from_set);
-        best.unwrap_or(Self(InstructionSet::Portable))
-    }
-
-    /// What runs are followed with; see [`InstructionSet::chosen`].
-    pub(crate) fn chosen() -> Self {
-        chosen().as_ref().ok().and_then(|set| Self::from_set(*set)).unwrap_or_else(Self::best)
+    #[inline(always)]
+    fn run(self) {
+        side_by_side::follow::<RUNS, STIFFNESS>(self.sweep, self.pending, self.peaks);
     }
 }
 
@@ -121,62 +28,18 @@ pub(crate) fn follow<const RUNS: usize, const STIFFNESS: bool>(
     pending: &[PendingRun],
     peaks: &mut [Peak],
 ) {
-    match instructions.0 {
-        // SAFETY: the processor has what the functions are compiled for, since no other value is made.
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx2 => unsafe { follow_with_avx2::<RUNS, STIFFNESS>(sweep, pending, peaks) },
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx512 => unsafe { follow_with_avx512::<RUNS, STIFFNESS>(sweep, pending, peaks) },
-        _ => side_by_side::follow::<RUNS, STIFFNESS>(sweep, pending, peaks),
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn follow_with_avx2<const RUNS: usize, const STIFFNESS: bool>(
-    sweep: &Sweep<'_>,
-    pending: &[PendingRun],
-    peaks: &mut [Peak],
-) {
-    side_by_side::follow::<RUNS, STIFFNESS>(sweep, pending, peaks);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512vl,avx512dq")]
-fn follow_with_avx512<const RUNS: usize, const STIFFNESS: bool>(
-    sweep: &Sweep<'_>,
-    pending: &[PendingRun],
-    peaks: &mut [Peak],
-) {
-    side_by_side::follow::<RUNS, STIFFNESS>(sweep, pending, peaks);
+    instructions.run(Following::<RUNS, STIFFNESS> { sweep, pending, peaks });
 }
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use proptest::prelude::*;
+    use uplift_instructions::InstructionSet;
 
     use super::*;
     use crate::problems::shaped_noise;
     use crate::{Excitation, GroundMotion, Oscillator, PostUplift};
-
-    fn available() -> Vec<Instructions> {
-        InstructionSet::available().into_iter().map(|set| Instructions::from_set(set).unwrap()).collect()
-    }
-
-    #[test]
-    fn a_word_is_a_set_of_this_processor_or_an_error() {
-        for set in InstructionSet::ALL {
-            let available = InstructionSet::available().contains(&set);
-            assert_eq!(named(set.key()).ok(), available.then_some(set));
-        }
-        for word in ["", "AVX2", "avx-512", "sse", "best"] {
-            let error = named(word).unwrap_err().to_string();
-            assert!(error.contains("UPLIFT_INSTRUCTIONS") && error.contains(&format!("\"{word}\"")), "{error}");
-            assert!(error.contains("portable"), "{error}");
-        }
-        assert_eq!(InstructionSet::available()[0], InstructionSet::Portable);
-    }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(200))]
@@ -207,8 +70,8 @@ mod tests {
                 let peaks = sweep.peaks_with(instructions, &scales);
                 peaks.iter().map(|peak| (peak.displacement_m.to_bits(), peak.impacts)).collect()
             };
-            let portable = bits(Instructions(InstructionSet::Portable));
-            for instructions in available() {
+            let portable = bits(Instructions::from_set(InstructionSet::Portable).unwrap());
+            for instructions in Instructions::available() {
                 prop_assert_eq!(&bits(instructions), &portable, "{:?}", instructions);
             }
         }
@@ -241,7 +104,7 @@ mod tests {
                     let mut others = vec![sweep.peak(*scale), few];
                     if let Some(interval) = sweep.elastic.first_interval_above(sweep.boundary_m / scale) {
                         let pending = [PendingRun { index: 0, scale: *scale, interval }];
-                        for instructions in available() {
+                        for instructions in Instructions::available() {
                             let mut peak = [Peak { displacement_m: f64::NAN, impacts: 0 }];
                             match post_uplift {
                                 PostUplift::Zero => follow::<8, false>(instructions, &sweep, &pending, &mut peak),

@@ -56,7 +56,6 @@ pub use error::OscillatorError;
 pub use excitation::Excitation;
 pub use ground_motion::GroundMotion;
 pub use history::{Event, EventKind, History, Sample};
-pub use instructions::{INSTRUCTIONS_VARIABLE, InstructionSet};
 pub use oscillator::{Oscillator, PostUplift, STANDARD_GRAVITY_M_S2};
 pub use reference::{respond, respond_with_history};
 pub use response::{FreeVibration, Response};

@@ -11,11 +11,13 @@
 //!   vectors; what is not simple is found run by run: by Newton's method where convexity makes the root unique, by the
 //!   nodes of the motion elsewhere.
 
+use uplift_instructions::Instructions;
+
 use crate::ahead::{AHEAD, Lanes};
 use crate::branch::Branch;
 use crate::elastic::ElasticResponse;
 use crate::ground_motion::GroundMotion;
-use crate::instructions::{Instructions, follow};
+use crate::instructions::follow;
 use crate::nonzero_stiffness::NonzeroStiffnessBranch;
 use crate::oscillator::Oscillator;
 use crate::reference::OVERTURNED_CAPACITIES;

@@ -19,8 +19,8 @@ impl Default for Forcing {
 impl Forcing {
     /// No shaking.
     #[must_use]
-    pub fn none() -> Self {
-        Self { len: 1, ..Self::default() }
+    pub const fn none() -> Self {
+        Self { c: [0.0; ORDER + 1], len: 1 }
     }
 
     /// Makes it a straight line from `begin` to `begin + change`.
@@ -48,11 +48,13 @@ impl Forcing {
     }
 
     /// Stretches it in place: [`stretched`](Self::stretched).
+    #[inline]
     pub fn stretch(&mut self, ratio: f64) {
         stretch(&mut self.c[..self.len], ratio);
     }
 
     /// Appends the next coefficient; one beyond [`ORDER`] is left out.
+    #[inline]
     pub fn push(&mut self, coefficient: f64) {
         if let Some(place) = self.c.get_mut(self.len) {
             *place = coefficient;
@@ -74,6 +76,7 @@ impl Forcing {
 
     /// Every coefficient times `factor`.
     #[must_use]
+    #[inline]
     pub fn times(mut self, factor: f64) -> Self {
         self.c[..self.len].iter_mut().for_each(|c| *c *= factor);
         self
@@ -81,6 +84,7 @@ impl Forcing {
 
     /// The same acceleration in powers of s/`ratio`: on a step `ratio` times as long.
     #[must_use]
+    #[inline]
     pub fn stretched(mut self, ratio: f64) -> Self {
         self.stretch(ratio);
         self
@@ -88,6 +92,7 @@ impl Forcing {
 
     /// The same with another value at the begin of the step.
     #[must_use]
+    #[inline]
     pub fn beginning_at(mut self, value: f64) -> Self {
         self.len = self.len.max(1);
         self.c[0] = value;
@@ -127,8 +132,15 @@ impl Forcing {
         self.coefficients().iter().map(|c| c.abs()).sum()
     }
 
-    /// Σ k |cₖ|: no derivative by s on the step is larger.
-    pub fn slope_bound(&self) -> f64 {
-        self.coefficients().iter().enumerate().map(|(k, c)| k as f64 * c.abs()).sum()
+    /// Of the first `part` of the step, [stretched](Self::stretched) to a whole one: Σ |cₖ|, its [bound](Self::bound),
+    /// and Σ k |cₖ|, which no derivative by s exceeds.
+    pub fn bounds_within(&self, part: f64) -> [f64; 2] {
+        let (mut power, mut bounds) = (1.0, [0.0; 2]);
+        for (k, c) in self.coefficients().iter().enumerate() {
+            let size = (c * power).abs();
+            bounds = [bounds[0] + size, bounds[1] + k as f64 * size];
+            power *= part;
+        }
+        bounds
     }
 }

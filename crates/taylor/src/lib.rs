@@ -28,6 +28,7 @@ pub const TRUNCATION: f64 = 0.5 * f64::EPSILON;
 pub const LEAST_ORDER: usize = 4;
 
 /// The coefficients `c` in powers of `s/ratio`: of the same function on a step `ratio` times as long.
+#[inline]
 pub fn stretch(c: &mut [f64], ratio: f64) {
     let mut power = 1.0;
     for c in c {

@@ -9,6 +9,9 @@ use std::ops::ControlFlow;
 /// Largest degree.
 pub const DEGREE: usize = 25;
 
+/// How far one bound must be above another for roundings not to matter.
+const CERTAIN: f64 = 1.0 + 1e-12;
+
 /// Halvings of the interval before two roots are one touch.
 const DEPTH: u32 = 48;
 
@@ -71,14 +74,27 @@ fn search(
     search(c, right, [middle, hi], depth - 1, visit)
 }
 
+/// C(n,k), one from the other.
+static BINOMIALS: [[f64; DEGREE + 1]; DEGREE + 1] = {
+    let mut table = [[1.0; DEGREE + 1]; DEGREE + 1];
+    let mut n = 0;
+    while n <= DEGREE {
+        let mut k = 0;
+        while k < n {
+            table[n][k + 1] = table[n][k] * ((n - k) as f64 / (k + 1) as f64);
+            k += 1;
+        }
+        n += 1;
+    }
+    table
+};
+
 /// bᵢ = Σₖ C(i,k)/C(n,k) cₖ, by sums alone: the cₖ/C(n,k) are the forward differences of the bᵢ.
 fn to_bernstein(c: &[f64]) -> [f64; DEGREE + 1] {
     let n = c.len() - 1;
     let mut b = [0.0; DEGREE + 1];
-    let mut binomial = 1.0;
-    for (k, c) in c.iter().enumerate() {
-        b[k] = c / binomial;
-        binomial *= (n - k) as f64 / (k + 1) as f64;
+    for ((b, c), binomial) in b.iter_mut().zip(c).zip(&BINOMIALS[n]) {
+        *b = c / binomial;
     }
     for first in (0..n).rev() {
         for i in first + 1..=n {
@@ -105,7 +121,17 @@ pub fn first_zero(c: &[f64]) -> Option<f64> {
     let lead = c.iter().position(|c| *c != 0.0)?;
     let c = &c[lead..];
     let rest: f64 = c[1..].iter().map(|c| c.abs()).sum();
-    if c[0] > rest { None } else { first_sign_change(c) }
+    if c[0] > rest {
+        return None;
+    }
+    // most functions that fall to zero fall all the time: the signs at both ends say all
+    let bend: f64 = c.iter().enumerate().skip(2).map(|(k, c)| k as f64 * c.abs()).sum();
+    let end = value(c, 1.0);
+    match (c.len() > 1 && c[1].abs() > CERTAIN * bend, c[0] * end) {
+        (true, product) if product < 0.0 => Some(solve(c, 0.0, 1.0, c[0].signum())),
+        (true, product) if product > 0.0 => None,
+        _ => first_sign_change(c),
+    }
 }
 
 /// Sign of the first that is not zero; 0 if all are.

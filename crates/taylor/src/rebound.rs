@@ -51,8 +51,8 @@ impl Rebound {
         }
         // the time that it takes under constant shaking, with a margin for the bounds to be wider
         let window = step_s.min(8.0 * v / (p_squared * slack * (1.0 - restitution)));
-        let [horizontal, vertical] = [horizontal, vertical].map(|forcing| forcing.stretched(window / step_s));
-        let (bound, vertical_bound) = (horizontal.bound(), vertical.bound());
+        let [bounds, vertical_bounds] = [horizontal, vertical].map(|forcing| forcing.bounds_within(window / step_s));
+        let ([bound, change], [vertical_bound, vertical_change]) = (bounds, vertical_bounds);
         let begin = vertical.value(0.0);
         let least = begin - (vertical_bound - begin.abs());
         let m = cosine * (tangent * (1.0 + least) - bound);
@@ -60,7 +60,7 @@ impl Rebound {
             return false;
         }
         let d = 0.5 * p_squared * m;
-        let slope = (horizontal.slope_bound() + vertical.slope_bound()) / window;
+        let slope = (change + vertical_change) / window;
         let gain = 2.0 * p_squared * slope * v / (d * d);
         let ratio = restitution * (1.0 + gain).sqrt();
         ratio < 1.0 && 2.0 * v <= window * d * (1.0 - ratio) && v * v <= 2.0 * d * peak
