@@ -154,7 +154,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         "Verdict   {name}{whose}, {has}: {doubt}{}",
         if verdicts.is_empty() { "no rule applies".to_owned() } else { verdicts.join(", ") }
     )?;
-    for verdict in report.contradicted_by() {
+    for verdict in report.unsafe_upper_limit().into_iter().chain(report.contradicted_by()) {
         writeln!(out, "          {verdict}")?;
     }
     if !verdicts.is_empty() {
