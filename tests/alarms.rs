@@ -104,7 +104,7 @@ fn every_face_says_the_same() {
     let page =
         std::fs::read_to_string(study.path().join("r.html")).unwrap().replace("&#x2f;", "/").replace("&#x27;", "'");
     assert!(page.contains(">Warnings<"), "{page:.300}");
-    for (face, mark, result) in [(listed, "\n          ", "r.h5"), (page, ":</strong> ", "RESULT")] {
+    for (face, mark, result) in [(listed, ": ", "r.h5"), (page, ":</strong> ", "RESULT")] {
         for alarm in run["alarms"].as_array().unwrap() {
             let told = format!("{mark}{}", text(alarm, "what"));
             assert_eq!(face.matches(&told).count(), 1, "{told}\n{face:.2000}");

@@ -337,7 +337,7 @@ fn differences_from_the_study_are_reported() {
     );
     let found = design(&study, "other.toml", &[]);
     let notes = found["notes"].to_string();
-    for words in ["its 4 mm over Γ", "this structure has 0.9", "9.81 m/s2"] {
+    for words in ["(its 4 mm over Γ)", "this structure has 0.9", "9.81 m/s2"] {
         assert!(notes.contains(words), "{words}: {notes}");
     }
     assert_eq!(found["structure"]["restitution"], 0.9);

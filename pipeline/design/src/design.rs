@@ -491,8 +491,8 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     }
     if !system.is_of_uplift_displacement(oscillator.uplift_displacement_m) {
         notes.push(format!(
-            "the spectrum was computed for an uplift displacement of {} mm; this structure needs {} mm, its {} mm \
-             over Γ",
+            "the spectrum was computed for an uplift displacement of {} mm; this structure needs {} mm (its {} mm \
+             over Γ)",
             rounded(1e3 * oscillator.uplift_displacement_m, 4),
             rounded(1e3 * system.spectral_uplift_displacement_m(), 3),
             rounded(1e3 * system.conditions().uplift_displacement_m(), 4)

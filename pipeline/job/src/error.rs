@@ -97,7 +97,11 @@ fn choice(option: &str, wanted: Option<&str>, known: &[String]) -> String {
         return format!("choose one: {option}{example}; the result has {all}");
     };
     let names: Vec<&str> = known.iter().map(String::as_str).collect();
-    let Some(meant) = did_you_mean(wanted, &names) else { return format!("{option} {wanted}; the result has {all}") };
+    // a number is no mistyped number
+    let is_word = wanted.parse::<f64>().is_err();
+    let Some(meant) = did_you_mean(wanted, &names).filter(|_| is_word) else {
+        return format!("{option} {wanted}; the result has {all}");
+    };
     format!("{option} {wanted}: {} The result has {all}", meant.replace('`', ""))
 }
 

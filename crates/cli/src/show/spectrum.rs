@@ -39,7 +39,11 @@ fn print_answers(out: &mut impl Write, report: &DisplacementReport) -> Result<()
     let of = if report.band_of == BandOf::Earthquakes { ", band by earthquake" } else { "" };
     for own in &report.displacements {
         let Displacement { site, im, strength, u_m, band_m, .. } = own;
-        let displacement = metres_with_named_band(*u_m, *band_m, CONFIDENCE);
+        let displacement = if u_m.is_nan() {
+            "No repaired spectrum".to_owned()
+        } else {
+            metres_with_named_band(*u_m, *band_m, CONFIDENCE)
+        };
         let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
         writeln!(out, "{displacement}  {site}, strength {strength}, {}, by {im}{repaired}{capacity}{of}", risk(own))?;
     }
