@@ -210,5 +210,5 @@ fn factors_of_another_unit_and_levels_of_few_records_are_raised() {
         assert!(run.contains(words), "{words}: {run}");
     }
     let warnings = study.uplift(&["warnings", "sets.h5"]).ok().stdout;
-    assert!(warnings.contains("PGV 0.4 cm/s\n          its 12 records count as 12.0"), "{warnings}");
+    assert!(warnings.contains("PGV 0.4 cm/s: its 12 records count as 12.0"), "{warnings}");
 }

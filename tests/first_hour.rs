@@ -32,7 +32,7 @@ fn a_study_in_place_of_a_result_is_named_as_one() {
     for command in ["report", "table", "export"] {
         let format = if command == "export" { &["--json"][..] } else { &[] };
         let said = study.uplift(&[&[command, "study.toml"], format].concat());
-        said.fails(4, &["study.toml: is a study, not a result: `uplift run` computes its result"]);
+        said.fails(4, &["study.toml: is a study, not a result: run `uplift run study.toml` first, and give "]);
     }
 }
 
@@ -67,7 +67,7 @@ fn the_curve_of_the_readme_says_what_it_is() {
     let shown = study.uplift(&["hazard", "show", "pgv.csv"]).ok().stdout;
     assert!(shown.contains("PGV [cm/s]"), "{shown}");
     study.write("unsaid.csv", "iml,maf\n1,0.4\n10,0.01\n");
-    study.uplift(&["hazard", "show", "unsaid.csv"]).fails(4, &["unsaid.csv", "pgv_cm_s", "--measure and --unit"]);
+    study.uplift(&["hazard", "show", "unsaid.csv"]).fails(4, &["unsaid.csv", "pgv_cm_s", "or give --measure"]);
 }
 
 #[test]

@@ -147,11 +147,17 @@ fn a_hardly_possible_curve_is_warned_of_when_it_is_shown() {
     let study = SmallStudy::new();
     study.write("odd.csv", "# IM: PGV [cm/s]\niml,maf\n0.001,0.5\n0.01,0.05\n0.1,1e-5\n");
     let shown = study.uplift(&["hazard", "show", "odd.csv"]).ok().stdout;
-    let words =
-        "\nWarnings\n  odd: 0.3 cm/s is exceeded only 1.0e-5 times a year, which is hardly possible: check the unit";
+    let words = "\nWarnings\n  mistake? odd: 0.3 cm/s is exceeded only 1.0e-5 times a year, which is hardly possible: check the unit";
     assert!(shown.contains("0.001 to 0.1") && shown.contains(words), "{shown}");
     let usual = study.uplift(&["hazard", "show", "here-pgv.csv", "--measure", "PGV", "--unit", "cm/s"]).ok().stdout;
     assert!(!usual.contains("Warnings"), "{usual}");
+    // a header without a unit is that of a study, as a check takes it; numbers in m/s are asked about
+    study.write("plain.csv", "PGV,rate\n0.001,1.5\n0.01,0.4\n0.1,0.01\n1,1e-5\n3,1e-7\n");
+    let asked = study.uplift(&["hazard", "show", "plain.csv"]).ok().stdout;
+    let words = ["PGV [cm/s]", "mistake? plain: the last level is 3 cm/s", "was the level meant in m/s"];
+    assert!(words.iter().all(|words| asked.contains(words)), "{asked}");
+    let right = study.uplift(&["hazard", "show", "plain.csv", "--unit", "m/s"]).ok().stdout;
+    assert!(right.contains("0.1 to 300") && !right.contains("Warnings"), "{right}");
 }
 
 #[test]
@@ -176,7 +182,7 @@ fn a_curve_of_another_definition_is_refused_unless_converted() {
     // the others do not say theirs
     assert_eq!(done.code, 0);
     let warnings = study.uplift(&["warnings", "results/study.h5"]).ok().stdout;
-    assert!(warnings.contains("horizontal component missing in 3 hazard curves"), "{warnings}");
+    assert!(warnings.contains("horizontal component of 3 hazard curves not given"), "{warnings}");
     study
         .uplift(&["check", "study.toml", "--set", converted, "--set", "records.intensity=\"rotd100\""])
         .fails(4, &["RotD100"]);
@@ -236,7 +242,7 @@ fn what_is_no_hazard() {
     write("empty.csv", "");
     uplift(at, &["hazard", "show", "absent.csv"]).fails(4, &["absent.csv"]);
     uplift(at, &["hazard", "show", "empty.csv"]).fails(4, &["empty.csv"]);
-    uplift(at, &["hazard", "show", "plain.csv"]).fails(4, &["measure and unit", "# IM: PGV [cm/s]"]);
+    uplift(at, &["hazard", "show", "plain.csv"]).fails(4, &["does not say its measure", "# IM: PGV [cm/s]"]);
     uplift(at, &["hazard", "show", "plain.csv", "--measure", "pgv", "--unit", "cm/s"]).fails(4, &["iml,maf"]);
     uplift(at, &["hazard", "show", "plain.csv", "--measure", "pgv", "--unit", "cm/s", "--years", "50"]).ok();
     uplift(at, &["hazard", "show", "broken.xml"]).fails(4, &["broken.xml"]);

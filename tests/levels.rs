@@ -40,7 +40,7 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
     let check = &plan["levels"][0];
     let number = |value: &Value| value.as_f64().unwrap();
     let strengths: Vec<f64> = check["strengths"].as_array().unwrap().iter().map(number).collect();
-    assert_eq!((check["im"].as_str(), number(&check["first_level"]), strengths.len()), (Some("PGV"), 5.0, 4));
+    assert_eq!((check["im"].as_str(), number(&check["first_level"]), strengths.len()), (Some("PGV"), 5.0, 5));
     assert_eq!(strengths.last(), Some(&0.8));
 
     // the shares are a run's, to the bit: of the levels as they are, and of those proposed
@@ -53,10 +53,7 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
     let alarms = plan["alarms"].as_array().unwrap();
     let alarm = alarms.iter().find(|alarm| alarm["kind"] == "beyond-last-level").unwrap();
     assert!(
-        alarm["what"]
-            .as_str()
-            .unwrap()
-            .contains("4 of 4 trial ordinates may be too small (up to 4.6 % of the risk lies above the levels)"),
+        alarm["what"].as_str().unwrap().contains("displacements may be too small (4.6 % of the risk above 100 cm/s)"),
         "{plan:#}"
     );
     let proposal = &check["proposal"];
@@ -70,14 +67,38 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
 
     let said = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
     let pasted = line.replace("pgv.levels", "Proposed: [pgv] levels");
-    let high = "There, PGV, 10 % (3 more): 4 of 4 trial ordinates too large: up to 96.2 % of the risk lies below";
-    for words in ["Levels    PGV, at the strengths tried (0.2", "up to 96.2 % of the risk lies below", high, &pasted] {
+    let high = "There, PGV, 10 % (3 more): displacements too large (96.2 % of the risk below 5 cm/s)";
+    for words in
+        ["Levels    PGV, at the strengths tried (0.100, 0.2", "up to 96.2 % of the risk lies below", high, &pasted]
+    {
         assert!(said.contains(words), "{words}: {said}");
     }
     // levels that reach far enough are left alone
     let content = study.uplift(&["check", "study.toml", "--details", "--set", line]).ok().stdout;
     assert!(content.contains("Levels    PGV, at the strengths"), "{content}");
     assert!(!content.contains("too large") && !content.contains("Proposed"), "{content}");
+    // and so are those raised as the warning says
+    let to = alarm["what_to_do"].as_str().unwrap().strip_prefix("Raise the last of pgv.levels_cm_s to ").unwrap();
+    let raised = line.replace("100\"]", &format!("100\", {to}]"));
+    let content = study.uplift(&["check", "study.toml", "--details", "--set", &raised]).ok().stdout;
+    assert!(!content.contains("too small"), "{to}:\n{content}");
+}
+
+#[test]
+fn an_extrapolated_curve_is_named_by_check_and_run_alike() {
+    let study = SmallStudy::with(&HIGH.replace("[risk]\n", "[risk]\nextrapolate = \"loglog\"\n"));
+    study.write("here-pgv.csv", "iml,maf\n0.5,1.5\n1,0.4\n10,0.01\n60,3e-4\n");
+    let check = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    let run = study.uplift(&["warnings", "r.h5"]).ok().stdout;
+    for words in [
+        "1 hazard curve extrapolated (Here, PGV, spans 0.5 to 60 cm/s, the levels 5 to 100)",
+        "displacements may be too small (the hazard curve ends at 60 cm/s, at 74.2 % of the target rate, and is \
+         extrapolated)",
+        "Use a hazard curve down to 4.0e-6 per year, and raise pgv.levels_cm_s",
+    ] {
+        assert!(check.contains(words) && run.contains(words), "{words}\n{check}\n{run}");
+    }
 }
 
 #[test]

@@ -266,6 +266,7 @@ fn files_in_the_wrong_place() {
     std::fs::copy(repository().join("configs/structures/block.toml"), study.path().join("block.toml")).unwrap();
     study.write("a.AT2", &at2(&[0.0, 0.1, 0.2], 3));
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    std::fs::create_dir(study.path().join("results")).unwrap();
     for (arguments, code, words) in [
         (&["run", "r.h5"][..], 3, &["r.h5", "it is a result, not a study", "`uplift status`"][..]),
         (&["check", "r.h5"], 3, &["it is a result, not a study"]),
@@ -273,11 +274,17 @@ fn files_in_the_wrong_place() {
         (&["check", "a.AT2"], 3, &["a.AT2", "it is a record, not a study", "`uplift response`"]),
         (&["design", "study.toml", "--urs", "r.h5"], 3, &["it is a study, not a structure", "`uplift run`"]),
         (&["design", "r.h5", "--urs", "r.h5"], 3, &["it is a result, not a structure", "--urs"]),
-        (&["table", "study.toml"], 4, &["study.toml: is a study, not a result", "`uplift run`"]),
+        (&["check", "."], 3, &["it is a folder: give a file, e.g. ./study.toml"]),
+        (&["check", "results"], 3, &["it is a folder: give a file, e.g. configs/europe.toml"]),
+        (&["table", "study.toml"], 4, &["study.toml: is a study, not a result", "`uplift run study.toml`"]),
         (&["export", "study.toml", "--csv"], 4, &["study.toml: is a study, not a result"]),
         (&["export", "block.toml", "--csv"], 4, &["block.toml: is a structure, not a result"]),
         (&["table", "r.urs.csv"], 4, &["r.urs.csv: is a table, not a result"]),
-        (&["design", "block.toml", "--urs", "study.toml", "--site", "Here"], 4, &["study.toml: is a study"]),
+        (
+            &["design", "block.toml", "--urs", "study.toml", "--site", "Here"],
+            4,
+            &["study.toml: is a study, not a result: run `uplift run study.toml` first, and give results/study.h5"],
+        ),
         (&["run", "absent.toml"], 3, &["absent.toml", "there is no such file"]),
         (&["records", "show", "absent.AT2"], 4, &["absent.AT2: there is no such file"]),
         (&["hazard", "show", "absent.csv"], 4, &["absent.csv: there is no such file"]),
@@ -299,6 +306,13 @@ fn probabilities_as_they_are_typed() {
     assert!(shown.contains("10 % in 50 years"), "{shown}");
     let shown = study.uplift(&["influence", "r.h5", "--poe", "1e-9"]).ok().stdout;
     assert!(shown.contains("1e-9 in 50 years"), "{shown}");
+    for (asked, words) in [
+        (["--return-period", "0.02"], "--return-period 0.02: is in years, e.g. 475; a probability is --poe 0.02"),
+        (["--poe", "475"], "a return period is --return-period 475"),
+        (["--site", "Her"], "--site Her: did you mean Here? The result has Here, There"),
+    ] {
+        study.uplift(&[&["spectrum", "r.h5"], &asked[..]].concat()).fails(2, &[words]);
+    }
     study.uplift(&["influence", "r.h5", "--poe", "10"]).fails(2, &["10 per cent is 10%"]);
     study.uplift(&["influence", "r.h5", "--poe", "20%"]).fails(2, &["--poe 0.2", "1e-9, 0.1"]);
 }

@@ -134,14 +134,14 @@ fn other_values_than_the_file_s_replace_nothing_unasked() {
     let study = study();
     let run = ["run", "study.toml", "-o", "r.h5"];
     let fewer = [&run[..], &["--set", "records.first=3"]].concat();
-    refused(&study, &fewer, "r.h5", "of this study as the file stands, and this run is with --set records.first=3");
+    refused(&study, &fewer, "r.h5", "of this study without --set, this run is with --set records.first=3");
     let check = study.uplift(&["check", "study.toml"]).ok();
     assert!(!check.stdout.contains("--force"), "{}", check.stdout);
     study.uplift(&[&fewer[..], &["--force"]].concat()).ok();
     study.uplift(&fewer).ok();
     let status = study.uplift(&["status", "r.h5"]).ok().stdout;
     assert!(status.contains("--set records.first=3"), "{status}");
-    refused(&study, &run, "r.h5", "with --set records.first=3, and this run is as the file stands");
+    refused(&study, &run, "r.h5", "with --set records.first=3, this run is without --set");
     // what changes no number is no other result
     study.uplift(&[&fewer[..], &["--set", "title=\"another\""]].concat()).ok();
     // a study that is only looked at is reported what its run would meet
@@ -300,7 +300,7 @@ fn no_page_is_made_of_a_damaged_result() {
         damaged[sound.len() * tenth / 10] ^= 4;
         std::fs::write(&path, &damaged).unwrap();
         study.uplift(&["verify", "r.h5"]).fails(4, &["r.h5"]);
-        study.uplift(&["report", "r.h5"]).fails(4, &["r.h5", "written"]);
+        study.uplift(&["report", "r.h5"]).fails(4, &["r.h5", "damaged"]);
     }
     // it is replaced, and kept for whoever wants to save something of it
     study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();

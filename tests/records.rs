@@ -230,7 +230,7 @@ fn synthetic_records_are_made_listed_shown_and_chosen() {
 fn what_is_no_folder_of_records() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    uplift(at, &["records", "import", "absent", "-o", "a.csv"]).fails(4, &["absent is not there"]);
+    uplift(at, &["records", "import", "absent", "-o", "a.csv"]).fails(4, &["absent: there is no such folder or file"]);
     uplift(at, &["records", "import", ".", "-o", "a.csv"]).fails(4, &["holds no files"]);
     std::fs::write(at.join("a.txt"), "1\n2\n3\n").unwrap();
     std::fs::write(at.join("b.bin"), [0_u8, 159, 146, 150]).unwrap();

@@ -296,7 +296,7 @@ fn definitions_of_the_measure_are_kept_apart_as_for_sites() {
     let rotated = ["--set", "hazard.component=RotD50"];
     let check = |more: &[&str]| study.uplift(&[&["check", "study.toml"][..], &rotated, more].concat());
     let refused = check(&[]).fails(4, &["PGV", "PGA", "RotD50", "geometric mean", "conversions", "pgv = …"]);
-    assert_eq!(refused.stderr.matches("is of the RotD50").count(), 2, "once a file:\n{}", refused.stderr);
+    assert_eq!(refused.stderr.matches("the curve gives RotD50").count(), 2, "once a file:\n{}", refused.stderr);
     let half = "hazard.conversions=[{ from = \"RotD50\", to = \"geometric mean\", pgv = 0.5, pga = 0.5 }]";
     let done = check(&["--set", half, "--set", "pgv.levels_cm_s=[1, 3, 10, 30, 100]"]).ok();
     assert!(!done.stdout.contains("does not say"), "{}", done.stdout);

@@ -128,7 +128,8 @@ fn an_unreachable_target_is_reported() {
     ask(&["--vary", "width"]).fails(2, &["--overturning"]);
     ask(&["--overturning", "-1", "--vary", "width", "--tolerance", "7"]).fails(2, &["2 things to mend", "--tolerance"]);
     ask(&["--per-year", "1e-3", "--exceed", "x", "--vary", "width"]).fails(2, &["--exceed x", "`capacity`"]);
-    ask(&["--overturning", "2e-3", "--vary", "width", "--site", "Nowhere"]).fails(2, &["the result has Here"]);
+    ask(&["--overturning", "2e-3", "--vary", "width", "--site", "Nowhere"])
+        .fails(2, &["--site Nowhere: did you mean Here? The result has Here"]);
 }
 
 #[test]

@@ -262,8 +262,8 @@ impl Stripes {
             (true, _) => Ok((curve, None)),
             (false, Some(factor)) => Ok((curve.converted(factor, wanted).map_err(refused)?, None)),
             (false, None) => Err(format!(
-                "{label}: the curve is of the {}, and the records are measured by the {}: drop a file with levels of \
-                 that definition, named in the file",
+                "{label}: the curve gives {}, the records {}: drop a file with levels of that definition, named in \
+                 the file",
                 own.key(),
                 wanted.key()
             )),

@@ -210,7 +210,7 @@ pub(crate) fn execute(arguments: &Arguments, terminal: &Terminal) -> Result<(), 
 /// Options that people give to a command which has none of the kind, and what to type instead.
 const ELSEWHERE: [(&str, &str, &str); 2] = [
     ("run", "--site", "a run computes every site; read one by `uplift spectrum RESULT --site NAME`"),
-    ("overturning", "--poe", "it reports annual rates, of no probability; `uplift target --poe` sizes for one"),
+    ("overturning", "--poe", "it reports annual rates; to size for a probability: `uplift target --poe`"),
 ];
 
 /// What was typed; a mistake ends the program with its message.

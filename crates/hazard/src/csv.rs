@@ -28,9 +28,8 @@ pub struct Declared {
 }
 
 impl Declared {
-    /// What the comment lines and column names of a table say about its first column; none where they do not name both
-    /// measure and unit.
-    pub fn in_table(text: &str) -> Option<Self> {
+    /// The measure and the unit of the first column of a table, as far as its comment lines and column names say them.
+    pub fn in_table(text: &str) -> (Option<String>, Option<String>) {
         let (mut measure, mut unit) = (None, None);
         for line in text.trim_start_matches('\u{feff}').lines().take(LONGEST_HEAD) {
             let line = line.trim().trim_start_matches('"');
@@ -49,9 +48,8 @@ impl Declared {
                 unit = unit.or(found.unit);
             }
         }
-        let unit = unit?;
-        let unit = CurveUnit::parse(&unit).map_or(unit, |known| known.symbol().to_owned());
-        Some(Self { measure: measure?.to_uppercase(), unit })
+        let unit = unit.map(|unit| CurveUnit::parse(&unit).map_or(unit, |known| known.symbol().to_owned()));
+        (measure.map(|measure| measure.to_uppercase()), unit)
     }
 }
 

@@ -186,7 +186,7 @@ fn long_names_are_refused_soon() {
     let long = "_".repeat(4_000_000);
     for text in [format!("# im: a{long}\niml,maf\n"), format!("a{long},maf\n1,0.2\n2,0.1\n")] {
         assert!(message(&text).len() < 250);
-        assert_eq!(Declared::in_table(&text), None);
+        assert_eq!(Declared::in_table(&text), (None, None));
     }
     assert!(begin.elapsed() < Duration::from_secs(10), "{:?}", begin.elapsed());
 }
@@ -256,17 +256,22 @@ fn files_packed_with_gzip() {
 
 #[test]
 fn what_a_table_says_of_itself() {
-    let declared = |text: &str| Declared::in_table(text).map(|found| (found.measure, found.unit));
-    let pgv = || Some(("PGV".to_owned(), "cm/s".to_owned()));
-    assert_eq!(declared("# IM: PGV [cm/s], geometric mean\niml,maf\n1,2\n"), pgv());
-    assert_eq!(declared("pgv_cm_s;maf\n1;2\n"), pgv());
-    assert_eq!(declared("\u{feff}PGV [cm/s],poe\n1,2\n"), pgv());
-    assert_eq!(declared("iml,maf\n1,0.2\n"), None);
-    assert_eq!(declared("# IM: PGV\niml,maf\n1,0.2\n"), None);
-    // Units that nothing is measured in.
-    assert_eq!(declared("[cm/s],maf\n1,0.2\n"), None);
-    assert_eq!(declared("__cm_s,maf\n1,0.2\n"), None);
-    assert_eq!(declared(""), None);
+    let named = |measure: Option<&str>, unit: Option<&str>| (measure.map(str::to_owned), unit.map(str::to_owned));
+    let (pgv, cm_per_s) = (Some("PGV"), Some("cm/s"));
+    for (text, measure, unit) in [
+        ("# IM: PGV [cm/s], geometric mean\niml,maf\n1,2\n", pgv, cm_per_s),
+        ("pgv_cm_s;maf\n1;2\n", pgv, cm_per_s),
+        ("\u{feff}PGV [cm/s],poe\n1,2\n", pgv, cm_per_s),
+        ("iml,maf\n1,0.2\n", None, None),
+        ("# IM: PGV\niml,maf\n1,0.2\n", pgv, None),
+        ("PGV,rate\n1,0.2\n", pgv, None),
+        // units that nothing is measured in
+        ("[cm/s],maf\n1,0.2\n", None, None),
+        ("__cm_s,maf\n1,0.2\n", None, None),
+        ("", None, None),
+    ] {
+        assert_eq!(Declared::in_table(text), named(measure, unit), "{text}");
+    }
 }
 
 #[test]

@@ -164,11 +164,11 @@ pub(super) fn examine(file: &mut File) -> io::Result<(Seal, Vec<String>)> {
     if let Some(index) = &lines.index {
         for (path, part) in &index.arrays {
             if of_bytes(file, &part.extents)? != part.sha256 {
-                damaged.push(format!("{path}: its values are not those that were written"));
+                damaged.push(format!("{path}: the values have changed"));
             }
         }
         if !index.structure_is_sound(file, lines.content)? {
-            damaged.push("groups, attributes or small arrays are not as they were written".to_owned());
+            damaged.push("groups, attributes or small arrays have changed".to_owned());
         }
     }
     Ok((Seal::Broken, damaged))

@@ -102,7 +102,7 @@ impl LabelledReader {
     /// [`LabelledError::Hdf5`] where the values are others.
     pub fn require_sound(&self, path: &str) -> Result<(), LabelledError> {
         if self.is_sound(path)? == Some(false) {
-            return self.check(Err("its values are not those that were written".into()), path);
+            return self.check(Err("the values have changed".into()), path);
         }
         Ok(())
     }
@@ -141,7 +141,7 @@ impl LabelledReader {
             }
             match self.is_sound(&path) {
                 Ok(Some(true)) => verdict.sound += 1,
-                Ok(Some(false)) => verdict.damaged.push(format!("{path}: its values are not those that were written")),
+                Ok(Some(false)) => verdict.damaged.push(format!("{path}: the values have changed")),
                 Ok(None) => verdict.unknown.push(path),
                 Err(error) => verdict.damaged.push(format!("{path}: {error}")),
             }

@@ -59,6 +59,8 @@ struct Content {
     subject: &'static str,
     /// The sites or record sets that it is of, in a few words.
     place: String,
+    /// What was shaken, but for its strength; none where it is in the facts.
+    oscillator: Option<String>,
     /// The figure before all others.
     lead: Option<DrawnFigure>,
     /// The table beside it.

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use uplift_hazard::{HazardError, probability_from_rate};
 
+use crate::ordinate::TAIL_SHARE_LIMIT;
 use crate::weights::StripeWeights;
 
 /// How often something happens to a structure at a site.
@@ -31,6 +32,12 @@ impl EventRisk {
         let probability = probability_from_rate(per_year, years)?;
         let (lower_tail_share, upper_tail_share) = (share(lower_tail), share(upper_tail));
         Ok(Self { per_year, probability, lower_tail_share, upper_tail_share, at_most_per_year: None })
+    }
+
+    /// Whether it is a lower bound: more than [`TAIL_SHARE_LIMIT`] of it comes from above the last stripe, and no more
+    /// from below the first.
+    pub fn is_lower_bound(&self) -> bool {
+        self.upper_tail_share > TAIL_SHARE_LIMIT && self.upper_tail_share >= self.lower_tail_share
     }
 }
 

@@ -96,7 +96,13 @@ pub enum Unreadable {
     /// There is no current directory that a relative path could start from.
     #[error("no current directory: {0}")]
     NoCurrentDirectory(std::io::Error),
-    /// It is a folder, a pipe or the like.
+    /// It is a folder.
+    #[error("it is a folder: give a file, e.g. {}", example.display())]
+    Folder {
+        /// A file of the kind that is wanted: the one in the folder, if it has one.
+        example: std::path::PathBuf,
+    },
+    /// It is a pipe or the like.
     #[error("it is not a file: give the name of a TOML file")]
     NotAFile,
     /// It is larger than what people write.

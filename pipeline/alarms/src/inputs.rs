@@ -32,7 +32,7 @@ pub(super) fn result_alarms(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError
         alarms.extend(question.as_ref().and_then(few_earthquakes));
     }
     let noticed = head.warnings.iter().filter(|line| !line.is_empty());
-    alarms.extend(noticed.map(|line| Alarm::new(Severity::Note, "inputs", "inputs", line.clone(), "")));
+    alarms.extend(noticed.map(|line| Alarm::new(Severity::Note, "inputs", "Inputs", line.clone(), "")));
     Ok(alarms)
 }
 

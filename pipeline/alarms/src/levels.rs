@@ -3,7 +3,7 @@
 use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_job::text::{rate, share};
+use uplift_job::text::{rate, rounded, share};
 use uplift_risk::{BEYOND_LIMIT, DECISIVE_SHARE, OrdinateFlag, TAIL_SHARE_LIMIT};
 use uplift_study::{MeasurePlan, levels_key};
 
@@ -29,10 +29,9 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, A
     Ok(kinds.into_iter().filter_map(|(kind, cases)| Alarm::from_cases(kind, cases)).collect())
 }
 
-/// How many of the shares of a spectrum are more than the limit, and the largest.
-fn heavy(shares: &[f64]) -> (usize, f64) {
-    let count = shares.iter().filter(|share| **share > TAIL_SHARE_LIMIT).count();
-    (count, shares.iter().copied().fold(0.0, f64::max))
+/// The largest of the shares of a spectrum.
+fn most(shares: &[f64]) -> f64 {
+    shares.iter().copied().fold(0.0, f64::max)
 }
 
 /// The shares of the ordinates that are asked about.
@@ -48,36 +47,22 @@ fn severity(share: f64) -> Severity {
 fn below_first(evidence: &Evidence, place: &Place<'_>) -> Option<Case> {
     let plan = evidence.study.measures.iter().find(|plan| plan.measure == place.of_measure.measure)?;
     let shares = at_strengths(&place.of_measure.lower_tail_share, place);
-    below_first_case((plan, place.curve), &place.name, Counted::All, &shares)
+    below_first_case((plan, place.curve), &place.name, &shares)
 }
 
 /// What is to be raised of the spectrum `name`, whose ordinates take the `shares` of their risk from motions weaker
 /// than the first level, where the fragility is a straight line: too large.
-pub fn below_first_case(
-    (plan, curve): (&MeasurePlan, &HazardCurve),
-    name: &str,
-    counted: Counted,
-    shares: &[f64],
-) -> Option<Case> {
-    let (count, most) = heavy(shares);
-    let (measure, first) = (plan.measure, *plan.levels.first()?);
-    (count > 0).then(|| Case {
+pub fn below_first_case((plan, curve): (&MeasurePlan, &HazardCurve), name: &str, shares: &[f64]) -> Option<Case> {
+    let (measure, first, most) = (plan.measure, *plan.levels.first()?, most(shares));
+    (most > TAIL_SHARE_LIMIT).then(|| Case {
         severity: severity(most),
         badness: most,
         subject: name.to_owned(),
-        what: format!(
-            "{count} of {} {} too large: up to {} of the risk lies below {first} {}",
-            shares.len(),
-            counted.ordinates(),
-            share(most),
-            measure.unit()
-        ),
-        what_to_do: match counted {
-            _ if curve.first().im >= first => {
-                format!("Use a hazard curve that begins below {} {}", curve.first().im, measure.unit())
-            }
-            Counted::All => format!("Lower {} (uplift check)", levels_key(measure)),
-            Counted::Tried => format!("Lower {}", levels_key(measure)),
+        what: format!("displacements too large ({} of the risk below {first} {})", share(most), measure.unit()),
+        what_to_do: if curve.first().im >= first {
+            format!("Use a hazard curve that begins below {} {}", curve.first().im, measure.unit())
+        } else {
+            format!("Lower {} (uplift check)", levels_key(measure))
         },
     })
 }
@@ -88,7 +73,7 @@ fn beyond_last(evidence: &Evidence, place: &Place<'_>, target_per_year: f64) -> 
         return Ok(None);
     };
     let end = UpperEnd { plan, curve: place.curve, extrapolate: evidence.study.risk.extrapolate, target_per_year };
-    end.case(&place.name, Counted::All, &at_strengths(&place.of_measure.upper_tail_share, place))
+    end.case(&place.name, &at_strengths(&place.of_measure.upper_tail_share, place))
 }
 
 /// Where the levels and the hazard curve of a measure end, and the rate that spectra are asked at.
@@ -103,70 +88,58 @@ pub struct UpperEnd<'a> {
     pub target_per_year: f64,
 }
 
-/// Which ordinates of a spectrum are counted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Counted {
-    /// All of them.
-    All,
-    /// Those of a few strengths, before a run.
-    Tried,
-}
-
-impl Counted {
-    fn ordinates(self) -> &'static str {
-        match self {
-            Self::All => "ordinates",
-            Self::Tried => "trial ordinates",
-        }
-    }
-}
-
 impl UpperEnd<'_> {
     /// What is to be raised of the spectrum `name`, whose ordinates take the `shares` of their risk from above the last
     /// level; no shares where none is tried.
     ///
     /// # Errors
     /// A curve that cannot be read at the last level.
-    pub fn case(&self, name: &str, counted: Counted, shares: &[f64]) -> Result<Option<Case>, AlarmsError> {
+    pub fn case(&self, name: &str, shares: &[f64]) -> Result<Option<Case>, AlarmsError> {
         let &Self { plan, curve, target_per_year, .. } = self;
         let (measure, unit, end) = (plan.measure, plan.measure.unit(), curve.last());
-        let (count, most) = heavy(shares);
+        let most = most(shares);
         let Some(&last) = plan.levels.last() else { return Ok(None) };
         // what is known of the hazard ends with the curve, though levels go on
-        let (known_to, per_year) = if end.im < last {
-            (format!("the curve's end, {} {unit},", end.im), end.maf)
-        } else {
-            let per_year = curve.rate_at_extrapolated(last, self.extrapolate)?;
-            (format!("the last level, {last} {unit},"), per_year)
-        };
+        let is_extrapolated = end.im < last;
+        let per_year = if is_extrapolated { end.maf } else { curve.rate_at_extrapolated(last, self.extrapolate)? };
         let beyond = per_year / target_per_year;
-        if count == 0 && beyond <= BEYOND_LIMIT {
+        if most <= TAIL_SHARE_LIMIT && beyond <= BEYOND_LIMIT {
             return Ok(None);
         }
-        let counted = match count {
-            0 => "ordinates may be too small".to_owned(),
-            _ => format!(
-                "{count} of {} {} may be too small (up to {} of the risk lies above the levels)",
-                shares.len(),
-                counted.ordinates(),
-                share(most)
-            ),
+        let of_target = if beyond > 1.0 { format!("{beyond:.1} times") } else { format!("{} of", share(beyond)) };
+        let why = if is_extrapolated {
+            format!("the hazard curve ends at {} {unit}, at {of_target} the target rate, and is extrapolated", end.im)
+        } else if most > TAIL_SHARE_LIMIT {
+            format!("{} of the risk above {last} {unit}", share(most))
+        } else {
+            format!("the last level, {last} {unit}, is exceeded at {of_target} the target rate")
         };
+        // no more of the risk lies above a level than its rate is of the target
+        let enough_per_year = target_per_year * if most > TAIL_SHARE_LIMIT { TAIL_SHARE_LIMIT } else { BEYOND_LIMIT };
         Ok(Some(Case {
             severity: severity(most.max(beyond)),
             badness: most.max(beyond),
             subject: name.to_owned(),
-            what: format!(
-                "{counted}: {known_to} has {} the target rate",
-                if beyond > 1.0 { format!("{beyond:.1} times") } else { format!("{} of", share(beyond)) }
-            ),
+            what: format!("displacements may be too small ({why})"),
             what_to_do: if end.im > last {
-                format!("Raise the last of {}, up to {} {unit}", levels_key(measure), end.im)
+                let enough = curve.im_at_rate(enough_per_year).map_or(end.im, |im| rounded_up(im).min(end.im));
+                format!("Raise the last of {} to {enough}", levels_key(measure))
             } else {
-                format!("Use a hazard curve beyond {} {unit}, and raise {}", end.im, levels_key(measure))
+                format!(
+                    "Use a hazard curve down to {} per year, and raise {}",
+                    rate(enough_per_year),
+                    levels_key(measure)
+                )
             },
         }))
     }
+}
+
+/// The next number of two digits.
+fn rounded_up(value: f64) -> f64 {
+    let nearest = rounded(value, 2);
+    let unit = 10_f64.powf(value.log10().floor() - 1.0);
+    if nearest < value { rounded(nearest + unit, 2) } else { nearest }
 }
 
 /// Spectra that are infinite in places.
@@ -206,4 +179,16 @@ fn never_exceeded(place: &Place<'_>, strengths: &[f64], target_per_year: f64) ->
         ),
         what_to_do: "Extend the hazard curve to lower levels, or lower risk.poe".to_owned(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded_up;
+
+    #[test]
+    fn levels_are_proposed_with_two_digits() {
+        for (value, next) in [(250.0, 250.0), (251.0, 260.0), (0.996, 1.0), (1.31, 1.4), (0.0834, 0.084)] {
+            assert_eq!(rounded_up(value), next);
+        }
+    }
 }

@@ -91,9 +91,9 @@ fn outside_levels(own: &OwnRisk) -> Option<Case> {
     let EventRisk { lower_tail_share, upper_tail_share, .. } = own.risk;
     let (first, last) = own.levels;
     let (share, where_from, therefore, remedy) = if upper_tail_share >= lower_tail_share {
-        (upper_tail_share, format!("above the last level, {last}"), "a lower bound", "Raise")
+        (upper_tail_share, format!("above the last level, {last}"), "a lower bound", "Raise the last of")
     } else {
-        (lower_tail_share, format!("below the first level, {first}"), "too large", "Lower")
+        (lower_tail_share, format!("below the first level, {first}"), "too large", "Lower the first of")
     };
     (share > TAIL_SHARE_LIMIT).then(|| Case {
         severity: if share > DECISIVE_SHARE { Severity::Caution } else { Severity::Note },

@@ -20,7 +20,7 @@ use uplift_ida::Shard;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
-use uplift_job::text::{rounded, spectrum_words};
+use uplift_job::text::{rounded, spectrum_words, two_digits};
 use uplift_job::typed::number;
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::PostUplift;
@@ -180,6 +180,23 @@ impl DesignReport {
             (!differing.is_empty()).then(|| format!("by {}: {}", of.im, differing.join(", ")))
         });
         if own.is_empty() { Vec::new() } else { told.collect() }
+    }
+
+    /// Where a rule is satisfied, and the structure's own demand is not at the upper limit of its band: `not
+    /// satisfied at the upper limit of the demand's band, 0.50 m (requires 1.25 m)`.
+    pub fn unsafe_upper_limit(&self) -> Option<String> {
+        let capacity_m = self.structure.capacity_m?;
+        let [_, upper_m] = self.exact.as_ref()?.bands.as_ref()?.demand_m.quoted();
+        let satisfied = self.rules.iter().any(|outcome| outcome.check().is_some_and(|check| check.satisfied));
+        let required_m = self.required_safety_factor * upper_m;
+        (satisfied && required_m > capacity_m).then(|| {
+            if required_m.is_finite() {
+                let upper = two_digits(upper_m);
+                format!("not satisfied at the upper limit of the demand's band, {upper} m (requires {required_m:.2} m)")
+            } else {
+                "not satisfied at the upper limit of the demand's band, where it overturns".to_owned()
+            }
+        })
     }
 
     /// By which spectrum, in words: `PGV`, or `PGV, repaired`.
@@ -491,8 +508,8 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     }
     if !system.is_of_uplift_displacement(oscillator.uplift_displacement_m) {
         notes.push(format!(
-            "the spectrum was computed for an uplift displacement of {} mm; this structure needs {} mm, its {} mm \
-             over Γ",
+            "the spectrum was computed for an uplift displacement of {} mm; this structure needs {} mm (its {} mm \
+             over Γ)",
             rounded(1e3 * oscillator.uplift_displacement_m, 4),
             rounded(1e3 * system.spectral_uplift_displacement_m(), 3),
             rounded(1e3 * system.conditions().uplift_displacement_m(), 4)

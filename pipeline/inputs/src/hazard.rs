@@ -73,17 +73,36 @@ pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Ve
         all.push(sites);
     }
     notes.extend(undefined_note(study, &undefined));
+    notes.extend(extrapolated_note(study, &all));
     if mistakes.is_empty() { Ok((all, notes)) } else { Err(JobError::Inputs(mistakes).into()) }
+}
+
+/// That curves do not reach all levels of their measure and are extrapolated; none where all do.
+fn extrapolated_note(study: &UniformRiskStudy, hazard: &[Vec<SiteHazard>]) -> Option<String> {
+    let by_measure = study.measures.iter().zip(hazard);
+    let of_sites = by_measure.flat_map(|(plan, sites)| sites.iter().map(move |site| (plan, site)));
+    let extrapolated: Vec<String> = of_sites
+        .filter_map(|(plan, SiteHazard { site, measure, curve, .. })| {
+            let (first, last) = (plan.levels.first()?, plan.levels.last()?);
+            let [from, to] = [curve.curve.first().im, curve.curve.last().im];
+            let (im, unit) = (measure.label(), measure.unit());
+            let what = format!("{site}, {im}, spans {from} to {to} {unit}, the levels {first} to {last}");
+            (*first < from || to < *last).then_some(what)
+        })
+        .collect();
+    extrapolated.first().map(|first| {
+        let more = if extrapolated.len() > 1 { "; …" } else { "" };
+        format!("{} extrapolated ({first}{more})", counted(extrapolated.len(), "hazard curve"))
+    })
 }
 
 /// That curves do not say how horizontal components are combined; none where all do.
 fn undefined_note(study: &UniformRiskStudy, undefined: &[String]) -> Option<String> {
     undefined.first().map(|first| {
         format!(
-            "definition of the horizontal component missing in {} ({first}{}): taken as {}; say it with [hazard] \
-             component",
+            "horizontal component of {} not given ({first}{}): taken as {}. Set hazard.component",
             counted(undefined.len(), "hazard curve"),
-            if undefined.len() > 1 { ", …" } else { "" },
+            if undefined.len() > 1 { "; …" } else { "" },
             definition_of(study.records.intensity)
         )
     })
@@ -336,8 +355,8 @@ pub(super) fn of_the_records_definition(
             return Ok(None);
         }
         return Err(format!(
-            "the curve does not say how horizontal components are combined, and the records are measured by the \
-             {wanted}: say what it is with [hazard] component = \"{}\"",
+            "the curve does not say how the horizontal components are combined, and the records use {wanted}. If \
+             the curve does too, write [hazard] component = \"{}\"",
             wanted.key()
         ));
     };
@@ -348,9 +367,9 @@ pub(super) fn of_the_records_definition(
         let key = measure.key();
         let (from, to) = (own.key(), wanted.key());
         return Err(format!(
-            "the curve is of the {own}, and the records are measured by the {wanted}: use a curve of the same \
-             definition, another records.intensity, or declare the factor on the levels: [hazard] conversions = [{{ \
-             from = \"{from}\", to = \"{to}\", {key} = … }}], with the ratio of the two (docs/hazard.md)"
+            "the curve gives {own}, the records {wanted}. Use a curve of {wanted}, set records.intensity, or convert \
+             the levels with the ratio of the two: [hazard] conversions = [{{ from = \"{from}\", to = \"{to}\", \
+             {key} = … }}] (docs/hazard.md)"
         ));
     };
     curve.converted(factor, wanted).map(Some).map_err(|error| error.to_string())

@@ -84,7 +84,7 @@ impl ImportOptions {
     fn check(&self, manifest: &Path) -> Result<(), InputsError> {
         if !self.folder.exists() {
             return Err(JobError::input(format!(
-                "{} is not there: name the folder with your downloads, or the zip archive",
+                "{}: there is no such folder or file: give the folder with your downloads, or a zip archive",
                 self.folder.display()
             ))
             .into());

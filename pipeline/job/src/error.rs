@@ -8,6 +8,7 @@ use uplift_atomic_file::FileError;
 use uplift_ida::IdaError;
 use uplift_labelled::LabelledError;
 use uplift_plausible::Implausible;
+use uplift_study::did_you_mean;
 
 use crate::text::one_line;
 
@@ -19,7 +20,7 @@ pub enum JobError {
     /// What a job is asked for does not fit together.
     Usage(String),
     /// A choice among what a result has, that it does not have or that was not made.
-    #[error("{}; the result has {}", choice(option, wanted.as_deref(), known), known.join(", "))]
+    #[error("{}", choice(option, wanted.as_deref(), known))]
     Choice {
         /// What is chosen, as the command line calls it: `--site`.
         option: &'static str,
@@ -88,10 +89,20 @@ macro_rules! through_job_error {
     };
 }
 
-/// An option, with the value given to it.
+/// What was chosen and is not there, or what to choose among.
 fn choice(option: &str, wanted: Option<&str>, known: &[String]) -> String {
-    let example = || known.first().map_or_else(String::new, |first| format!(" {first}"));
-    wanted.map_or_else(|| format!("choose one: {option}{}", example()), |wanted| format!("{option} {wanted}"))
+    let all = known.join(", ");
+    let Some(wanted) = wanted else {
+        let example = known.first().map_or_else(String::new, |first| format!(" {first}"));
+        return format!("choose one: {option}{example}; the result has {all}");
+    };
+    let names: Vec<&str> = known.iter().map(String::as_str).collect();
+    // a number is no mistyped number
+    let is_word = wanted.parse::<f64>().is_err();
+    let Some(meant) = did_you_mean(wanted, &names).filter(|_| is_word) else {
+        return format!("{option} {wanted}; the result has {all}");
+    };
+    format!("{option} {wanted}: {} The result has {all}", meant.replace('`', ""))
 }
 
 /// Several mistakes as one message; `place` says where they are.

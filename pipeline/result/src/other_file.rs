@@ -24,10 +24,11 @@ pub(super) fn no_result(path: &Path, error: LabelledError) -> ResultError {
                 "there is no such file: `uplift run STUDY.toml` writes results, results/STUDY.h5 by default"
             })
         }
+        LabelledError::NotHdf5 { .. } if ends("toml") && Study::read(path).is_ok() => {
+            return JobError::input(format!("{name}: is a study, not a result: {}", its_result(path))).into();
+        }
         LabelledError::NotHdf5 { .. } if ends("toml") => Some(if Structure::load(path).is_ok() {
             "is a structure, not a result: `uplift design` and `overturning` take it, with --urs RESULT"
-        } else if Study::read(path).is_ok() {
-            "is a study, not a result: `uplift run` computes its result, and `uplift status` shows where"
         } else {
             "is a text file, not a result: give the .h5 file that `uplift run` wrote"
         }),
@@ -41,4 +42,18 @@ pub(super) fn no_result(path: &Path, error: LabelledError) -> ResultError {
         _ => None,
     };
     told.map_or_else(|| error.into(), |told| JobError::input(format!("{name}: {told}"))).into()
+}
+
+/// Which file is the result of the `study`, and what to type where there is none.
+fn its_result(study: &Path) -> String {
+    let shown = |path: &Path| {
+        let folder = std::env::current_dir().ok();
+        folder.and_then(|folder| path.strip_prefix(folder).ok()).unwrap_or(path).display().to_string()
+    };
+    let compute = format!("run `uplift run {}` first", study.display());
+    match Study::load_any(study, &[]).map(|study| study.output().file.clone()) {
+        Ok(result) if result.is_file() => format!("give its result, {}", shown(&result)),
+        Ok(result) => format!("{compute}, and give {}", shown(&result)),
+        Err(_) => compute,
+    }
 }

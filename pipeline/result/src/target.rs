@@ -84,10 +84,10 @@ pub fn replaces_another(study: &AnyStudy, options: &RunOptions) -> Result<Option
     let kept = earlier.attribute_text("/", "overrides").map(|all| sorted(all.lines().map(str::to_owned).collect()));
     Ok(kept.ok().filter(|kept| *kept != own).map(|kept| {
         let said = |all: &[String]| match all {
-            [] => "as the file stands".to_owned(),
+            [] => "without --set".to_owned(),
             all => format!("with --set {}", all.join(" --set ")),
         };
-        format!("{name} is the result of this study {}, and this run is {}", said(&kept), said(&own))
+        format!("{name} is the result of this study {}, this run is {}", said(&kept), said(&own))
     }))
 }
 

@@ -104,6 +104,16 @@ impl AskedRisk {
 
 /// The probability of exceedance in `years` that the `value` of an `option` asks for, or why there is none.
 fn probability(option: &str, value: f64, years: f64) -> Result<f64, String> {
+    // nobody asks for what happens every year, or for a probability above one
+    if option == RETURN_PERIOD_OPTION && value > 0.0 && value < 1.0 {
+        return Err(format!("{option} {value}: is in years, e.g. 475; a probability is {POE_OPTION} {value}"));
+    }
+    if option == POE_OPTION && value > 1.0 {
+        return Err(format!(
+            "{option} {value}: a probability is below 1 (10 % is 0.1 or 10%; a comma separates two); a return period is \
+             {RETURN_PERIOD_OPTION} {value}"
+        ));
+    }
     let poe = if option == RETURN_PERIOD_OPTION {
         RETURN_PERIOD.check(RETURN_PERIOD_OPTION, value).map_err(|mistake| mistake.to_string())?;
         probability_from_rate(1.0 / value, years).map_err(|error| error.to_string())?

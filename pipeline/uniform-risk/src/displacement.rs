@@ -15,6 +15,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_result::{MeasureSpectra, ResultFile};
 use uplift_risk::StrengthPlace;
 use uplift_structure::{Capacity, Demand, Rule};
+use uplift_study::Oscillator;
 
 use crate::asked::AskedRisk;
 use crate::consistency::{Question, Reweighing};
@@ -91,6 +92,8 @@ pub struct DisplacementReport {
     pub repaired: bool,
     /// What the bands take for independent.
     pub band_of: BandOf,
+    /// What was shaken, but for its strength.
+    pub oscillator: Oscillator,
     /// The displacement capacity asked for, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub capacity_m: Option<f64>,
@@ -161,6 +164,7 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
         measure,
         repaired: asked.repaired,
         band_of: units.of,
+        oscillator: study.oscillator,
         capacity_m: asked.capacity_m,
         displacements,
     })

@@ -81,17 +81,18 @@ pub fn require_whole(files: &[PathBuf]) -> Result<(), UpliftError> {
 impl VerifiedFile {
     fn from_verdict(file: PathBuf, verdict: Verdict) -> Self {
         let name = file.display();
-        let mut mistakes: Vec<String> = verdict.damaged.iter().map(|damage| format!("{name}: {damage}")).collect();
+        let remedy = "use another copy, or run the study again";
+        let mut mistakes: Vec<String> =
+            verdict.damaged.iter().map(|damage| format!("{name} is damaged: {damage}; {remedy}")).collect();
         match verdict.seal {
             Seal::Broken if mistakes.is_empty() => {
-                mistakes.push(format!("{name}: it has changed: use another copy, or run the study again"));
+                mistakes.push(format!("{name} has changed since it was written: {remedy}"));
             }
-            Seal::Broken => mistakes.push(format!("{name}: is damaged: use another copy, or run the study again")),
             Seal::Missing => mistakes.push(format!(
-                "{name}: the checksum of the whole file is not at its end: another program has written to it, or its \
-                 end is missing"
+                "{name}: the checksum at its end is missing: another program has changed it, or it is cut short; \
+                 {remedy}"
             )),
-            Seal::Whole => {}
+            Seal::Broken | Seal::Whole => {}
         }
         Self { sound: verdict.sound, unknown: verdict.unknown, mistakes, file }
     }

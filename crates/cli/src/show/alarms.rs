@@ -95,8 +95,8 @@ pub(crate) fn print_all_warnings(alarms: &[Alarm], result: &Path) -> Result<(), 
         writeln!(out, "No warnings.")?;
     }
     for alarm in alarms {
-        writeln!(out, "{:<8}  {}", alarm.severity.word(), alarm.subject)?;
-        writeln!(out, "          {}{}", alarm.what, full_stop(alarm))?;
+        let Alarm { severity, subject, what, .. } = alarm;
+        writeln!(out, "{:<8}  {subject}: {what}{}", severity.word(), full_stop(alarm))?;
         if !alarm.what_to_do.is_empty() {
             writeln!(out, "          {}", remedy(alarm, Some(result)))?;
         }

@@ -42,7 +42,7 @@ fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
     let table = Table::of(&report.rows)
         .left("site", |row| &row.site)
         .left("records scaled to", |row| row.scaled_to)
-        .right("have times the site's", |row| format!("{} {}", number(row.bias, 2), row.shows))
+        .right("level over the site's", |row| format!("{} {}", row.shows, number(row.bias, 2)))
         .right("verdict", |row| row.verdict.unwrap_or("-"))
         .when(is_repaired, |table| table.right("repaired, effective records", repair));
     writeln!(out, "{table}")?;

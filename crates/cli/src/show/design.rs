@@ -154,7 +154,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         "Verdict   {name}{whose}, {has}: {doubt}{}",
         if verdicts.is_empty() { "no rule applies".to_owned() } else { verdicts.join(", ") }
     )?;
-    for verdict in report.contradicted_by() {
+    for verdict in report.unsafe_upper_limit().into_iter().chain(report.contradicted_by()) {
         writeln!(out, "          {verdict}")?;
     }
     if !verdicts.is_empty() {
@@ -169,12 +169,12 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     }
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();
-        let band_m = bands.map(|bands| bands.demand_m.quoted());
+        let demand = metres_with_band(exact.demand_m, bands.map(|bands| bands.demand_m.quoted()));
+        let of_whom = bands.map_or("", |bands| bands.demand_m.of_whom());
         writeln!(
             out,
-            "Demand    {}{} on {}",
-            metres_with_band(exact.demand_m, band_m),
-            bands.map_or("", |bands| bands.demand_m.of_whom()),
+            "Demand    {} on {}",
+            demand.strip_suffix(')').map_or(demand.clone(), |open| format!("{open}{of_whom})")),
             if report.wobbles { "the equivalent oscillator" } else { "the structure itself" }
         )?;
         if let Some(risk) = &exact.beyond_capacity {

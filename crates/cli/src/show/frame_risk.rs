@@ -41,7 +41,7 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     let demand = metres_with_band(value, Some([lower, upper]));
     writeln!(out, "Demand       {demand} on {}, {}", report.structure.name, frame.model)?;
     for proxy in proxies {
-        let of = proxy.error.as_ref().map_or_else(String::new, |error| format!(" ({})", per_cent(error.value)));
+        let of = proxy.error.as_ref().map_or_else(String::new, |error| format!(" (error {})", per_cent(error.value)));
         writeln!(out, "  {}: {}{of}", proxy.model, metres_with_band(proxy.demand_m.value, None))?;
     }
     let [per_year, _, return_period] = risk_cells(&report.overturning.risk);
@@ -95,8 +95,8 @@ fn print_demands(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
         });
     writeln!(
         out,
-        "\nDemand in the displacement of the deck: the frame itself first, then what its proxies say and by how much \
-         they miss it;\nbands of {} resamples of the records, the same for frame and proxy\n{table}",
+        "\nDisplacement demand of the deck: the frame, then its proxies and their errors; bands from {} resamples of \
+         the records\n{table}",
         report.replicates
     )?;
     Ok(())
@@ -144,7 +144,7 @@ fn print_events(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     if is_repaired {
         header.push("repaired");
     }
-    writeln!(out, "\nHow often what happens to the frame\n{}", Table::new(header, rows))?;
+    writeln!(out, "\nAnnual rates of events of the frame\n{}", Table::new(header, rows))?;
     if let (Some(theta), Some(beta), Some(per_year)) = (found.theta, found.beta, found.lognormal_per_year) {
         writeln!(
             out,

@@ -42,15 +42,15 @@ pub(crate) fn print_curves(report: &HazardReport) -> Result<(), CommandError> {
     if curves.len() > SHOWN {
         writeln!(out, "{} curves, the first {SHOWN} shown: --name or --near LON,LAT picks a site", curves.len())?;
     }
-    let warning = |curve: &ShownCurve| Some(format!("{}: {}", curve.name, curve.warning.as_ref()?));
-    let warnings: Vec<String> = curves.iter().filter_map(warning).collect();
-    print_lines(&mut out, &warnings, false)?;
     if let [curve] = curves.as_slice() {
-        let component = curve.component.as_deref().unwrap_or("not said");
+        let component = curve.component.as_deref().unwrap_or("not given");
         writeln!(out, "Horizontal components: {component}\n{} levels, source:", curve.points)?;
         for line in curve.source.lines() {
             writeln!(out, "  {line}")?;
         }
     }
+    let warning = |curve: &ShownCurve| Some(format!("mistake? {}: {}", curve.name, curve.warning.as_ref()?));
+    let warnings: Vec<String> = curves.iter().filter_map(warning).collect();
+    print_lines(&mut out, &warnings, false)?;
     Ok(())
 }

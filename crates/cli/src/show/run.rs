@@ -6,14 +6,14 @@ use uplift::analysis::ShardReport;
 use uplift::result::ResultFile;
 use uplift::run::{RunHead, RunReport};
 use uplift::text;
-use uplift::text::{Table, metres, risk_name};
+use uplift::text::{Table, metres, risk_name, rounded};
 use uplift::uniform_risk::{
     AskedRisk, BranchReport, DisplacementOptions, DisplacementReport, RunReport as UniformRiskReport, displacements,
 };
 
 use super::alarms::print_result_warnings;
-use super::spectrum::print_displacements;
-use super::{displacement, shake_table, shown_path};
+use super::spectrum::{print_displacements, print_oscillator};
+use super::{displacement, shake_table, shown_path, typed_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -36,6 +36,11 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
         return Ok(());
     }
     print_end(&mut out, report.head(), terminal)?;
+    if let RunReport::UniformRisk(report) = report
+        && let Some(found) = &report.displacements
+    {
+        return print_next(&mut out, found, &report.head);
+    }
     let more = match report {
         RunReport::Displacement(report) if report.has_design => "Design",
         RunReport::ShakeTable(_) => "Tests",
@@ -59,6 +64,7 @@ fn print_details(out: &mut impl Write, report: &UniformRiskReport, terminal: &Te
             print_displacements(out, &displacements(&file, &asked)?, terminal)?;
         }
     }
+    print_oscillator(out, shown)?;
     for (over, spread) in [("weighted hazard curves", &report.branches), ("possible structures", &report.structures)] {
         print_spread(out, over, spread, (shown, &axes.strengths))?;
     }
@@ -105,6 +111,18 @@ fn print_end(out: &mut impl Write, head: &RunHead, terminal: &Terminal) -> Resul
         writeln!(out, "Tables   {}", tables.join(", "))?;
     }
     Ok(writeln!(out, "Report   uplift report {result}")?)
+}
+
+/// How other strengths and return periods are asked for.
+fn print_next(out: &mut impl Write, found: &DisplacementReport, head: &RunHead) -> Result<(), CommandError> {
+    /// What structures are usually designed for.
+    const RETURN_PERIOD: f64 = 475.0;
+    let ([first, rest @ ..], Some(result)) = (&found.displacements[..], head.files.first()) else { return Ok(()) };
+    // between two strengths that are shown the result has any
+    let strength = rest.iter().map(|own| own.strength).find(|strength| *strength != first.strength);
+    let strength = strength.map_or(first.strength, |next| rounded(f64::midpoint(first.strength, next), 2));
+    let period = if first.years < RETURN_PERIOD { format!(" --return-period {RETURN_PERIOD}") } else { String::new() };
+    Ok(writeln!(out, "Next     uplift spectrum {} --strength {strength}{period}", typed_path(result))?)
 }
 
 /// Which shard was computed, and where it is.

@@ -22,7 +22,15 @@ pub(crate) fn print_spectrum(report: &SpectrumReport, result: &Path, terminal: &
         }
         _ => print_displacements(out, &report.found, terminal)?,
     }
+    if terminal.shows_details() {
+        print_oscillator(out, &report.found)?;
+    }
     print_result_warnings(out, &report.alarms, result, terminal)
+}
+
+/// What the displacements are of.
+pub(super) fn print_oscillator(out: &mut impl Write, report: &DisplacementReport) -> Result<(), CommandError> {
+    Ok(writeln!(out, "Oscillator: {}", report.oscillator.in_words())?)
 }
 
 /// The number first, then what it is of.
@@ -31,7 +39,11 @@ fn print_answers(out: &mut impl Write, report: &DisplacementReport) -> Result<()
     let of = if report.band_of == BandOf::Earthquakes { ", band by earthquake" } else { "" };
     for own in &report.displacements {
         let Displacement { site, im, strength, u_m, band_m, .. } = own;
-        let displacement = metres_with_named_band(*u_m, *band_m, CONFIDENCE);
+        let displacement = if u_m.is_nan() {
+            "No repaired spectrum".to_owned()
+        } else {
+            metres_with_named_band(*u_m, *band_m, CONFIDENCE)
+        };
         let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
         writeln!(out, "{displacement}  {site}, strength {strength}, {}, by {im}{repaired}{capacity}{of}", risk(own))?;
     }
@@ -60,8 +72,8 @@ pub(super) fn print_displacements(
         let poes: Vec<f64> = rows.iter().map(|row| row[0].poe).collect();
         let risk = if risks == 1 { Some(risk(first)) } else { kind_of_risks(&poes, first.years) };
         let risk = risk.map_or_else(String::new, |risk| format!("{risk}, "));
-        let [sites, records] = [counted(sites, "site"), counted(report.records, record)];
-        writeln!(out, "\n{kind}, {sites}, {records}, {risk}by {}", first.im)?;
+        let records = counted(report.records, record);
+        writeln!(out, "\n{kind}, {records}, {risk}by {}", first.im)?;
         let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
         let is_banded = report.displacements.iter().any(|own| own.band_m.is_some());
         // wider than the number of records suggests

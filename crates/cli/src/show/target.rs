@@ -31,7 +31,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let safe = limit(report.safe_value, report);
     let band = report.bands.last().map_or_else(String::new, |band| {
         let upper = if report.safe_value.is_finite() { report.safe_value.to_string() } else { "beyond".to_owned() };
-        format!(" ({} to {upper}, 90 % by {})", short(band.value[0]), band.of)
+        format!(" (90 % band {} to {upper}, by {})", short(band.value[0]), band.of)
     });
     let best = format!("best estimate {}{band}", unit(value.to_string()));
     match &report.frame {
@@ -72,7 +72,9 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         let [met, missed] = [report.least_met, report.missed_at].map(|value| unit(value.to_string()));
         writeln!(out, "Scatter   the rate does not fall steadily: {met} meets the target, {missed} misses it")?;
     }
-    let own = report.own_value.map_or_else(String::new, |own| format!("; the structure has {}", unit(short(own))));
+    let own = report
+        .own_value
+        .map_or_else(String::new, |own| format!("; the structure's {quantity} is {}", unit(short(own))));
     writeln!(out, "At        {site} by {im}; {}{own}", report.source.record_set)?;
     Ok(())
 }
@@ -129,7 +131,7 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
         writeln!(out, "note       {note}")?;
     }
     let missed = unit(report.missed_at.to_string());
-    writeln!(out, "\nThe least {quantity} that meets it: {}; {missed} misses it", unit(value.to_string()))?;
+    writeln!(out, "\nSmallest {quantity} that meets the target: {}; {missed} misses it", unit(value.to_string()))?;
     let [per_year, probability, return_period] = risk_cells(&report.risk);
     writeln!(
         out,

@@ -19,6 +19,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     Ok(Content {
         subject: "Displacement spectra",
         place: stored.sets.iter().map(|set| set.name.as_str()).collect::<Vec<_>>().join(", "),
+        oscillator: None,
         lead,
         summary: Some(sets(&stored)),
         facts: vec![

@@ -65,6 +65,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
             sites if sites.len() <= FIRST_SITES => sites.join(", "),
             sites => format!("{} sites", sites.len()),
         },
+        oscillator: Some(file.stored_study()?.oscillator.in_words()),
         lead,
         summary: first(&source, &rows),
         facts,

@@ -16,6 +16,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     Ok(Content {
         subject: "Shaking table",
         place: String::new(),
+        oscillator: None,
         lead,
         summary: None,
         facts: vec![

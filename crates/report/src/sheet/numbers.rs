@@ -63,6 +63,9 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
             say(format!("By {} it overturns.", rule.words()), Some("no"));
         }
     }
+    if let Some(words) = report.unsafe_upper_limit() {
+        say(format!("But {words}."), Some("no"));
+    }
     for verdict in report.contradicted_by() {
         let class = verdict.contains("NOT").then_some("no");
         say(format!("But {verdict}."), class);
@@ -100,6 +103,11 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     sentences
 }
 
+/// That more than counted happens, beside a rate.
+fn lower_bound(risk: &EventRisk) -> &'static str {
+    if risk.is_lower_bound() { ", a lower bound" } else { "" }
+}
+
 fn in_words(what: &str, risk: &EventRisk, rounding: &Noisy, years: f64) -> String {
     if risk.per_year == 0.0 {
         // a neighbour that overturns is in the note
@@ -110,9 +118,10 @@ fn in_words(what: &str, risk: &EventRisk, rounding: &Noisy, years: f64) -> Strin
     }
     let between = 1.0 / risk.per_year;
     format!(
-        "{what} once in {} years on average ({} a year): {} in {years} years.",
+        "{what} once in {} years on average ({} a year{}): {} in {years} years.",
         if between < 1e7 { two_digits(between) } else { power(between, 1) },
         rounding.marked(|per_year| power(per_year, 1)),
+        lower_bound(risk),
         chance(risk.probability)
     )
 }
@@ -289,7 +298,7 @@ fn risk(report: &DesignReport) -> Option<TitledTable> {
             return vec![what, most, "–".to_owned(), "–".to_owned(), "–".to_owned()];
         }
         let probability = chance(risk.probability);
-        vec![what, rounding.marked(scientific), probability, return_period(risk), outside]
+        vec![what, rounding.marked(scientific) + lower_bound(risk), probability, return_period(risk), outside]
     };
     let capacity_m = report.structure.capacity_m.unwrap_or(f64::NAN);
     let rounding = &exact.rounding;

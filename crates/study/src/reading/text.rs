@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fs;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::Table;
 use super::findings::place;
@@ -32,10 +32,25 @@ fn read(file: &Path, wanted: Wanted) -> Result<String, Unreadable> {
         io::ErrorKind::NotFound => Unreadable::Missing { example: wanted.example() },
         _ => Unreadable::System(error),
     })?;
+    if metadata.is_dir() {
+        let example = the_toml_file_in(file).unwrap_or_else(|| wanted.example().into());
+        return Err(Unreadable::Folder { example });
+    }
     if !metadata.is_file() {
         return Err(Unreadable::NotAFile);
     }
     as_text(fs::File::open(file)?, file, wanted)
+}
+
+/// The only TOML file in a folder, or of several the one that `uplift init` writes.
+fn the_toml_file_in(folder: &Path) -> Option<PathBuf> {
+    let written = folder.join("study.toml");
+    if written.is_file() {
+        return Some(written);
+    }
+    let paths = fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut files = paths.filter(|path| path.extension().is_some_and(|ending| ending == "toml") && path.is_file());
+    files.next().filter(|_| files.next().is_none())
 }
 
 fn as_text(source: impl Read, file: &Path, wanted: Wanted) -> Result<String, Unreadable> {

@@ -45,6 +45,17 @@ pub struct Oscillator {
 }
 
 impl Oscillator {
+    /// `uplift displacement 0.5 mm, restitution 0.95`, and what the force does after uplift unless it stays.
+    pub fn in_words(&self) -> String {
+        let after_uplift = match self.post_uplift {
+            PostUplift::Zero => String::new(),
+            PostUplift::Negative { capacity_m } => format!(", capacity {capacity_m} m"),
+            PostUplift::Positive { .. } => ", rising force after uplift".to_owned(),
+        };
+        let uplift_mm = (self.uplift_displacement_m * 1e6).round() / 1e3;
+        format!("uplift displacement {uplift_mm} mm, restitution {}{after_uplift}", self.restitution)
+    }
+
     /// Its value of a quantity that may be uncertain: of the strength the factor on each of the study's, 1. None of a
     /// capacity where the force does not fall.
     pub fn value(&self, quantity: UncertainQuantity) -> Option<f64> {

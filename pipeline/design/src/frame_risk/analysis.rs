@@ -5,7 +5,7 @@ use uplift_frame::{ColumnShape, FrameError, Model, RockingFrame};
 use uplift_ida::{Peaks, StripeRecord, System};
 use uplift_inputs::rocking_frame;
 use uplift_job::checksum::motion_key;
-use uplift_job::text::thousands;
+use uplift_job::text::{counted, thousands};
 use uplift_motion::{Component, Direction, Horizontal, RecordPair};
 use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_stripes, shaken_upwards, stripes_of};
@@ -171,9 +171,9 @@ fn labelled<'a>(plan: uplift_ida::Plan<'a>, what: &str, motions: &'a [String]) -
     let label = plan.systems().first().map_or("", System::kind).to_owned();
     let axes = plan.axes();
     let text = format!(
-        "{} {what} x {} systems x {} levels = {} analyses",
+        "{} {what} x {} x {} levels = {} analyses",
         axes.motions,
-        axes.systems,
+        counted(axes.systems, "system"),
         axes.scales,
         thousands(plan.analyses())
     );

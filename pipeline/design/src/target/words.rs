@@ -89,10 +89,12 @@ impl Words<'_> {
             return None;
         }
         let least = tried.iter().find(|(_, attempt)| attempt.meets(self.target_per_year));
-        let least = least.map_or_else(String::new, |(value, _)| format!(" from {} on", self.value(*value)));
+        let least = least.map_or_else(String::new, |(value, _)| {
+            format!(", below it only some do, the smallest {}", self.value(*value))
+        });
         Some(format!(
-            "the annual rate crosses the target {} times: the target is met in places{least}, and at every value \
-             tried above the reported one ({})",
+            "the annual rate crosses the target {} times ({}): above the best estimate every value tried meets it\
+             {least}",
             found.len(),
             self.crossings(found)
         ))
@@ -150,7 +152,7 @@ pub(super) fn assumptions(
     }
     if file.has_repair() {
         notes.push(
-            "the records count alike here; uplift overturning and uplift design --repaired use the weights of the \
+            "the records have equal weights here; uplift overturning and uplift design --repaired use those of the \
              result"
                 .to_owned(),
         );

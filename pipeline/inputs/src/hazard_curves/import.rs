@@ -198,7 +198,8 @@ fn note_dropped(Chosen { exported, file, .. }: &Chosen, events: &dyn Events) {
 /// Reads back what is to be written: a file that a study would refuse is not written.
 fn check_text(path: &Path, text: &str, Chosen { exported, .. }: &Chosen) -> Result<(), InputsError> {
     let name = path.display().to_string();
-    if let Some(declared) = Declared::in_table(text) {
+    if let (Some(measure), Some(unit)) = Declared::in_table(text) {
+        let declared = Declared { measure, unit };
         let read = read_csv(text, &name, &CsvOptions { declared, second_column: None, years: None })?.curve;
         if (read.im(), read.maf()) == (exported.curve.im(), exported.curve.maf()) {
             return Ok(());

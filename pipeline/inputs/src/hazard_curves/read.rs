@@ -84,21 +84,23 @@ pub(super) fn read_file(
     if an_export {
         return Err(export);
     }
-    let declared = match (&options.measure, &options.unit, Declared::in_table(&text)) {
-        (Some(measure), Some(unit), _) => {
-            let known = measure.parse().map(|known: IntensityMeasure| known.label().to_owned());
-            Declared { measure: known.unwrap_or_else(|_| measure.to_uppercase()), unit: unit.clone() }
-        }
-        (_, _, Some(declared)) => declared,
-        _ => {
-            return Err(JobError::input(format!(
-                "{}: the table does not say its measure and unit: name its columns, for example pgv_cm_s,maf or \
-                 pga_g,return_period, add a first line such as \"# IM: PGV [cm/s]\", or give --measure and --unit",
-                path.display()
-            ))
-            .into());
-        }
+    let (measure, unit) = Declared::in_table(&text);
+    let Some(measure) = options.measure.clone().or(measure) else {
+        return Err(JobError::input(format!(
+            "{}: the table does not say its measure: name its columns, for example pgv_cm_s,maf or \
+             pga_g,return_period, add a first line such as \"# IM: PGV [cm/s]\", or give --measure",
+            path.display()
+        ))
+        .into());
     };
+    // without a unit the levels are in that of a study
+    let known: Option<IntensityMeasure> = measure.parse().ok();
+    let Some(unit) = options.unit.clone().or(unit).or(known.map(|known| known.unit().to_owned())) else {
+        let what = format!("{}: the table does not say the unit of {measure}: give --unit", path.display());
+        return Err(JobError::input(what).into());
+    };
+    let measure = known.map_or_else(|| measure.to_uppercase(), |known| known.label().to_owned());
+    let declared = Declared { measure, unit };
     let options =
         CsvOptions { declared, second_column: options.years.map(|_| SecondColumn::Probability), years: options.years };
     let read = read_csv(&text, &path.display().to_string(), &options)?;

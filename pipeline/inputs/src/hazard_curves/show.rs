@@ -6,6 +6,7 @@ use serde::Serialize;
 use uplift_hazard::{HazardCurve, rate_from_probability};
 use uplift_job::events::Events;
 use uplift_motion::IntensityMeasure;
+use uplift_study::usual_top_level;
 
 use super::NamedCurve;
 use super::read::{CurveOptions, read_file};
@@ -49,7 +50,7 @@ pub struct ShownCurve {
     pub component: Option<String>,
     /// Where it comes from, in lines.
     pub source: String,
-    /// What is hardly possible by the curve: its unit is probably another; none where all is usual.
+    /// What is hardly possible or unusual of the curve: its unit is probably another; none where all is usual.
     pub warning: Option<String>,
 }
 
@@ -77,11 +78,15 @@ fn shown(NamedCurve { name, curve }: &NamedCurve) -> ShownCurve {
     }
 }
 
-/// What is hardly possible by the curve, if its measure and unit are those of a study.
+/// What is hardly possible or unusual of the curve, if its measure and unit are those of a study.
 fn warning(curve: &HazardCurve) -> Option<String> {
-    let measure: IntensityMeasure = curve.measure().parse().ok()?;
-    let is_in_field_units = curve.unit() == measure.unit();
-    hardly_possible(curve, measure).filter(|_| is_in_field_units).map(|found| found.to_string())
+    let measure: IntensityMeasure =
+        curve.measure().parse().ok().filter(|known: &IntensityMeasure| curve.unit() == known.unit())?;
+    let unusual_end = || {
+        let (_, usual) = usual_top_level(measure)?;
+        Some(usual.unlikely("the last level", curve.last().im)?.to_string())
+    };
+    hardly_possible(curve, measure).map(|found| found.to_string()).or_else(unusual_end)
 }
 
 fn level(curve: &HazardCurve, probability: f64) -> Option<f64> {

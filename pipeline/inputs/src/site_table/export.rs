@@ -232,8 +232,8 @@ impl Tally {
         let mut notes = Vec::new();
         if self.undefined > 0 {
             notes.push(format!(
-                "site table, {label}: {name} does not say how horizontal components are combined: taken as {}; say it \
-                 with [hazard] component",
+                "site table, {label}: {name} does not say how horizontal components are combined: taken as {}. Set \
+                 hazard.component",
                 definition_of(study.records.intensity)
             ));
         }

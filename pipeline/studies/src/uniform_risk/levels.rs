@@ -7,7 +7,7 @@
 //! is raised before it, as far as these strengths tell.
 
 use serde::Serialize;
-use uplift_alarms::{Counted, UpperEnd, below_first_case, spectrum_name};
+use uplift_alarms::{UpperEnd, below_first_case, spectrum_name};
 use uplift_fragility::Stripes as Stripe;
 use uplift_hazard::rate_from_probability;
 use uplift_ida::{Axes, System, Unwatched, analyse};
@@ -21,7 +21,7 @@ use uplift_uniform_risk::{Reading, plan_stripes};
 
 use crate::error::StudiesError;
 
-/// Strengths tried, spread over those of the study up to the largest.
+/// Strengths tried beside the smallest, spread over those of the study up to the largest.
 const TRIED: usize = 4;
 /// Analyses that a trial may take: more records than this allows are not tried.
 const MOST_ANALYSES: usize = 300_000;
@@ -157,18 +157,19 @@ fn of_ends(study: &UniformRiskStudy, measure: &MeasurePlan, spectra: &[Tails<'_>
             target_per_year: rate_from_probability(tails.poe, study.risk.years)?,
         };
         let name = spectrum_name(&tails.site.site, measure.measure, (tails.poe, study.risk.years));
-        cases.lower.extend(below_first_case((measure, curve), &name, Counted::Tried, &tails.lower));
-        cases.upper.extend(end.case(&name, Counted::Tried, &tails.upper)?);
+        cases.lower.extend(below_first_case((measure, curve), &name, &tails.lower));
+        cases.upper.extend(end.case(&name, &tails.upper)?);
     }
     Ok(cases)
 }
 
-/// Positions of the strengths to try: spread evenly, with the largest, without that of a free mass.
+/// Positions of the strengths to try: spread evenly, with the smallest and the largest, without that of a free mass.
 fn tried(strengths: &[f64]) -> Vec<usize> {
     let begin = usize::from(strengths.first() == Some(&0.0));
     let count = strengths.len() - begin;
     let mut positions: Vec<usize> =
         (1..=TRIED).map(|part| begin + (count * part).div_ceil(TRIED)).map(|end| end.saturating_sub(1)).collect();
+    positions.insert(0, begin);
     positions.retain(|position| (begin..strengths.len()).contains(position));
     positions.dedup();
     positions
@@ -248,9 +249,9 @@ mod tests {
     use super::tried;
 
     #[test]
-    fn the_strengths_tried_end_at_the_largest() {
+    fn the_strengths_tried_span_those_of_the_study() {
         let strengths: Vec<f64> = (0..=300).map(|i| f64::from(i) / 300.0).collect();
-        assert_eq!(tried(&strengths), [75, 150, 225, 300]);
+        assert_eq!(tried(&strengths), [1, 75, 150, 225, 300]);
         assert_eq!(tried(&[0.0, 0.3]), [1]);
         assert_eq!(tried(&[0.1, 0.2, 0.3]), [0, 1, 2]);
         assert_eq!(tried(&[0.0]), [0; 0]);
