@@ -147,7 +147,8 @@ fn a_hardly_possible_curve_is_warned_of_when_it_is_shown() {
     let study = SmallStudy::new();
     study.write("odd.csv", "# IM: PGV [cm/s]\niml,maf\n0.001,0.5\n0.01,0.05\n0.1,1e-5\n");
     let shown = study.uplift(&["hazard", "show", "odd.csv"]).ok().stdout;
-    let words = "\nWarnings\n  mistake? odd: 0.3 cm/s is exceeded only 1.0e-5 times a year, which is hardly possible: check the unit";
+    let words = "\nWarnings\n  mistake? odd: 0.3 cm/s is exceeded only 1.0e-5 times a year, which is hardly possible: \
+                 check the unit";
     assert!(shown.contains("0.001 to 0.1") && shown.contains(words), "{shown}");
     let usual = study.uplift(&["hazard", "show", "here-pgv.csv", "--measure", "PGV", "--unit", "cm/s"]).ok().stdout;
     assert!(!usual.contains("Warnings"), "{usual}");

@@ -110,8 +110,8 @@ fn probability(option: &str, value: f64, years: f64) -> Result<f64, String> {
     }
     if option == POE_OPTION && value > 1.0 {
         return Err(format!(
-            "{option} {value}: a probability is below 1 (10 % is 0.1 or 10%; a comma separates two); a return period is \
-             {RETURN_PERIOD_OPTION} {value}"
+            "{option} {value}: a probability is below 1 (10 % is 0.1 or 10%; a comma separates two); a return period \
+             is {RETURN_PERIOD_OPTION} {value}"
         ));
     }
     let poe = if option == RETURN_PERIOD_OPTION {

@@ -96,8 +96,8 @@ pub(super) fn read_file(
     // without a unit the levels are in that of a study
     let known: Option<IntensityMeasure> = measure.parse().ok();
     let Some(unit) = options.unit.clone().or(unit).or(known.map(|known| known.unit().to_owned())) else {
-        let what = format!("{}: the table does not say the unit of {measure}: give --unit", path.display());
-        return Err(JobError::input(what).into());
+        let reason = "the table does not say the unit of its levels: give --unit";
+        return Err(JobError::input(format!("{}: {reason}", path.display())).into());
     };
     let measure = known.map_or_else(|| measure.to_uppercase(), |known| known.label().to_owned());
     let declared = Declared { measure, unit };
