@@ -21,12 +21,16 @@ fn blocks() -> Vec<RockingBlock> {
 }
 
 fn plan<'a>(records: &'a [Accelerogram], systems: &'a [System], with_free_peak: bool) -> Plan<'a> {
+    plan_at(&LEVELS, records, systems, with_free_peak)
+}
+
+fn plan_at<'a>(levels: &[f64], records: &'a [Accelerogram], systems: &'a [System], with_free_peak: bool) -> Plan<'a> {
     let records = records
         .iter()
         .enumerate()
         .map(|(i, accelerogram)| StripeRecord { id: "noise", accelerogram, intensity: 0.3 + 0.1 * i as f64 })
         .collect();
-    Plan::stripes(records, systems, &LEVELS, with_free_peak).unwrap()
+    Plan::stripes(records, systems, levels, with_free_peak).unwrap()
 }
 
 fn systems() -> Vec<System> {
@@ -99,20 +103,21 @@ fn it_counts_its_runs_and_can_be_stopped() {
     assert!(matches!(analyse(&plan, &Counting(AtomicU64::new(0), 7)), Err(IdaError::Cancelled)));
 }
 
-/// A row of a block may take long: a stop is heard within it, and what was not finished is not handed over.
+/// A row of a block may take long: a stop is heard after 32 runs of it, and what was not finished is not handed over.
 #[test]
 fn a_stop_is_heard_within_a_row() {
     let (records, systems) = (records(), systems());
-    let plan = plan(&records, &systems, true);
+    let levels: Vec<f64> = (1..=40).map(|i| 0.1 * f64::from(i)).collect();
+    let plan = plan_at(&levels, &records, &systems, true);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let watch = Counting(AtomicU64::new(0), 7);
+    let watch = Counting(AtomicU64::new(0), 41);
     let kept = AtomicU64::new(0);
     let keep = |_: &AnalysisRow<'_>| {
         kept.fetch_add(1, Ordering::Relaxed);
     };
     let stopped = pool.install(|| complete(&plan, Cells::unknown(&plan), Shard::WHOLE, &watch, &keep));
     assert!(matches!(stopped, Err(IdaError::Cancelled)));
-    assert_eq!((watch.0.into_inner(), kept.into_inner()), (7, 1));
+    assert_eq!((watch.0.into_inner(), kept.into_inner()), (40 + 32, 1));
 }
 
 #[test]
