@@ -1,9 +1,9 @@
 //! One block under one record at many scale factors, several motions side by side, each at its own time.
 //!
 //! Of twelve sample intervals in which a block rocks some eleven hold no impact, and no peak that could be the largest.
-//! Such intervals are computed together in vectors, by the [series](crate::series) that a single motion has,
-//! operation by operation; all others, and what comes before uplift and after the record, by the [motion](crate::motion)
-//! itself. So every response has the bits of [`respond`](crate::respond).
+//! Such intervals are computed together in vectors, by the [series](crate::series) that a single motion has, operation
+//! by operation; all others, and what comes before uplift and after the record, by the [motion](crate::motion) itself.
+//! So every response has the bits of [`respond`](crate::respond).
 
 use std::array::from_fn;
 use std::ops::ControlFlow;
