@@ -361,6 +361,22 @@ fn differences_from_the_study_are_reported() {
     assert_ne!(found["exact"]["zero_stiffness_demand_m"], found["exact"]["zero_stiffness_demand_of_spectrum_m"]);
 }
 
+/// Stockier than the spectrum's strengths: the verdict says that it is not the spectrum's.
+#[test]
+fn a_spectrum_without_a_value_is_said_beside_the_verdict() {
+    let study = study();
+    study.write("stocky.toml", &BLOCK.replace("width_m = 0.8", "width_m = 2.4"));
+    for more in [&[][..], &["--spectrum-only"]] {
+        let said = study.uplift(&[&["design", "stocky.toml", "--urs", "r.h5"], more].concat()).ok().stdout;
+        let why = said.lines().nth(1).unwrap_or_default();
+        assert!(
+            why.contains("the spectrum has no value at strength 0.5404") && why.contains("from 0.05 to 0.4"),
+            "{said}"
+        );
+        assert!(why.contains("widen strengths.values"), "{said}");
+    }
+}
+
 #[test]
 #[ignore = "long: make test-long"]
 fn records_that_are_gone_leave_the_spectrum() {

@@ -98,7 +98,7 @@ fn manifests() {
     with_manifest("A,a.AT2,a.AT2,good,,\nB,a.txt,a.txt,good,0.01,g\n").uplift(&["check", "study.toml"]).ok();
     check("", &["manifest.csv", "no records"]);
     check("A,a.AT2,,good,,\n", &["record A", "file_h2", "blank"]);
-    check("A,a.AT2,b.AT2,good,,\n", &["record A", "b.AT2", "not a file"]);
+    check("A,a.AT2,b.AT2,good,,\n", &["record A", "b.AT2", "is missing"]);
     check("A,a.AT2,a.AT2,,,\nA,a.AT2,a.AT2,,,\n", &["twice"]);
     check("A,a.txt,a.txt,,,\n", &["record A", "a.txt"]);
     check("A,a.txt,a.txt,,0.01,stone\n", &["record A", "stone"]);

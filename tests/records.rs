@@ -164,7 +164,7 @@ fn a_study_runs_on_what_was_imported() {
     let moved = study.path().join("moved.csv");
     study
         .uplift(&["check", "study.toml", "--set", &format!("records.manifest={}", moved.display())])
-        .fails(4, &["moved.csv", "file_h1", "is not a file"]);
+        .fails(4, &["moved.csv", "file_h1", "is missing"]);
     // nor is a file that has changed taken for the one imported
     let path = folder.path().join("RSN12_EVENT_STA090.AT2");
     std::fs::write(&path, at2("Some Event, 1/2/1999, A Station, 90", G, 0.01, &wave(3000, 0.031))).unwrap();

@@ -139,6 +139,7 @@ fn what_the_result_does_not_have_is_refused_with_what_it_has() {
     let study = study();
     for (asked, words) in [
         (&["--strength", "0.9"][..], &["--strength 0.9", "strengths from 0 to 0.8", "strengths.values"][..]),
+        (&["--strength=-0.1"][..], &["--strength -0.1", "a strength is not negative"][..]),
         (&["--strength", "-0.1"], &["--strength -0.1", "strengths from 0 to 0.8"]),
         (&["--strength", "a fifth"], &["write a number"]),
         (&["--site", "Nowhere"], &["--site", "Nowhere", "Here, There"]),

@@ -182,6 +182,12 @@ impl DesignReport {
         if own.is_empty() { Vec::new() } else { told.collect() }
     }
 
+    /// Why the spectrum cannot be read; none where it can.
+    pub fn unread(&self) -> Option<&str> {
+        let is_why = |note: &&String| note.starts_with(NO_VALUE);
+        self.notes.iter().find(is_why).map(String::as_str)
+    }
+
     /// Where a rule is satisfied, and the structure's own demand is not at the upper limit of its band: `not
     /// satisfied at the upper limit of the demand's band, 0.50 m (requires 1.25 m)`.
     pub fn unsafe_upper_limit(&self) -> Option<String> {
@@ -466,16 +472,20 @@ fn spectrum_demand(structure: &Structure, source: &StudyOfResult, u_m: &[f64]) -
     SpectrumDemand::read(&source.study.strengths, u_m, (strength, system.participation()))
 }
 
+/// How a note begins that says why the spectrum cannot be read.
+const NO_VALUE: &str = "the spectrum has no value at strength ";
+
 /// Why the spectrum cannot be read.
 fn beyond_spectrum(structure: &Structure, source: &StudyOfResult) -> String {
     let strengths = &source.study.strengths;
-    format!(
-        "the spectrum cannot be read at strength {:.4}: its strengths go from {} to {}, and no value is read next to \
-         a censored ordinate",
-        structure.system.spectral_strength_at(source.study.gravity_m_s2),
-        strengths[0],
-        strengths[strengths.len() - 1]
-    )
+    let (first, last) = (strengths[0], strengths[strengths.len() - 1]);
+    let strength = structure.system.spectral_strength_at(source.study.gravity_m_s2);
+    let why = if (first..=last).contains(&strength) {
+        "an ordinate beside it is censored".to_owned()
+    } else {
+        format!("its strengths go from {first} to {last}; widen strengths.values and run the study again")
+    };
+    format!("{NO_VALUE}{strength:.4}: {why}")
 }
 
 /// The result at the risk asked for, with its bands there where it keeps draws: alarms take them, and what is quoted

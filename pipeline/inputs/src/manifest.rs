@@ -212,7 +212,8 @@ fn row(cells: &mut BTreeMap<String, String>, folder: &Path) -> Result<Row, Vec<S
         let path = match cells.remove(column).map(|text| folder.join(text)) {
             Some(path) if path.is_file() => path,
             Some(path) => {
-                mistakes.push(format!("record {id}: {column} {} is not a file", path.display()));
+                let what = if path.exists() { "is not a file" } else { "is missing" };
+                mistakes.push(format!("record {id}: {column} {} {what}", path.display()));
                 path
             }
             None => {

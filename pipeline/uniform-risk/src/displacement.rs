@@ -244,10 +244,12 @@ fn strengths(asked: &[f64], known: &[f64]) -> Result<Vec<StrengthPlace>, JobErro
     let [first, last] = [known.first(), known.last()].map(|value| value.copied().unwrap_or(f64::NAN));
     let place = |&strength: &f64| {
         StrengthPlace::among(known, strength).ok_or_else(|| {
-            JobError::Usage(format!(
-                "--strength {strength}: the result has strengths from {first} to {last}; to go further, add \
-                 strengths.values to the study and run it again"
-            ))
+            let remedy = if strength < 0.0 {
+                "; a strength is not negative"
+            } else {
+                "; widen strengths.values and run the study again"
+            };
+            JobError::Usage(format!("--strength {strength}: the result has strengths from {first} to {last}{remedy}"))
         })
     };
     each_once(asked.iter().map(place), |own| format!("--strength {}", own.strength))
