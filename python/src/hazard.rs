@@ -119,10 +119,11 @@ impl HazardCurve {
         let text = table_text(&path).map_err(failed)?;
         let declared = match (measure, Declared::in_table(&text)) {
             (Some(measure), _) => declared(measure, unit)?,
-            (None, Some(said)) => Declared { unit: unit.map_or(said.unit, str::to_owned), ..said },
-            (None, None) => {
+            // without a unit the levels are in that of a study
+            (None, (Some(measure), said)) => declared(&measure, unit.or(said.as_deref()))?,
+            (None, (None, _)) => {
                 let name = path.display();
-                let message = format!("{name}: does not say measure and unit: give measure=\"pgv\", for instance");
+                let message = format!("{name}: does not say its measure: give measure=\"pgv\", for instance");
                 return Err(PyValueError::new_err(message));
             }
         };

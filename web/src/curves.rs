@@ -102,13 +102,14 @@ impl Found {
             return table(choice).map(Self::Curves).map_err(refused);
         }
         let declared = Declared::in_table(text);
-        let quantities = match &declared {
-            Some(Declared { measure, unit }) => vec![(&measure[..], &unit[..])],
-            None => QUANTITIES.to_vec(),
+        let known = match &declared {
+            (Some(measure), Some(unit)) => Some((&measure[..], &unit[..])),
+            _ => None,
         };
+        let quantities = known.map_or_else(|| QUANTITIES.to_vec(), |known| vec![known]);
         let plain = Choice::new(quantities[0], None);
         let refusal = match table(&plain) {
-            Ok(curves) if declared.is_some() => return Ok(Self::Curves(curves)),
+            Ok(curves) if known.is_some() => return Ok(Self::Curves(curves)),
             Ok(_) => None,
             Err(error) => Some(error),
         };
