@@ -22,7 +22,7 @@ use crate::sine::sine_and_cosine;
 use uplift_taylor::{DEGREE, Forcing, LEAST_ORDER, ORDER, TRUNCATION, stretch, value};
 
 /// 1/(k + 1).
-const INVERSE: [f64; ORDER + 1] = {
+pub(crate) const INVERSE: [f64; ORDER + 1] = {
     let mut table = [1.0; ORDER + 1];
     let mut k = 0;
     while k <= ORDER {

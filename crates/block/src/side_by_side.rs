@@ -8,7 +8,7 @@
 use std::array::from_fn;
 use std::ops::ControlFlow;
 
-use uplift_instructions::{Instructions, Work};
+use uplift_instructions::{Instructions, Work, larger, smaller};
 use uplift_motion::Accelerogram;
 use uplift_taylor::{LEAST_ORDER, TRUNCATION};
 
@@ -19,7 +19,7 @@ use crate::motion::{Ending, Motion};
 use crate::observer::Unobserved;
 use crate::response::{BlockResponse, FreeRocking, check_duration, rock_on};
 use crate::rest::RestRule;
-use crate::series::Series;
+use crate::series::{INVERSE, Series};
 use crate::sine::sine_and_cosine;
 
 /// Motions side by side.
@@ -88,7 +88,7 @@ impl<'a> Sweep<'a> {
         let (samples_m_s2, dt_s) = (record.acceleration_m_s2(), record.dt_s());
         let motion = Motion::new(block, RestRule::Proven, Unobserved);
         let p_squared = block.frequency_parameter_rad_s().powi(2);
-        let of_rate = from_fn(|k| dt_s * (1.0 / (k + 1) as f64));
+        let of_rate = from_fn(|k| dt_s * INVERSE[k]);
         let interval = Interval {
             is_step: dt_s <= motion.longest_step_s(),
             slenderness_rad: block.slenderness_rad(),
@@ -387,18 +387,6 @@ fn sum(mut lanes: Lanes) -> f64 {
         half /= 2;
     }
     lanes[0]
-}
-
-/// `f64::max` without its care for NaN.
-#[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-/// `f64::min` likewise.
-#[inline(always)]
-fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
 }
 
 #[cfg(test)]

@@ -2,6 +2,8 @@
 //!
 //! Arrays that are read in this way are longer by [`AHEAD`] samples than the record.
 
+pub(crate) use uplift_instructions::{larger, smaller};
+
 /// Samples evaluated together, a power of two.
 pub(crate) const AHEAD: usize = 16;
 
@@ -32,16 +34,4 @@ pub(crate) fn largest(mut x: Lanes) -> f64 {
         half /= 2;
     }
     x[0]
-}
-
-/// `f64::max` without its care for NaN, which costs in the inner loops; a NaN in `a` gives `b`.
-#[inline(always)]
-pub(crate) fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-/// `f64::min` likewise.
-#[inline(always)]
-pub(crate) fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
 }

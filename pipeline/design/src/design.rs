@@ -122,6 +122,9 @@ pub struct DesignReport {
     pub required_safety_factor: f64,
     /// What the spectrum says; none where it cannot be read.
     pub spectrum: Option<SpectrumDemand>,
+    /// Why it cannot be read, which is a note as well; none where it can.
+    #[serde(skip)]
+    pub unread: Option<String>,
     /// What the structure's own analysis says; none where there is none.
     pub exact: Option<ExactDemand>,
     /// Whether the structure describes a frame that can wobble.
@@ -182,12 +185,6 @@ impl DesignReport {
         if own.is_empty() { Vec::new() } else { told.collect() }
     }
 
-    /// Why the spectrum cannot be read; none where it can.
-    pub fn unread(&self) -> Option<&str> {
-        let is_why = |note: &&String| note.starts_with(NO_VALUE);
-        self.notes.iter().find(is_why).map(String::as_str)
-    }
-
     /// Where a rule is satisfied, and the structure's own demand is not at the upper limit of its band: `not
     /// satisfied at the upper limit of the demand's band, 0.50 m (requires 1.25 m)`.
     pub fn unsafe_upper_limit(&self) -> Option<String> {
@@ -243,10 +240,9 @@ pub fn design(
     let plain = spectrum_demand(structure, &source, source.spectrum(measure, site, poe));
     let repaired = repaired_m.and_then(|u_m| spectrum_demand(structure, &source, &u_m));
     let spectrum = if options.repaired { repaired } else { plain };
-    if !options.repaired {
-        notes.extend(beside(plain, repaired));
-    }
-    notes.extend(spectrum.is_none().then(|| beyond_spectrum(structure, &source)));
+    notes.extend(if options.repaired { None } else { beside(plain, repaired) });
+    let unread = spectrum.is_none().then(|| beyond_spectrum(structure, &source));
+    notes.extend(unread.clone());
     let [wobbles, is_shaken] = [OwnFrame::is_described(structure), OwnFrame::can_be_shaken(structure)];
     let mut without_frame = (wobbles && !is_shaken && !options.proxy).then(|| STOPPED.to_owned());
     let mut own = None;
@@ -322,6 +318,7 @@ pub fn design(
         rules,
         by_other_measures,
         other_oscillator,
+        unread,
         assumed: assumed(structure, restitution),
         notes,
         alarms: ranked(alarms),
@@ -472,9 +469,6 @@ fn spectrum_demand(structure: &Structure, source: &StudyOfResult, u_m: &[f64]) -
     SpectrumDemand::read(&source.study.strengths, u_m, (strength, system.participation()))
 }
 
-/// How a note begins that says why the spectrum cannot be read.
-const NO_VALUE: &str = "the spectrum has no value at strength ";
-
 /// Why the spectrum cannot be read.
 fn beyond_spectrum(structure: &Structure, source: &StudyOfResult) -> String {
     let strengths = &source.study.strengths;
@@ -485,7 +479,7 @@ fn beyond_spectrum(structure: &Structure, source: &StudyOfResult) -> String {
     } else {
         format!("its strengths go from {first} to {last}; widen strengths.values and run the study again")
     };
-    format!("{NO_VALUE}{strength:.4}: {why}")
+    format!("the spectrum has no value at strength {strength:.4}: {why}")
 }
 
 /// The result at the risk asked for, with its bands there where it keeps draws: alarms take them, and what is quoted

@@ -154,7 +154,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         "Verdict   {name}{whose}, {has}: {doubt}{}",
         if verdicts.is_empty() { "no rule applies".to_owned() } else { verdicts.join(", ") }
     )?;
-    if let Some(why) = report.unread() {
+    if let Some(why) = &report.unread {
         writeln!(out, "          {why}")?;
     }
     for verdict in report.unsafe_upper_limit().into_iter().chain(report.contradicted_by()) {
