@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::path::Path;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use uplift_frame::{ColumnShape, GroundMotion, Model, Options, RockingFrame, TableLevel, respond};
+use uplift_frame::{ColumnShape, GroundMotion, Model, Options, RockingFrame, TableLevel, demands, respond};
 use uplift_motion::synthetic::{SyntheticSetOptions, generate};
 use uplift_motion::{Accelerogram, ReadOptions, read_path};
 use uplift_statics::{DiscDimensions, DiscSpring, DiscStack, Parts, Restrainer, Stopper, TendonPath};
@@ -99,5 +99,29 @@ fn records(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, records);
+/// The demand at 24 levels, as a fragility needs it.
+fn levels(criterion: &mut Criterion) {
+    let (name, [x, y]) = pair();
+    let level = TableLevel::new(1.0, 0.25 * 5.0_f64.sqrt()).unwrap();
+    let ([x, y], _) = level.pair([&x, &y]).unwrap().unwrap();
+    let scaled: Vec<[Accelerogram; 2]> =
+        (1..=24).map(|level| [&x, &y].map(|component| component.scaled(f64::from(level) / 12.0).unwrap())).collect();
+    let grounds: Vec<GroundMotion<'_>> = scaled.iter().map(|[x, y]| GroundMotion::pair(x, y)).collect();
+    let mut group = criterion.benchmark_group("demands");
+    for (what, shape, model) in
+        [("planar", ColumnShape::Rectangle, Model::Planar), ("wobbling", ColumnShape::Cylinder, Model::Wobbling)]
+    {
+        let frame = linear(shape, 5.0);
+        group.bench_function(format!("{what}, linear, {name} pair at 24 levels"), |bencher| {
+            bencher.iter(|| demands(black_box(&frame), &grounds, model, &Options::default()));
+        });
+        group.bench_function(format!("{what}, linear, {name} pair at 24 levels, one by one"), |bencher| {
+            let one = |ground| respond(black_box(&frame), ground, model, &Options::default());
+            bencher.iter(|| grounds.iter().map(one).collect::<Vec<_>>());
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, records, levels);
 criterion_main!(benches);

@@ -49,6 +49,19 @@ pub(crate) struct Branch {
     pub(crate) yields: bool,
 }
 
+impl Branch {
+    /// `T Δ'` as multiples of `sin θ` and of `cos ½θ`, N m, where it is no more than that.
+    pub(crate) fn multiples(&self) -> Option<[f64; 2]> {
+        match (self.law, self.form) {
+            (Law::Loose, _) => Some([0.0, 0.0]),
+            (Law::Linear { constant_n, stiffness_n_m }, Form::Axis { lever_m }) => {
+                Some([lever_m * stiffness_n_m * lever_m, lever_m * constant_n])
+            }
+            _ => None,
+        }
+    }
+}
+
 /// The branches of a frame, by rising rotation, the first from 0; none without restrainers.
 pub(crate) fn branches(frame: &RockingFrame) -> Vec<Branch> {
     let columns = frame.columns();

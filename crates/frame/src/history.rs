@@ -60,19 +60,23 @@ pub struct History {
 pub(crate) trait Observer {
     /// Whether rows are wanted: they cost.
     const KEEPS: bool;
+    /// Whether more than the largest rotation is wanted: components, the deck's acceleration, the least rotation.
+    const FOLLOWS_ALL: bool;
     fn observe(&mut self, row: HistoryRow);
 }
 
-/// Keeps nothing.
-pub(crate) struct Unobserved;
+/// Keeps nothing; follows all, or nothing but the rotation.
+pub(crate) struct Unobserved<const ALL: bool>;
 
-impl Observer for Unobserved {
+impl<const ALL: bool> Observer for Unobserved<ALL> {
     const KEEPS: bool = false;
+    const FOLLOWS_ALL: bool = ALL;
     fn observe(&mut self, _: HistoryRow) {}
 }
 
 impl Observer for History {
     const KEEPS: bool = true;
+    const FOLLOWS_ALL: bool = true;
     fn observe(&mut self, mut row: HistoryRow) {
         // an event next to the end of a segment may be a rounding beyond it
         row.time_s = self.rows.last().map_or(row.time_s, |last| row.time_s.max(last.time_s));

@@ -52,7 +52,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+// what is not inlined is not compiled for the instructions of what it is called by
+#![allow(clippy::inline_always)]
+
 mod branch;
+mod course;
 mod error;
 mod escape;
 pub mod frame;
@@ -66,6 +70,7 @@ pub mod rolling;
 pub mod sections;
 mod series;
 pub mod shake_table;
+mod side_by_side;
 mod uplift;
 
 /// Version of the frame's numbers: raised whenever a change of its arithmetic changes any of them, so that unfinished
@@ -79,6 +84,7 @@ pub use history::{History, HistoryRow, Moment};
 pub use peaks::Peak;
 pub use pulse::{Pulse, PulseShape};
 pub use response::{
-    FrameEvent, FrameResponse, FrameState, Model, Options, Start, Until, respond, respond_with_history,
+    FrameDemand, FrameEvent, FrameResponse, FrameState, Model, Options, Start, Until, respond, respond_with_history,
 };
 pub use shake_table::{TableLevel, srss};
+pub use side_by_side::demands;

@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use uplift_statics::EventKind;
+use uplift_statics::{EventKind, RestrainedColumns};
 use uplift_taylor::{Forcing, Rebound, first_zero, leading_sign};
 
 mod follow;
@@ -17,7 +17,7 @@ use crate::ground::length;
 use crate::history::{Moment, Observer};
 use crate::peaks::Peaks;
 use crate::rolling::Rolling;
-use crate::series::{Constants, Expansion, Shaken, Turning};
+use crate::series::{Begin, Constants, Expansion, Shaken, Step, Turning};
 use crate::uplift::{Uplift, uplift_in_plane, uplift_in_space};
 
 /// Impacts in one segment after which a frame that cannot be shown to come to rest is taken to be.
@@ -31,6 +31,9 @@ pub(crate) const LONGEST_STEP: f64 = 0.5;
 
 /// Longest step towards the apex as a part of the radius of convergence there: order 20 or so.
 const APEX_STEP: f64 = 0.15;
+
+/// A step is long from this part of such a step on: order 12 or so.
+const LONG_STEP: f64 = 0.3;
 
 /// Why the motion ends before the shaking, or before the time asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,8 +61,30 @@ pub(crate) struct Rules {
     pub(crate) start_rotation_rad: f64,
 }
 
+/// A segment of the shaking, and how far the motion is in it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Segment {
+    start_s: f64,
+    length_s: f64,
+    until_peak: bool,
+    offset: f64,
+    steps: u64,
+    just_uplifted: bool,
+    impacts_before: u64,
+}
+
+/// A step that is to be expanded from the present state.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Asked {
+    pub(crate) step_s: f64,
+    /// Whether the frame uplifts at its begin, where the moments cancel.
+    pub(crate) at_threshold: bool,
+    /// Whether the apex is so close that the series will be long.
+    pub(crate) is_long: bool,
+}
+
 /// A result of a step, or the end of the motion.
-type Flow<T> = Result<ControlFlow<Ending, T>, FrameError>;
+pub(crate) type Flow<T> = Result<ControlFlow<Ending, T>, FrameError>;
 
 /// State of a frame in motion.
 #[derive(Debug)]
@@ -177,6 +202,15 @@ impl<O: Observer> Motion<O> {
         self.branches.iter().rposition(holds).unwrap_or(0)
     }
 
+    pub(crate) fn constants(&self) -> &Constants {
+        &self.constants
+    }
+
+    /// `p`, rad/s.
+    pub(crate) fn frequency_parameter_rad_s(&self) -> f64 {
+        self.p
+    }
+
     pub(crate) fn gravity_m_s2(&self) -> f64 {
         self.frame.gravity_m_s2()
     }
@@ -207,47 +241,58 @@ impl<O: Observer> Motion<O> {
         self.frame.largest_rotation_to_come(Free { rotation: self.x, velocity: self.v, momentum, restitution })
     }
 
-    /// Moves through a segment of `length_s` that begins at `start_s`; `shaking` writes the components x, y, z in units
-    /// of g from an offset in the segment on, in powers of (time − offset)/step. With `until_peak` it ends early, when
-    /// `θ` has passed a maximum.
-    pub(crate) fn advance(
-        &mut self,
+    /// Begins a segment of `length_s` at `start_s`, on which `shaking` writes the components x, y, z in units of g from
+    /// an offset in the segment on, in powers of (time − offset)/step. With `until_peak` it ends early, when `θ` has
+    /// passed a maximum.
+    pub(crate) fn enter(
+        &self,
         start_s: f64,
         length_s: f64,
         until_peak: bool,
-        expansion: &mut Expansion,
+        shaken: &mut Shaken,
         shaking: impl Fn(f64, f64, &mut Shaken),
-    ) -> Flow<()> {
-        let mut shaken = Shaken::none();
-        shaking(0.0, length_s, &mut shaken);
+    ) -> Result<Segment, FrameError> {
+        shaking(0.0, length_s, shaken);
         self.check_weight(start_s, length_s, &shaken.vertical)?;
         let impacts_before = self.impacts;
-        let (mut offset, mut steps) = (0.0, 0_u64);
-        let mut just_uplifted = false;
-        while offset < length_s {
+        Ok(Segment { start_s, length_s, until_peak, offset: 0.0, steps: 0, just_uplifted: false, impacts_before })
+    }
+
+    /// What the next step of the segment is expanded from, with its `shaken`; none where the segment ends at rest or is
+    /// over.
+    pub(crate) fn begin_step(
+        &mut self,
+        segment: &mut Segment,
+        shaken: &mut Shaken,
+        shaking: impl Fn(f64, f64, &mut Shaken),
+    ) -> Result<Option<Asked>, FrameError> {
+        let Segment { start_s, length_s, .. } = *segment;
+        while segment.offset < length_s {
             let mut at_threshold = false;
             if self.resting {
-                let remaining = length_s - offset;
-                shaking(offset, remaining, &mut shaken);
-                let Some(s) = self.find_uplift(&shaken) else { break };
+                let remaining = length_s - segment.offset;
+                shaking(segment.offset, remaining, shaken);
+                let Some(s) = self.find_uplift(shaken) else { break };
                 at_threshold = s > 0.0;
-                offset += s * remaining;
-                if offset >= length_s {
+                segment.offset += s * remaining;
+                if segment.offset >= length_s {
                     break; // at the very end: the next segment finds it
                 }
                 self.branch = 0;
-                just_uplifted = true;
+                segment.just_uplifted = true;
             }
-            steps += 1;
-            if steps > MOST_STEPS {
-                return Err(FrameError::Rattles { time_s: start_s + offset, rotation_rad: self.x, steps });
+            segment.steps += 1;
+            if segment.steps > MOST_STEPS {
+                let (time_s, steps) = (start_s + segment.offset, segment.steps);
+                return Err(FrameError::Rattles { time_s, rotation_rad: self.x, steps });
             }
 
-            let mut step_s = (length_s - offset).min(LONGEST_STEP / self.p).min(self.apex_step_s());
-            shaking(offset, step_s, &mut shaken);
-            self.lean_into(&mut shaken);
-            if !just_uplifted && self.rests(&shaken, step_s) {
-                self.come_to_rest(start_s + offset);
+            let apex_step_s = self.apex_step_s();
+            let mut step_s = (length_s - segment.offset).min(LONGEST_STEP / self.p).min(apex_step_s);
+            shaking(segment.offset, step_s, shaken);
+            self.lean_into(shaken);
+            if !segment.just_uplifted && self.rests(shaken, step_s) {
+                self.come_to_rest(start_s + segment.offset);
                 continue;
             }
             if let Lean::Plane { .. } = self.lean
@@ -263,47 +308,58 @@ impl<O: Observer> Motion<O> {
                     step_s = rebound_s;
                 }
             }
-            self.expand(expansion, &shaken, step_s, at_threshold);
-            let step = expansion.step();
-            if self.resting {
-                if let Lean::Plane { .. } = self.lean
-                    && leading_sign(step.x().iter()) <= 0.0
-                {
-                    // shaking above the threshold by a rounding only
-                    offset += 1e-9 * length_s;
-                    continue;
-                }
-                self.resting = false;
-                self.uplift_s.get_or_insert(start_s + offset);
-                self.observe(start_s + offset, Moment::Uplift, &shaken);
-            } else if leading_sign(step.x().iter()) <= 0.0 {
-                self.come_to_rest(start_s + offset);
-                offset += 1e-9 * length_s;
-                continue;
-            }
-            just_uplifted = false;
+            return Ok(Some(Asked { step_s, at_threshold, is_long: step_s > LONG_STEP * apex_step_s }));
+        }
+        Ok(None)
+    }
 
-            let begin = offset;
-            offset = if step.length_s >= length_s - begin { length_s } else { begin + step.length_s };
-            let time_s = |s: f64| start_s + (begin + s * step.length_s);
-            if step.length_s < step_s {
-                shaken.stretch(step.length_s / step_s);
+    /// Goes through the step that was expanded as [`begin_step`](Self::begin_step) asked.
+    pub(crate) fn end_step(
+        &mut self,
+        segment: &mut Segment,
+        step: &Step,
+        step_s: f64,
+        shaken: &mut Shaken,
+    ) -> Flow<()> {
+        let Segment { start_s, length_s, offset: begin, .. } = *segment;
+        if self.resting {
+            if let Lean::Plane { .. } = self.lean
+                && leading_sign(step.x().iter()) <= 0.0
+            {
+                // shaking above the threshold by a rounding only
+                segment.offset += 1e-9 * length_s;
+                return Ok(ControlFlow::Continue(()));
             }
-            let cut = match self.step(step, &shaken, time_s, until_peak)? {
-                ControlFlow::Break(ending) => return Ok(ControlFlow::Break(ending)),
-                ControlFlow::Continue(cut) => cut,
-            };
-            if let Some(s) = cut {
-                offset = begin + s * step.length_s;
-                if self.impacts - impacts_before >= u64::from(MOST_IMPACTS) && !self.resting {
-                    self.was_cut = true;
-                    self.come_to_rest(start_s + offset);
-                    break;
-                }
+            self.resting = false;
+            self.uplift_s.get_or_insert(start_s + begin);
+            self.observe(start_s + begin, Moment::Uplift, shaken);
+        } else if leading_sign(step.x().iter()) <= 0.0 {
+            self.come_to_rest(start_s + begin);
+            segment.offset += 1e-9 * length_s;
+            return Ok(ControlFlow::Continue(()));
+        }
+        segment.just_uplifted = false;
+
+        segment.offset = if step.length_s >= length_s - begin { length_s } else { begin + step.length_s };
+        let time_s = |s: f64| start_s + (begin + s * step.length_s);
+        if step.length_s < step_s {
+            shaken.stretch(step.length_s / step_s);
+        }
+        let cut = match self.step(step, shaken, time_s, segment.until_peak)? {
+            ControlFlow::Break(ending) => return Ok(ControlFlow::Break(ending)),
+            ControlFlow::Continue(cut) => cut,
+        };
+        if let Some(s) = cut {
+            segment.offset = begin + s * step.length_s;
+            if self.impacts - segment.impacts_before >= u64::from(MOST_IMPACTS) && !self.resting {
+                self.was_cut = true;
+                self.come_to_rest(start_s + segment.offset);
+                segment.offset = length_s;
+                return Ok(ControlFlow::Continue(()));
             }
-            if let Some(passing_s) = self.pass_apex() {
-                offset += passing_s;
-            }
+        }
+        if let Some(passing_s) = self.pass_apex() {
+            segment.offset += passing_s;
         }
         Ok(ControlFlow::Continue(()))
     }
@@ -368,12 +424,29 @@ impl<O: Observer> Motion<O> {
         versine * (j1 + j2 * sine + j3 * versine)
     }
 
-    fn expand(&self, expansion: &mut Expansion, shaken: &Shaken, step_s: f64, balanced: bool) {
+    /// The law of the restrainers that holds now.
+    fn held(&self) -> Option<(&Branch, &RestrainedColumns)> {
+        self.branches.get(self.branch).map(|branch| (branch, self.frame.columns()))
+    }
+
+    /// A step from the present state, if it can be expanded together with others.
+    pub(crate) fn begin<const WOBBLES: bool>(&self, shaken: &Shaken, asked: &Asked) -> Option<Begin> {
+        let turning = match self.lean {
+            Lean::Space(turning) if WOBBLES => Some(turning),
+            Lean::Plane { .. } if !WOBBLES && !asked.at_threshold => None,
+            _ => return None,
+        };
+        let pull = self.held().map_or(Some([0.0; 2]), |(branch, _)| branch.multiples())?;
+        Begin::new((self.x, self.v), turning, shaken, pull, asked.step_s)
+    }
+
+    /// Expands a step from the present state, as far as its coefficients are numbers.
+    pub(crate) fn expand(&self, expansion: &mut Expansion, shaken: &Shaken, step_s: f64, balanced: bool) {
         let turning = match self.lean {
             Lean::Plane { .. } => None,
             Lean::Space(turning) => Some(turning),
         };
-        let held = self.branches.get(self.branch).map(|branch| (branch, self.frame.columns()));
+        let held = self.held();
         let balanced = balanced && turning.is_none();
         let mut expand = |shaken: &Shaken, step_s: f64| {
             expansion.expand(&self.constants, (self.x, self.v), turning, shaken, held, step_s, balanced);

@@ -1,19 +1,19 @@
 //! The response of a frame to the ground's motion.
 
-use std::ops::ControlFlow;
-
+use uplift_instructions::Instructions;
 use uplift_statics::EventKind;
 use uplift_statics::tilt::travel_m;
 
+use crate::course::Course;
 use crate::error::{FrameError, within};
 use crate::escape::LYING_RAD;
 use crate::frame::{ColumnShape, RockingFrame};
-use crate::ground::{GroundMotion, Piece, length};
+use crate::ground::GroundMotion;
 use crate::history::{History, Moment, Observer, Unobserved};
-use crate::motion::{Ending, LONGEST_STEP, Lean, Motion, Rules};
+use crate::motion::{Ending, Lean, Motion, Rules};
 use crate::peaks::Peak;
 use crate::rolling::LEAST_RESTITUTION;
-use crate::series::{Expansion, Shaken, Turning};
+use crate::series::{Expansion, Turning};
 
 /// Longest motion computed, in units of 1/p.
 const LONGEST_MOTION: f64 = 1e7;
@@ -164,7 +164,23 @@ pub fn respond(
     model: Model,
     options: &Options,
 ) -> Result<FrameResponse, FrameError> {
-    run(frame, ground, model, options, Unobserved).map(|(response, _)| response)
+    run(frame, ground, model, options, Unobserved::<true>, Instructions::chosen()).map(|(response, _)| response)
+}
+
+/// What a fragility needs of a response.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrameDemand {
+    /// Largest travel `U` of the deck, m; +∞ of a frame that overturns.
+    pub displacement_m: f64,
+    /// Impacts of the planar model; exact passages through the apex of the wobbling one.
+    pub impacts: u64,
+}
+
+/// The demand of a motion that has ended.
+pub(crate) fn demand_of<O: Observer>(frame: &RockingFrame, motion: &Motion<O>, ending: Option<Ending>) -> FrameDemand {
+    let overturned = ending == Some(Ending::Overturned);
+    let travel_m = travel_m(frame.geometry(), motion.peaks.rotation.value);
+    FrameDemand { displacement_m: if overturned { f64::INFINITY } else { travel_m }, impacts: motion.impacts }
 }
 
 /// The same, with the motion in time: a row at every sample (sixteenth of a pulse's period, 0.5/p of free motion),
@@ -178,7 +194,7 @@ pub fn respond_with_history(
     model: Model,
     options: &Options,
 ) -> Result<(FrameResponse, History), FrameError> {
-    run(frame, ground, model, options, History::default())
+    run(frame, ground, model, options, History::default(), Instructions::chosen())
 }
 
 fn run<O: Observer>(
@@ -187,7 +203,21 @@ fn run<O: Observer>(
     model: Model,
     options: &Options,
     observer: O,
+    instructions: Instructions,
 ) -> Result<(FrameResponse, O), FrameError> {
+    let mut course = course(frame, ground, model, options, observer)?;
+    let ending = course.run(&mut Expansion::new(instructions))?;
+    Ok(report(frame, course.motion, ending))
+}
+
+/// A motion at its begin.
+pub(crate) fn course<'a, O: Observer>(
+    frame: &RockingFrame,
+    ground: &GroundMotion<'a>,
+    model: Model,
+    options: &Options,
+    observer: O,
+) -> Result<Course<'a, O>, FrameError> {
     if model == Model::Wobbling && frame.shape() == ColumnShape::Rectangle {
         return Err(FrameError::RectangleWobbles);
     }
@@ -212,8 +242,7 @@ fn run<O: Observer>(
     if let Start::Tilted(_) = options.start {
         motion.release(rotation, velocity);
     }
-    let ending = follow(&mut motion, &seen, options.until, LONGEST_STEP / p)?;
-    Ok(report(frame, motion, ending == Some(Ending::Overturned)))
+    Ok(Course::new(motion, seen, options.until))
 }
 
 fn rules(frame: &RockingFrame, model: Model, options: &Options) -> Result<Rules, FrameError> {
@@ -290,97 +319,14 @@ fn begin(
     Ok((Lean::Space(Turning { direction: direction_rad, momentum }), rotation_rad, velocity_rad_s))
 }
 
-/// Shaking, then free motion; what ended it, if not time.
-fn follow<O: Observer>(
-    motion: &mut Motion<O>,
-    ground: &GroundMotion<'_>,
-    until: Until,
-    step_s: f64,
-) -> Result<Option<Ending>, FrameError> {
-    let last_s = match until {
-        Until::FirstFreePeak => f64::INFINITY,
-        Until::Time(time_s) => time_s,
-    };
-    let gravity = motion.gravity_m_s2();
-    let write = |[x, y, z]: &[Piece; 3], offset: f64, step: f64, shaken: &mut Shaken| {
-        x.write(offset, step, &mut shaken.horizontal[0]);
-        y.write(offset, step, &mut shaken.horizontal[1]);
-        z.write(offset, step, &mut shaken.vertical);
-    };
-    let at = |pieces: &[Piece; 3], offset: f64| {
-        let mut shaken = Shaken::none();
-        write(pieces, offset, 1.0, &mut shaken);
-        shaken
-    };
-    let knots = ground.knots_s();
-    let mut expansion = Expansion::new();
-    let mut now_s = 0.0;
-    for ends in knots.windows(2) {
-        let (begin_s, end_s) = (ends[0], ends[1].min(last_s));
-        if end_s <= begin_s {
-            break;
-        }
-        let length_s = end_s - begin_s;
-        let pieces = ground.between(begin_s, ends[1], gravity);
-        if now_s == 0.0 && O::KEEPS {
-            motion.observe_sample(0.0, at(&pieces, 0.0));
-        }
-        if motion.resting {
-            motion.follow_ground(pieces.map(|piece| piece.value(0.0)), begin_s);
-        }
-        if !stays_at_rest(motion, &pieces, length_s) {
-            let shaking = |offset: f64, step: f64, shaken: &mut Shaken| write(&pieces, offset, step, shaken);
-            if let ControlFlow::Break(ending) = motion.advance(begin_s, length_s, false, &mut expansion, shaking)? {
-                return Ok(Some(ending));
-            }
-        }
-        if motion.resting {
-            motion.follow_ground(pieces.map(|piece| piece.value(length_s)), end_s);
-        }
-        if O::KEEPS {
-            motion.observe_sample(end_s, at(&pieces, length_s));
-        }
-        now_s = end_s;
-    }
-    if until == Until::FirstFreePeak && !motion.resting && motion.is_lost() {
-        return Ok(Some(motion.overturn(now_s)));
-    }
-    let (mut steps, begin_s) = (0.0, now_s);
-    loop {
-        now_s = begin_s + steps * step_s;
-        if motion.resting || now_s >= last_s {
-            return Ok(None);
-        }
-        let length_s = step_s.min(last_s - now_s);
-        let until_peak = until == Until::FirstFreePeak;
-        let advanced = motion.advance(now_s, length_s, until_peak, &mut expansion, |_, _, _| {})?;
-        if let ControlFlow::Break(ending) = advanced {
-            return Ok(Some(ending));
-        }
-        if O::KEEPS {
-            motion.observe_sample(now_s + length_s, Shaken::none());
-        }
-        steps += 1.0;
-    }
-}
-
-/// Whether a frame at rest surely stays so on a segment of straight pieces.
-fn stays_at_rest<O: Observer>(motion: &Motion<O>, pieces: &[Piece; 3], length_s: f64) -> bool {
-    if !motion.resting {
-        return false;
-    }
-    let [Some(x), Some(y), Some(z)] = pieces.map(|piece| piece.ends(length_s)) else { return false };
-    let size = |ends: [f64; 2]| ends[0].abs().max(ends[1].abs());
-    motion.stays_at_rest(length([size(x), size(y)]), -z[0].min(z[1]))
-}
-
-fn report<O: Observer>(frame: &RockingFrame, motion: Motion<O>, overturned: bool) -> (FrameResponse, O) {
+fn report<O: Observer>(frame: &RockingFrame, motion: Motion<O>, ending: Option<Ending>) -> (FrameResponse, O) {
+    let overturned = ending == Some(Ending::Overturned);
     let geometry = frame.geometry();
     let peaks = motion.peaks;
     let rotation = peaks.rotation;
     let scaled = |peak: Peak, factor: f64| Peak { value: factor * peak.value, ..peak };
     let everywhere = |value: f64| Peak { value, ..rotation };
-    let displacement = everywhere(if overturned { f64::INFINITY } else { travel_m(geometry, rotation.value) });
+    let displacement = everywhere(demand_of(frame, &motion, ending).displacement_m);
     let [displacement_x, displacement_y] = match motion.lean {
         _ if overturned => [displacement; 2],
         Lean::Plane { direction, .. } => direction.map(|component| scaled(displacement, component.abs())),

@@ -19,14 +19,17 @@
 //! E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, Section I.8 (recursive Taylor
 //! coefficients).
 
+use uplift_instructions::{Instructions, Work};
 use uplift_statics::RestrainedColumns;
 use uplift_taylor::{
     DEGREE, Factors, Forcing, LEAST_ORDER, ORDER, TRUNCATION, first_zero, leading_sign, product, stretch, value,
 };
 
+mod side_by_side;
 mod strands;
 mod wobble;
 
+pub(crate) use side_by_side::{Begin, Begins, LANES, SeriesOfAll};
 use strands::Strands;
 use wobble::Wobble;
 
@@ -112,6 +115,7 @@ pub(crate) struct Step {
 /// What a step is expanded in, kept from step to step: to clear and to move it would cost as much as to fill it.
 #[derive(Debug)]
 pub(crate) struct Expansion {
+    instructions: Instructions,
     step: Step,
     sin_psi: Coefficients,
     cos_psi: Coefficients,
@@ -122,23 +126,11 @@ pub(crate) struct Expansion {
 }
 
 impl Expansion {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(instructions: Instructions) -> Self {
         let zero = [0.0; DEGREE + 1];
-        let step = Step {
-            length_s: 0.0,
-            order: 0,
-            x: zero,
-            v: zero,
-            sine: zero,
-            versine: zero,
-            direction: zero,
-            momentum: zero,
-            turning: zero,
-            sin_direction: zero,
-            cos_direction: zero,
-        };
         Self {
-            step,
+            instructions,
+            step: Step::NONE,
             sin_psi: zero,
             cos_psi: zero,
             swept: Factors::default(),
@@ -165,36 +157,44 @@ impl Expansion {
         step_s: f64,
         balanced: bool,
     ) {
-        if let Some(turning) = turning {
-            let step = &mut self.step;
-            (step.direction[0], step.momentum[0]) = (turning.direction, turning.momentum);
-            (step.sin_direction[0], step.cos_direction[0]) = turning.direction.sin_cos();
-            self.expand_as::<true>(constants, (x, v), shaken, held, step_s, balanced);
-        } else {
-            self.expand_as::<false>(constants, (x, v), shaken, held, step_s, balanced);
-        }
-    }
-
-    /// The same of a frame that wobbles or not, from the turning that the step has.
-    fn expand_as<const WOBBLES: bool>(
-        &mut self,
-        constants: &Constants,
-        (x, v): (f64, f64),
-        shaken: &Shaken,
-        held: Option<(&Branch, &RestrainedColumns)>,
-        step_s: f64,
-        balanced: bool,
-    ) {
-        let h = step_s;
-        let Self { step, sin_psi, cos_psi, swept, wobble, strands } = self;
+        let step = &mut self.step;
         step.length_s = step_s;
         (step.x[0], step.v[0]) = (x, v);
         let (half_sin, half_cos) = (0.5 * x).sin_cos();
         (step.sine[0], step.versine[0]) = (2.0 * half_sin * half_cos, 2.0 * half_sin * half_sin);
         if let Some((branch, columns)) = held {
-            strands.begin(branch, columns, x, [half_sin, half_cos]);
+            self.strands.begin(branch, columns, x, [half_sin, half_cos]);
         }
-        let multiples = if held.is_some() { strands.multiples() } else { Some([0.0, 0.0]) };
+        let multiples = held.map_or(Some([0.0, 0.0]), |(branch, _)| branch.multiples());
+        let instructions = self.instructions;
+        if let Some(turning) = turning {
+            (step.direction[0], step.momentum[0]) = (turning.direction, turning.momentum);
+            (step.sin_direction[0], step.cos_direction[0]) = turning.direction.sin_cos();
+            instructions.run(Expanding::<true> { expansion: self, constants, shaken, multiples, balanced });
+        } else {
+            instructions.run(Expanding::<false> { expansion: self, constants, shaken, multiples, balanced });
+        }
+    }
+}
+
+/// The terms of a step of a frame that wobbles or not, after the first ones.
+struct Expanding<'a, const WOBBLES: bool> {
+    expansion: &'a mut Expansion,
+    constants: &'a Constants,
+    shaken: &'a Shaken,
+    /// [`Branch::multiples`].
+    multiples: Option<[f64; 2]>,
+    balanced: bool,
+}
+
+impl<const WOBBLES: bool> Work for Expanding<'_, WOBBLES> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { expansion, constants, shaken, multiples, balanced } = self;
+        let Expansion { step, sin_psi, cos_psi, swept, wobble, strands, .. } = expansion;
+        let (h, v) = (step.length_s, step.v[0]);
         let vertical = shaken.vertical.coefficients();
         let is_level = shaken.vertical.is_zero();
         let along = shaken.horizontal[0].coefficients();
@@ -276,6 +276,7 @@ impl<const N: usize> Convergence<N> {
     }
 
     /// With one term more of each.
+    #[inline(always)]
     fn take(&mut self, terms: [f64; N]) -> bool {
         let mut is_converged = true;
         for (i, term) in terms.into_iter().enumerate() {
@@ -292,6 +293,20 @@ impl<const N: usize> Convergence<N> {
 }
 
 impl Step {
+    pub(crate) const NONE: Self = Self {
+        length_s: 0.0,
+        order: 0,
+        x: [0.0; DEGREE + 1],
+        v: [0.0; DEGREE + 1],
+        sine: [0.0; DEGREE + 1],
+        versine: [0.0; DEGREE + 1],
+        direction: [0.0; DEGREE + 1],
+        momentum: [0.0; DEGREE + 1],
+        turning: [0.0; DEGREE + 1],
+        sin_direction: [0.0; DEGREE + 1],
+        cos_direction: [0.0; DEGREE + 1],
+    };
+
     /// The largest of the last two terms of velocity, momentum and turning.
     fn tails(&self) -> [f64; 3] {
         let n = self.order;
@@ -424,7 +439,7 @@ fn slope(c: &[f64], s: f64) -> f64 {
 }
 
 /// `Σ aⱼ bₖ₋ⱼ` where `a` may be short: on a record it is a straight line.
-#[inline]
+#[inline(always)]
 fn short_product(a: &[f64], b: &Coefficients, k: usize) -> f64 {
     match a {
         [begin, change] if k > 0 => begin * b[k] + change * b[k - 1],

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 use uplift_block::{BlockResponse, FreeRocking, RockingBlock, respond_at_scales};
-use uplift_frame::{Model, Options, RockingFrame, Until};
+use uplift_frame::{FrameDemand, FrameError, Model, Options, RockingFrame, Until, demands};
 use uplift_motion::{Accelerogram, MotionError};
 use uplift_oscillator::{GroundMotion, Oscillator, Peak, Sweep};
 
@@ -35,8 +35,8 @@ pub fn analyse(plan: &Plan<'_>, watch: &dyn Watch) -> Result<Peaks, IdaError> {
 /// undisturbed [`analyse`], to the bit. A row of which everything is known is not handed over again.
 ///
 /// Rows are shared out among the threads; the scale factors of a system that is not [swept](System::is_swept) as well,
-/// so that a few long rows keep all threads busy too. `watch` is asked before every row, and before every run of a
-/// system that is not swept, or every 32 of a block.
+/// so that a few long rows keep all threads busy too. `watch` is asked before every row, and before every 32 runs of a
+/// system that is not swept.
 ///
 /// # Errors
 /// As [`analyse`]; what `keep` was given is finished all the same.
@@ -74,12 +74,12 @@ pub fn complete(
                     let from = |ground| swept(oscillator, ground, plan.with_free_peak(), &scales);
                     of_azimuths.iter().map(from).collect()
                 }
-                (System::Block(block), _) if grounds.iter().all(|ground| ground.upwards.is_none()) => {
+                (one_by_one, _) => {
                     let run = |ground: &Ground<'_>, scales: &[f64]| {
                         if watch.cancelled() {
                             return Err(IdaError::Cancelled);
                         }
-                        let peaks = rocked(block, ground, scales, plan.with_free_peak())?;
+                        let peaks = several(one_by_one, ground, scales, plan.with_free_peak())?;
                         watch.finished(scales.len() as u64);
                         Ok(peaks)
                     };
@@ -87,18 +87,6 @@ pub fn complete(
                         let parts = scales.par_chunks(SCALES_TOGETHER).map(|scales| run(ground, scales));
                         Ok(parts.collect::<Result<Vec<_>, _>>()?.concat())
                     };
-                    grounds.par_iter().map(from).collect::<Result<_, _>>()?
-                }
-                (one_by_one, _) => {
-                    let run = |ground: &Ground<'_>, scale: f64| {
-                        if watch.cancelled() {
-                            return Err(IdaError::Cancelled);
-                        }
-                        let peak = single(one_by_one, ground, scale, plan.with_free_peak())?;
-                        watch.finished(1);
-                        Ok(peak)
-                    };
-                    let from = |ground| scales.par_iter().map(|scale| run(ground, *scale)).collect();
                     grounds.par_iter().map(from).collect::<Result<_, _>>()?
                 }
             };
@@ -125,7 +113,8 @@ pub fn complete(
     Ok(cells)
 }
 
-/// Scale factors at which a thread follows a block before it looks for other work, or is told to stop.
+/// Scale factors at which a thread follows a system that is not swept before it looks for other work, or is told to
+/// stop.
 const SCALES_TOGETHER: usize = 32;
 
 /// The smallest of `peaks`, one an azimuth, that `percentile` per cent of them do not exceed; what overturned is the
@@ -196,47 +185,70 @@ pub(crate) fn swept(
     Sweep::new(oscillator, ground_motion, with_free_peak).peaks(scales)
 }
 
-/// The peak of any system at one scale factor.
-pub(crate) fn single(system: &System, ground: &Ground<'_>, scale: f64, with_free_peak: bool) -> Result<Peak, IdaError> {
+/// Peaks of any system at `scales`, those of a system that is not swept side by side.
+pub(crate) fn several(
+    system: &System,
+    ground: &Ground<'_>,
+    scales: &[f64],
+    with_free_peak: bool,
+) -> Result<Vec<Peak>, IdaError> {
     match system {
         System::Oscillator(oscillator) => {
             let ground_motion = GroundMotion::new(ground.excitation()?);
-            Ok(Sweep::new(oscillator, &ground_motion, with_free_peak).peak(scale))
+            Ok(swept(oscillator, &ground_motion, with_free_peak, scales))
         }
         System::Block(block) if ground.upwards.is_some() => {
             // the block is the frame of one column without a deck, and the frame's solver knows the vertical motion
             let (size_m, slenderness_rad) = (block.size_m(), block.slenderness_rad());
-            let frame = RockingFrame::block(size_m, slenderness_rad, block.gravity_m_s2())
-                .map_err(|source| IdaError::Frame { motion: ground.id.to_owned(), scale, source: source.into() })?;
+            let frame = RockingFrame::block(size_m, slenderness_rad, block.gravity_m_s2()).map_err(|source| {
+                IdaError::Frame {
+                    motion: ground.id.to_owned(),
+                    scale: scales.first().copied().unwrap_or(f64::NAN),
+                    source: source.into(),
+                }
+            })?;
             let restitution = block.restitution();
             let shaken = ShakenFrame { frame, model: Model::Planar, restitution, rest_amplitude_rad: None };
-            wobbled(&shaken, ground, scale, with_free_peak)
+            wobbled(&shaken, ground, scales, with_free_peak)
         }
-        System::Block(block) => Ok(rocked(block, ground, &[scale], with_free_peak)?[0]),
-        System::Frame(shaken) => wobbled(shaken, ground, scale, with_free_peak),
+        System::Block(block) => rocked(block, ground, scales, with_free_peak),
+        System::Frame(shaken) => wobbled(shaken, ground, scales, with_free_peak),
     }
 }
 
 /// Without the free motion after the record, what is lost when it ends stands.
-fn wobbled(shaken: &ShakenFrame, ground: &Ground<'_>, scale: f64, with_free_peak: bool) -> Result<Peak, IdaError> {
+fn wobbled(
+    shaken: &ShakenFrame,
+    ground: &Ground<'_>,
+    scales: &[f64],
+    with_free_peak: bool,
+) -> Result<Vec<Peak>, IdaError> {
     let named = |source: MotionError| IdaError::Motion { motion: ground.id.to_owned(), source: source.into() };
-    let scaled = |component: &Accelerogram| component.scaled(scale).map_err(named);
-    let x = scaled(ground.along)?;
-    let y = ground.across.filter(|_| shaken.model == Model::Wobbling).map(scaled).transpose()?;
-    let z = ground.upwards.map(scaled).transpose()?;
-    let component = uplift_frame::Shaking::Record;
-    let shaking = uplift_frame::GroundMotion {
-        x: Some(component(&x)),
-        y: y.as_ref().map(component),
-        z: z.as_ref().map(component),
+    let across = ground.across.filter(|_| shaken.model == Model::Wobbling);
+    let scaled = |component: Option<&Accelerogram>, scale| component.map(|own| own.scaled(scale)).transpose();
+    let components = [Some(ground.along), across, ground.upwards];
+    let at_scale = |scale: &f64| {
+        let [x, y, z] = components.map(|component| scaled(component, *scale));
+        Ok([x?, y?, z?])
     };
-    let until = if with_free_peak { Until::FirstFreePeak } else { Until::Time(shaking.duration_s()) };
+    let motions = scales.iter().map(at_scale).collect::<Result<Vec<_>, _>>().map_err(named)?;
+    let shaking: Vec<_> = motions.iter().map(together).collect();
+    let duration_s = shaking.first().map_or(0.0, uplift_frame::GroundMotion::duration_s);
+    let until = if with_free_peak { Until::FirstFreePeak } else { Until::Time(duration_s) };
     let ShakenFrame { restitution, rest_amplitude_rad, .. } = *shaken;
     let options = Options { until, restitution: Some(restitution), rest_amplitude_rad, ..Options::default() };
-    let response = uplift_frame::respond(&shaken.frame, &shaking, shaken.model, &options)
-        .map_err(|source| IdaError::Frame { motion: ground.id.to_owned(), scale, source: source.into() })?;
-    let impacts = u32::try_from(response.impacts).unwrap_or(u32::MAX);
-    Ok(Peak { displacement_m: response.displacement.value, impacts })
+    let peak = |(demand, &scale): (Result<FrameDemand, FrameError>, &f64)| {
+        let demand =
+            demand.map_err(|source| IdaError::Frame { motion: ground.id.to_owned(), scale, source: source.into() })?;
+        let impacts = u32::try_from(demand.impacts).unwrap_or(u32::MAX);
+        Ok(Peak { displacement_m: demand.displacement_m, impacts })
+    };
+    demands(&shaken.frame, &shaking, shaken.model, &options).into_iter().zip(scales).map(peak).collect()
+}
+
+fn together([x, y, z]: &[Option<Accelerogram>; 3]) -> uplift_frame::GroundMotion<'_> {
+    let [x, y, z] = [x, y, z].map(|component| component.as_ref().map(uplift_frame::Shaking::Record));
+    uplift_frame::GroundMotion { x, y, z }
 }
 
 /// Peaks of a block at `scales`, together.

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use uplift_oscillator::GroundMotion;
 
-use crate::analysis::{single, swept};
+use crate::analysis::{several, swept};
 use crate::plan::Plan;
 use crate::system::System;
 
@@ -13,27 +13,26 @@ use crate::system::System;
 pub struct Estimate {
     /// Seconds on one thread.
     pub seconds_one_thread: f64,
-    /// Analysis rows that were timed, of systems that are not swept by one of their runs.
+    /// Analysis rows that were timed, of systems that are not swept by some of their runs.
     pub rows_timed: usize,
 }
 
 /// Rows timed at least, however small the budget.
 const LEAST_ROWS: usize = 16;
-/// Steps that leave no region out however early a visit ends: the golden ratio for the rows, √2 for the scale factors,
-/// so that the two go their own ways.
-const STEPS: [f64; 2] = [0.618_033_988_749_894_9, std::f64::consts::SQRT_2 - 1.0];
+/// Scale factors that stand for all of a row of a system that is not swept: a row of an expensive one would take the
+/// budget many times over.
+const SCALES_TIMED: usize = 8;
+/// A step that leaves no row out of sight however early a visit ends: the golden ratio.
+const STEP: f64 = 0.618_033_988_749_894_9;
 
 /// Time rows of `plan` spread over motions and systems until `budget` is spent, and extrapolate.
-///
-/// Of a system that is not swept together a single run stands for its row: a row of an expensive one would take the
-/// budget many times over.
 pub fn estimate(plan: &Plan<'_>, budget: Duration) -> Estimate {
     let axes = plan.axes();
     let start = Instant::now();
     let mut spent = Duration::ZERO;
     let mut timed = 0;
     while timed < axes.rows() && (timed < LEAST_ROWS || start.elapsed() < budget) {
-        let (motion, system) = axes.of_row(spread(timed, axes.rows(), STEPS[0]));
+        let (motion, system) = axes.of_row(spread(timed, axes.rows()));
         // one azimuth stands for all
         let Some(ground) = plan.grounds_of(motion).next() else { break };
         let azimuths = u32::try_from(plan.histories_per_peak()).unwrap_or(u32::MAX);
@@ -46,13 +45,15 @@ pub fn estimate(plan: &Plan<'_>, budget: Duration) -> Estimate {
                 std::hint::black_box(swept(oscillator, &ground, plan.with_free_peak(), &scales));
                 spent += begin.elapsed() * azimuths;
             }
-            one_by_one @ (System::Block(_) | System::Frame(_)) => {
+            other @ (System::Block(_) | System::Frame(_)) => {
+                let each = scales.len().div_ceil(SCALES_TIMED).max(1);
+                let some: Vec<f64> = scales.iter().copied().skip(timed % each).step_by(each).collect();
                 let begin = Instant::now();
-                let scale = scales[spread(timed, scales.len(), STEPS[1])];
-                if std::hint::black_box(single(one_by_one, &ground, scale, plan.with_free_peak())).is_err() {
+                if std::hint::black_box(several(other, &ground, &some, plan.with_free_peak())).is_err() {
                     break;
                 }
-                spent += begin.elapsed() * azimuths * u32::try_from(scales.len()).unwrap_or(u32::MAX);
+                let share = some.len().max(1) as f64 / scales.len().max(1) as f64;
+                spent += begin.elapsed().div_f64(share) * azimuths;
             }
         }
         timed += 1;
@@ -62,8 +63,8 @@ pub fn estimate(plan: &Plan<'_>, budget: Duration) -> Estimate {
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a fraction of a count")]
-fn spread(index: usize, count: usize, step: f64) -> usize {
-    (((index as f64 + 0.5) * step).fract() * count as f64) as usize
+fn spread(index: usize, count: usize) -> usize {
+    (((index as f64 + 0.5) * STEP).fract() * count as f64) as usize
 }
 
 #[cfg(test)]
@@ -72,13 +73,11 @@ mod tests {
 
     #[test]
     fn the_visit_reaches_every_region() {
-        for step in STEPS {
-            let mut seen = [false; 10];
-            for index in 0..20 {
-                seen[spread(index, 10, step)] = true;
-            }
-            assert!(seen.iter().all(|&seen| seen), "{step}");
-            assert!((0..1000).all(|index| spread(index, 7, step) < 7));
+        let mut seen = [false; 10];
+        for index in 0..20 {
+            seen[spread(index, 10)] = true;
         }
+        assert!(seen.iter().all(|&seen| seen));
+        assert!((0..1000).all(|index| spread(index, 7) < 7));
     }
 }

@@ -8,6 +8,9 @@
 //!
 //! A step is a power series in `s = time/step` from 0 to 1, of degree [`DEGREE`] at most.
 
+// what is not inlined is not compiled for the instructions of what it is called by
+#![allow(clippy::inline_always)]
+
 pub mod forcing;
 pub mod polynomial;
 pub mod rebound;
@@ -38,7 +41,7 @@ pub fn stretch(c: &mut [f64], ratio: f64) {
 }
 
 /// `Σ aⱼ bₖ₋ⱼ`, j from 0 to k: the coefficient of the product of two series.
-#[inline]
+#[inline(always)]
 pub fn product(a: &[f64], b: &[f64], k: usize) -> f64 {
     a[..=k].iter().zip(b[..=k].iter().rev()).map(|(a, b)| a * b).sum()
 }
@@ -62,7 +65,7 @@ impl<const N: usize> Factors<N> {
     ///
     /// # Panics
     /// If `k` is above [`DEGREE`].
-    #[inline]
+    #[inline(always)]
     pub fn products(&mut self, first: [f64; N], second: [f64; N], k: usize) -> [f64; N] {
         let sums = if k == 0 {
             from_fn(|i| first[i] * second[i])
@@ -80,7 +83,7 @@ impl<const N: usize> Factors<N> {
     ///
     /// # Panics
     /// If `k` is above [`DEGREE`] or `lane` not below the number of lanes.
-    #[inline]
+    #[inline(always)]
     pub fn replace(&mut self, lane: usize, [first, second]: [f64; 2], k: usize) {
         (self.first[k][lane], self.second[k][lane]) = (first, second);
     }

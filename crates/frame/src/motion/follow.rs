@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use uplift_instructions::Instructions;
 use uplift_taylor::{DEGREE, leading_sign, sign_changes, value};
 
 use super::step::first_reach;
@@ -35,7 +36,7 @@ impl<O: Observer> Motion<O> {
         let v = step.v();
         let wobbles = matches!(self.lean, Lean::Space(_));
         let may_turn = v[0].abs() <= v[1..].iter().map(|v| v.abs()).sum();
-        if reach > self.peaks.rotation.value || (wobbles && may_turn) {
+        if reach > self.peaks.rotation.value || (O::FOLLOWS_ALL && wobbles && may_turn) {
             let mut sign = leading_sign(v.iter());
             let _ = sign_changes(v, &mut |s| {
                 if s > end {
@@ -52,6 +53,9 @@ impl<O: Observer> Motion<O> {
                 }
                 ControlFlow::Continue(())
             });
+        }
+        if !O::FOLLOWS_ALL {
+            return;
         }
         // u/2R is less than the rotation
         let lowest = self.peaks.travel[0].value.min(self.peaks.travel[1].value);
@@ -97,7 +101,7 @@ impl<O: Observer> Motion<O> {
             self.peaks.rotation.raise(x, time_s);
             self.peaks.direction_rad = self.direction_at(step, s);
         }
-        if matches!(self.lean, Lean::Space(_)) {
+        if O::FOLLOWS_ALL && matches!(self.lean, Lean::Space(_)) {
             let travel = self.travel_at(x);
             let (sin, cos) = self.direction_at(step, s).sin_cos();
             self.peaks.travel[0].raise((travel * cos).abs(), time_s);
@@ -107,6 +111,9 @@ impl<O: Observer> Motion<O> {
 
     /// Total acceleration of deck and base shear at s of a step.
     pub(super) fn follow_deck(&mut self, step: &Step, shaken: &Shaken, s: f64, time_s: f64) {
+        if !O::FOLLOWS_ALL {
+            return;
+        }
         let own = self.deck_acceleration(step, s);
         let ground = self.ground(shaken, s);
         self.raise_deck(own, ground, time_s);
@@ -163,7 +170,7 @@ impl<O: Observer> Motion<O> {
     /// A frame at rest moves with the ground, whose acceleration is given in units of g, as long as that does not lift
     /// it.
     pub(crate) fn follow_ground(&mut self, [x, y, z]: [f64; 3], time_s: f64) {
-        if length([x, y]) > self.tangent * (1.0 + z) + self.prestress {
+        if !O::FOLLOWS_ALL || length([x, y]) > self.tangent * (1.0 + z) + self.prestress {
             return;
         }
         let ground = [x, y].map(|component| self.frame.gravity_m_s2() * component);
@@ -185,7 +192,7 @@ impl<O: Observer> Motion<O> {
         let (mut own, mut rising) = ([0.0; 2], 0.0);
         if !self.resting && self.x > 0.0 {
             let still = shaken.stretched(0.0);
-            let mut expansion = Expansion::new();
+            let mut expansion = Expansion::new(Instructions::chosen());
             self.expand(&mut expansion, &still, 1e-9 / self.p, false);
             own = self.deck_acceleration(expansion.step(), 0.0);
             rising = self.rise_acceleration(expansion.step());

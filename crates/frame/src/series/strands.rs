@@ -64,17 +64,6 @@ impl Strands {
         }
     }
 
-    /// `T Δ'` as multiples of `sin θ` and of `cos ½θ`, N m, where it is no more than that.
-    pub(super) fn multiples(&self) -> Option<[f64; 2]> {
-        match (self.law, self.form) {
-            (Law::Loose, _) => Some([0.0, 0.0]),
-            (Law::Linear { constant_n, stiffness_n_m }, Form::Axis { lever_m }) => {
-                Some([lever_m * stiffness_n_m * lever_m, lever_m * constant_n])
-            }
-            _ => None,
-        }
-    }
-
     /// Coefficient `k` of `T Δ'`, N m. Kept apart: its loops would cost the step of a spring that needs none of them.
     #[inline(never)]
     pub(super) fn moment(&mut self, sine: &Coefficients, versine: &Coefficients, k: usize) -> f64 {
@@ -125,12 +114,14 @@ impl Strands {
     }
 
     /// Coefficient `k` of the half angle's sine and cosine.
+    #[inline(always)]
     pub(super) fn half(&self, k: usize) -> [f64; 2] {
         [self.half_sine[k], self.half_cosine[k]]
     }
 
     /// The half angle's sine and cosine to one order more, from the coefficients `k` of their products with the
     /// velocity.
+    #[inline(always)]
     pub(super) fn extend(&mut self, [sine_v, cosine_v]: [f64; 2], factor: f64, k: usize) {
         self.half_sine[k + 1] = 0.5 * factor * cosine_v;
         self.half_cosine[k + 1] = -0.5 * factor * sine_v;

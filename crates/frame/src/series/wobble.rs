@@ -32,6 +32,7 @@ pub(super) struct Changes {
 
 impl Wobble {
     /// The coefficients of order `k`, of which that of `cos ψ` is given.
+    #[inline(always)]
     pub(super) fn order(
         &mut self,
         constants: &Constants,
