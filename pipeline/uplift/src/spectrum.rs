@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 use uplift_alarms::{Scope, alarms_of};
+use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_result::ResultFile;
 use uplift_uniform_risk::{DisplacementOptions, DisplacementReport, at, displacements, site_index};
@@ -25,10 +26,19 @@ pub struct SpectrumReport {
 ///
 /// # Errors
 /// A file that is missing, damaged, of another kind, or without sites; strengths, risks, sites or a measure that it
-/// does not have.
+/// does not have; repaired spectra where no site has one.
 pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumReport, UpliftError> {
     let file = at(ResultFile::open(path)?, &asked.risk)?;
     let found = displacements(&file, asked)?;
+    if found.repaired && found.displacements.iter().all(|own| own.u_m.is_nan()) {
+        return Err(JobError::Usage(format!(
+            "--repaired: no weights repair the records by {}: use the spectrum without --repaired, and see which \
+             records are missing: uplift consistency {} --details",
+            found.measure.label(),
+            path.display()
+        ))
+        .into());
+    }
     let axes = file.axes()?;
     let site = match &asked.sites[..] {
         [only] => Some(site_index(&axes.sites, only)?),
