@@ -274,6 +274,7 @@ fn limits_of_size() {
         assert!(shown.contains(words), "{words}: {shown}");
     }
     let shown = study.uplift(&[&tiny[..], &["--details"]].concat()).ok().stdout;
+    assert!(shown.contains("a force that falls after uplift can make them twice as wide as the spectrum's"), "{shown}");
     for words in ["overturns more often than the target", "(Eq. 3.14)"] {
         assert!(shown.contains(words), "{words}: {shown}");
     }
