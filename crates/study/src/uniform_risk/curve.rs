@@ -18,8 +18,8 @@ pub(super) const FILE: Key<File> =
     file("file").without_default("needed without `branches`").meaning("the curve").note("existing file");
 const UNIT: Key<Special> = special("unit", || json!({ "type": "string", "minLength": 1 }))
     .without_default(
-        "as the file says, else `\"cm/s\"` for PGV, CAV and the Arias intensity, `\"g\"` for PGA and spectral accelerations, `\"cm\"` for PGD \
-         and SI",
+        "as the file says, else `\"cm/s\"` for PGV, CAV and the Arias intensity, `\"g\"` for PGA and spectral \
+         accelerations, `\"cm\"` for PGD and SI",
     )
     .meaning("unit of its levels")
     .note("`\"cm/s\"`, `\"m/s\"`, `\"g s\"` (CAV); `\"g\"`, `\"m/s2\"`, `\"cm/s2\"`; `\"cm\"`, `\"m\"`");

@@ -40,7 +40,8 @@ pub fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
     tables
 }
 
-/// Write the tables of `outcome` beside the result file `result`, which is written already, and beside each where it comes from.
+/// Write the tables of `outcome` beside the result file `result`, which is written already, and beside each where it
+/// comes from.
 ///
 /// # Errors
 /// A file that cannot be written.
