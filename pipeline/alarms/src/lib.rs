@@ -34,7 +34,7 @@ mod numbers;
 mod probabilities;
 mod structure;
 
-use uplift_job::alarm::{Alarm, Severity};
+use uplift_job::alarm::Alarm;
 use uplift_motion::IntensityMeasure;
 
 pub use curves::curves_alarm;
@@ -49,11 +49,9 @@ pub use structure::{OwnRisk, own_demand_alarm, own_risk_alarms, safety_factor_al
 use uplift_result::{Kind, ResultFile};
 pub use uplift_risk::COMPARED_FROM_M;
 
-/// The alarms in the order in which they should be read. Of the cautions those come first that say of the numbers
-/// themselves that they are wrong.
+/// The alarms in the order in which they should be read.
 pub fn ranked(mut alarms: Vec<Alarm>) -> Vec<Alarm> {
-    let is_outside = |alarm: &Alarm| [BEYOND_LAST_LEVEL, BELOW_FIRST_LEVEL].contains(&alarm.kind);
-    alarms.sort_by_key(|alarm| (alarm.severity, !(alarm.severity == Severity::Caution && is_outside(alarm))));
+    alarms.sort_by_key(|alarm| alarm.severity);
     alarms
 }
 
@@ -149,7 +147,7 @@ pub fn fit_alarms(file: &ResultFile, measure: Option<IntensityMeasure>) -> Resul
 
 #[cfg(test)]
 mod tests {
-    use uplift_job::alarm::Case;
+    use uplift_job::alarm::{Case, Severity};
 
     use super::*;
 
@@ -172,10 +170,5 @@ mod tests {
         let order = ranked(vec![of(Severity::Note), of(Severity::Mistake), of(Severity::Caution)]);
         let order: Vec<Severity> = order.iter().map(|alarm| alarm.severity).collect();
         assert_eq!(order, [Severity::Mistake, Severity::Caution, Severity::Note]);
-        // what the printed numbers rest on comes before what is true of the whole set
-        let caution = |kind| Alarm::new(Severity::Caution, kind, "subject", String::new(), "");
-        let order = ranked(vec![caution("synthetic-records"), caution(BEYOND_LAST_LEVEL), of(Severity::Mistake)]);
-        let order: Vec<&str> = order.iter().map(|alarm| alarm.kind).collect();
-        assert_eq!(order, ["kind", BEYOND_LAST_LEVEL, "synthetic-records"]);
     }
 }
