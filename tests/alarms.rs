@@ -450,12 +450,19 @@ fn a_file_that_says_another_unit_or_kind_is_answered_with_the_line_to_write() {
          [[sites]]\nname = \"Here\"\npgv = \"pgv.csv\"\n",
     );
     let words = |of: &[&str]| study.uplift(&["check", "study.toml"]).fails(4, of);
+    // what the study does not say, the file does
     study.write("pgv.csv", &format!("pgv_m_s,maf\n{}", rows(0.01)));
-    words(&[
-        "the study takes it for \"cm/s\"",
-        "write pgv = { file = …, unit = \"m/s\" } in [[sites]], or",
-        "--set 'sites.Here.pgv.unit=m/s'",
-    ]);
+    study.uplift(&["check", "study.toml"]).ok();
+    let completed = study.uplift(&["check", "study.toml", "--print-study"]).ok().stdout;
+    assert!(completed.contains("unit = \"m/s\""), "{completed}");
+    study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.unit=cm/s"]).fails(
+        4,
+        &[
+            "the study takes it for \"cm/s\"",
+            "write pgv = { file = …, unit = \"m/s\" } in [[sites]], or",
+            "--set 'sites.Here.pgv.unit=m/s'",
+        ],
+    );
     study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.unit=m/s"]).ok();
     study.write("pgv.csv", &format!("pgv_cm_s,poe\n{}", rows(1.0)));
     words(&["write pgv = { file = …, kind = \"poe\", years = … } in [[sites]], with the years that they are of"]);

@@ -421,6 +421,8 @@ fn influence_is_that_of_a_set_without_the_record() {
     assert!(
         text.starts_with("Change of the displacement without the record that matters most")
             && text.contains("SYN")
+            // where structures are, and not only where the change is largest
+            && text.contains("average  at 0.200")
             && text.contains("all.influence.csv"),
         "{text}"
     );
@@ -431,8 +433,15 @@ fn measures_are_compared() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let text = study.uplift(&["measures", "r.h5"]).ok().stdout;
-    assert!(text.starts_with("Best for the displacement: "), "{text}");
-    assert!(text.contains("\nBest for initiation: ") && text.contains("\nSA(1.0) +"), "{text}");
+    // PGV or PGA, and what to type
+    let first = text.lines().next().unwrap();
+    assert!(first.starts_with("Use P") && first.contains(": uplift spectrum r.h5 --measure p"), "{text}");
+    assert!(
+        text.contains("\nBest for the displacement: ")
+            && text.contains("\nBest for initiation: ")
+            && text.contains("\nSA(1.0) +"),
+        "{text}"
+    );
     assert!(!text.contains("Efficiency:"), "{text}");
     let details = study.uplift(&["measures", "r.h5", "--details"]).ok().stdout;
     for word in ["Efficiency: ", "Sufficiency: ", "SA(1.0) +", "magnitude\n", "ln_duration\n"] {

@@ -274,6 +274,7 @@ fn limits_of_size() {
         assert!(shown.contains(words), "{words}: {shown}");
     }
     let shown = study.uplift(&[&tiny[..], &["--details"]].concat()).ok().stdout;
+    assert!(shown.contains("a force that falls after uplift can make them twice as wide as the spectrum's"), "{shown}");
     for words in ["overturns more often than the target", "(Eq. 3.14)"] {
         assert!(shown.contains(words), "{words}: {shown}");
     }
@@ -459,7 +460,7 @@ fn questions_that_do_not_fit_the_result() {
     let study = study();
     let design = |more: &[&str]| study.uplift(&[&["design", "block.toml", "--urs", "r.h5"], more].concat());
     design(&["--site", "Nowhere"]).fails(2, &["--site", "Here"]);
-    design(&["--poe", "30"]).fails(2, &["--poe 30", "10 % is 0.1 or 10%"]);
+    design(&["--poe", "30"]).fails(2, &["30 % is --poe 30%", "a return period is --return-period 30"]);
     design(&["--poe", "0.1,0.3"]).fails(2, &["0.1,0.3", "write a probability, 0.1 or 10%"]);
     design(&["--measure", "pga"]).fails(2, &["--measure", "pgv"]);
     design(&["--measure", "pgx"]).fails(2, &["pgx"]);

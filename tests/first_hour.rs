@@ -67,7 +67,9 @@ fn the_curve_of_the_readme_says_what_it_is() {
     let shown = study.uplift(&["hazard", "show", "pgv.csv"]).ok().stdout;
     assert!(shown.contains("PGV [cm/s]"), "{shown}");
     study.write("unsaid.csv", "iml,maf\n1,0.4\n10,0.01\n");
-    study.uplift(&["hazard", "show", "unsaid.csv"]).fails(4, &["unsaid.csv", "pgv_cm_s", "or give --measure"]);
+    study
+        .uplift(&["hazard", "show", "unsaid.csv"])
+        .fails(4, &["unsaid.csv", "pgv_cm_s", "or give the measure (--measure)"]);
 }
 
 #[test]

@@ -97,6 +97,9 @@ fn a_folder_of_downloads_becomes_a_manifest() {
     let folder = download();
     let done = uplift(folder.path(), &["records", "import", ".", "-o", "set.csv"]).ok();
     assert!(done.stdout.contains("2 pairs"), "{}", done.stdout);
+    // what is not in the manifest comes before remarks on what is
+    let place = |words: &str| done.stderr.find(words).unwrap();
+    assert!(place("not read (") < place("RSN13_EVENT_STB: its components"), "{}", done.stderr);
     for remark in [
         "RSN14_EVENT_STC000.AT2: its other horizontal component",
         "RSN12_EVENT_STA360.AT2: the same motion as",

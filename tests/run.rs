@@ -104,8 +104,13 @@ fn summary_tables_and_provenance() {
     let mut lines = urs.lines();
     insta::assert_snapshot!(
         lines.next().unwrap(),
-        @"site,im,poe,years,strength,u_m,flag,lower_tail_share,upper_tail_share"
+        @"site,im,poe,years,strength,u_m,flag,lower_tail_share,upper_tail_share,lower_m,upper_m"
     );
+    // the bands that `spectrum` quotes
+    let quoted = study.uplift(&["spectrum", "out/r.h5", "--strength", "0.2", "--poe", "0.02", "--csv"]).ok().stdout;
+    let quoted: Vec<&str> = quoted.lines().nth(1).unwrap().split(',').collect();
+    let row = urs.lines().find(|line| line.starts_with("Here,PGV,0.02,50.0,0.2,")).unwrap();
+    assert_eq!(row.split(',').skip(9).collect::<Vec<_>>(), quoted[7..]);
     assert_eq!(lines.count(), 2 * 2 * 3 * 10);
     let regression = std::fs::read_to_string(study.path().join("out/r.regression.csv")).unwrap();
     insta::assert_snapshot!(

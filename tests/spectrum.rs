@@ -135,6 +135,25 @@ fn the_band_is_that_of_all_records_like_these_in_a_bootstrap() {
 }
 
 #[test]
+fn a_folder_is_its_only_result() {
+    let study = study();
+    let own = ask(&study, &["-q"]).ok().stdout;
+    std::fs::create_dir(study.path().join("results")).unwrap();
+    study.uplift(&["spectrum", "results"]).fails(2, &["a folder without a result", "uplift run results/study.toml"]);
+    assert_eq!(study.uplift(&["spectrum", ".", "-q"]).ok().stdout, own);
+    std::fs::copy(study.path().join("r.h5"), study.path().join("results/b.h5")).unwrap();
+    assert_eq!(study.uplift(&["spectrum", "results", "-q"]).ok().stdout, own);
+    study.uplift(&["spectrum", "."]).fails(2, &["several results", "./r.h5, ./results/b.h5"]);
+}
+
+#[test]
+fn a_caution_about_the_number_comes_first() {
+    let said = ask(&study(), &["--strength", "0.2", "--return-period", "1e8"]).ok().stdout;
+    let first = said.split_once("Warnings\n").unwrap().1.lines().next().unwrap().to_owned();
+    assert!(first.contains("displacements may be too small"), "{said}");
+}
+
+#[test]
 fn what_the_result_does_not_have_is_refused_with_what_it_has() {
     let study = study();
     for (asked, words) in [
@@ -148,6 +167,7 @@ fn what_the_result_does_not_have_is_refused_with_what_it_has() {
         (&["--repaired"], &["no repaired spectra by PGV", "uplift consistency r.h5 --repair"]),
         (&["--capacity-m", "0.0001"], &["--capacity-m"]),
         (&["--return-period", "0"], &["--return-period"]),
+        (&["--poe", "2"], &["2 % is --poe 2%", "a return period is --return-period 2"]),
         (&["--json", "--csv"], &["--csv"]),
     ] {
         ask(&study, asked).fails(2, words);
@@ -231,6 +251,9 @@ fn repaired_spectra_are_those_of_the_result() {
     }
     // the site without weights has no number, and is no error
     assert!(said.lines().any(|line| line.starts_with("Montreux") && line.contains(" none")), "{said}");
+    // asked for alone, there is no answer
+    let alone = ["--repaired", "--site", "Montreux"];
+    ask(&study, &alone).fails(2, &["no weights repair the records by PGV", "uplift consistency r.h5 --details"]);
 }
 
 #[test]

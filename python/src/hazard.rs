@@ -12,7 +12,7 @@ use uplift_hazard::{
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::YEARS;
 
-use crate::errors::{check_plausible, of_hazard_file, of_record, refused};
+use crate::errors::{check_plausible, of_hazard_file, refused};
 use crate::floats::{array, floats, list};
 
 /// A site's hazard curve: the mean annual frequency of exceeding each level of an intensity measure.
@@ -64,7 +64,7 @@ impl HazardCurve {
         component: Option<&str>,
     ) -> PyResult<Self> {
         let component = component.map(str::parse::<ComponentDefinition>).transpose().map_err(refused)?;
-        let Declared { measure, unit } = declared(measure, unit)?;
+        let Declared { measure, unit } = declared("", "HazardCurve", Some(measure), unit)?;
         let (im, maf) = (list("im", im)?, list("maf_per_year", maf_per_year)?);
         let curve = uplift_hazard::HazardCurve::new(measure, unit, source, im, maf).map_err(refused)?;
         Ok(Self { curve: curve.with_component(component) })
@@ -117,18 +117,10 @@ impl HazardCurve {
         };
         let failed = |error: HazardError| of_hazard_file(error, &path);
         let text = table_text(&path).map_err(failed)?;
-        let declared = match (measure, Declared::in_table(&text)) {
-            (Some(measure), _) => declared(measure, unit)?,
-            // without a unit the levels are in that of a study
-            (None, (Some(measure), said)) => declared(&measure, unit.or(said.as_deref()))?,
-            (None, (None, _)) => {
-                let name = path.display();
-                let message = format!("{name}: does not say its measure: give measure=\"pgv\", for instance");
-                return Err(PyValueError::new_err(message));
-            }
-        };
+        let name = path.display().to_string();
+        let declared = declared(&text, &name, measure, unit)?;
         let options = CsvOptions { declared, second_column, years };
-        let read = read_csv(&text, &path.display().to_string(), &options).map_err(failed)?;
+        let read = read_csv(&text, &name, &options).map_err(failed)?;
         Ok(Self { curve: read.curve })
     }
 
@@ -281,16 +273,13 @@ fn each<'py>(
     array(py, given.shape(), values)
 }
 
-/// A measure and its unit, that of the field where none is given.
-fn declared(measure: &str, unit: Option<&str>) -> PyResult<Declared> {
-    let known = measure.parse::<IntensityMeasure>();
-    match (known, unit) {
-        (Ok(known), unit) => {
-            Ok(Declared { measure: known.label().to_owned(), unit: unit.unwrap_or(known.unit()).to_owned() })
-        }
-        (Err(_), Some(unit)) => Ok(Declared { measure: measure.to_owned(), unit: unit.to_owned() }),
-        (Err(unknown), None) => Err(of_record(unknown)),
+/// A measure and its unit, given or said by a table.
+fn declared(text: &str, name: &str, measure: Option<&str>, unit: Option<&str>) -> PyResult<Declared> {
+    let mut declared = Declared::completed(text, name, measure, unit).map_err(refused)?;
+    if let Ok(known) = declared.measure.parse::<IntensityMeasure>() {
+        known.label().clone_into(&mut declared.measure);
     }
+    Ok(declared)
 }
 
 /// What happens outside a curve, by its word.

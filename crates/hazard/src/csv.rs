@@ -13,7 +13,7 @@ use crate::error::{HazardError, Place};
 use crate::input;
 use crate::rates::{AnnualRates, Row, annual_rates};
 use crate::text::{excerpt, number};
-use crate::unit::{CurveUnit, same_unit};
+use crate::unit::{CurveUnit, Dimension, same_unit};
 
 /// Largest file that [`read_path`] takes, unpacked, bytes: a hazard curve has some kilobytes.
 pub const MAX_FILE_BYTES: u64 = 4 << 20;
@@ -28,6 +28,28 @@ pub struct Declared {
 }
 
 impl Declared {
+    /// The measure and the unit of a table: those given, else those that it says itself. A unit that neither says is
+    /// that of the field: cm/s, g or cm.
+    ///
+    /// # Errors
+    /// [`HazardError::File`] without a measure, or without a unit of a measure that is not known.
+    pub fn completed(text: &str, name: &str, measure: Option<&str>, unit: Option<&str>) -> Result<Self, HazardError> {
+        let fail = |reason: String| HazardError::File { file: name.to_owned(), reason };
+        let (said_measure, said_unit) = Self::in_table(text);
+        let measure = measure.map(str::to_owned).or(said_measure).ok_or_else(|| {
+            let reason = "the table does not say its measure: name its columns, for example pgv_cm_s,maf or \
+                          pga_g,return_period, add a first line such as \"# IM: PGV [cm/s]\", or give the measure \
+                          (--measure)";
+            fail(reason.to_owned())
+        })?;
+        let of_field = || Some(Dimension::from_measure(&measure)?.field_unit().symbol().to_owned());
+        let unit = unit.map(str::to_owned).or(said_unit).or_else(of_field);
+        let unit = unit.ok_or_else(|| {
+            fail(format!("unknown intensity measure {}: give the unit of its levels (--unit)", excerpt(&measure)))
+        })?;
+        Ok(Self { measure, unit })
+    }
+
     /// The measure and the unit of the first column of a table, as far as its comment lines and column names say them.
     pub fn in_table(text: &str) -> (Option<String>, Option<String>) {
         let (mut measure, mut unit) = (None, None);

@@ -16,7 +16,9 @@ impl Dimension {
             "pgv" | "cav" | "ia" | "arias" => Some(Self::Velocity),
             "pga" | "sa" | "psa" | "avgsa" => Some(Self::Acceleration),
             "pgd" | "si" => Some(Self::Displacement),
-            _ if name.starts_with("sa(") || name.starts_with("avgsa(") => Some(Self::Acceleration),
+            _ if ["sa(", "sa_", "avgsa(", "avgsa_"].iter().any(|start| name.starts_with(start)) => {
+                Some(Self::Acceleration)
+            }
             _ => None,
         }
     }

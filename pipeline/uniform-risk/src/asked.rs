@@ -109,9 +109,10 @@ fn probability(option: &str, value: f64, years: f64) -> Result<f64, String> {
         return Err(format!("{option} {value}: is in years, e.g. 475; a probability is {POE_OPTION} {value}"));
     }
     if option == POE_OPTION && value > 1.0 {
+        let per_cent = if value < 100.0 { format!("; {value} % is {option} {value}%") } else { String::new() };
         return Err(format!(
-            "{option} {value}: a probability is below 1 (10 % is 0.1 or 10%; a comma separates two); a return period \
-             is {RETURN_PERIOD_OPTION} {value}"
+            "{option} {value}: a probability is below 1 (a comma separates two){per_cent}; a return period is \
+             {RETURN_PERIOD_OPTION} {value}"
         ));
     }
     let poe = if option == RETURN_PERIOD_OPTION {

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use serde::Serialize;
-use uplift_alarms::{Scope, alarms_of};
+use uplift_alarms::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, Scope, alarms_of};
+use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_result::ResultFile;
-use uplift_uniform_risk::{DisplacementOptions, DisplacementReport, at, displacements, site_index};
+use uplift_uniform_risk::{AskedRisk, DisplacementOptions, DisplacementReport, at, displacements, site_index};
 
 use crate::error::UpliftError;
 
@@ -25,10 +26,19 @@ pub struct SpectrumReport {
 ///
 /// # Errors
 /// A file that is missing, damaged, of another kind, or without sites; strengths, risks, sites or a measure that it
-/// does not have.
+/// does not have; repaired spectra where no site has one.
 pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumReport, UpliftError> {
     let file = at(ResultFile::open(path)?, &asked.risk)?;
     let found = displacements(&file, asked)?;
+    if found.repaired && found.displacements.iter().all(|own| own.u_m.is_nan()) {
+        return Err(JobError::Usage(format!(
+            "--repaired: no weights repair the records by {}: use the spectrum without --repaired, and see which \
+             records are missing: uplift consistency {} --details",
+            found.measure.label(),
+            path.display()
+        ))
+        .into());
+    }
     let axes = file.axes()?;
     let site = match &asked.sites[..] {
         [only] => Some(site_index(&axes.sites, only)?),
@@ -36,7 +46,11 @@ pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumRepo
     };
     let strengths = between(&axes.strengths, &asked.strengths);
     let (measure, repaired) = (Some(found.measure), found.repaired);
-    let alarms = alarms_of(&file, &Scope { site, measure, strengths, repaired, ..Scope::default() })?;
+    let mut alarms = alarms_of(&file, &Scope { site, measure, strengths, repaired, ..Scope::default() })?;
+    // of risks asked for, what the printed numbers rest on comes before what is true of the whole set
+    if asked.risk != AskedRisk::default() {
+        alarms.sort_by_key(|alarm| (alarm.severity, ![BEYOND_LAST_LEVEL, BELOW_FIRST_LEVEL].contains(&alarm.kind)));
+    }
     Ok(SpectrumReport { found, alarms })
 }
 

@@ -127,10 +127,10 @@ pub struct UnfinishedStatus {
     pub shard: u64,
     /// Of how many; 1 for a run that is not cut.
     pub shards: u64,
-    /// Rows that are finished.
+    /// Analyses that are finished.
     pub done: u64,
-    /// Rows in all.
-    pub rows: u64,
+    /// Analyses in all.
+    pub analyses: u64,
     /// Bytes that were cut off or damaged; their rows are computed again.
     pub damaged_bytes: u64,
 }
@@ -260,10 +260,10 @@ impl UnfinishedStatus {
             title: head.title.clone(),
             shard: head.shard,
             shards: head.shards,
-            // rows of another study may be among them, and those of design examples, which nobody counts before
+            // those of another study may be among them, and those of design examples, which nobody counts before
             // they are found
-            done: (finding.rows.len() as u64).min(head.rows),
-            rows: head.rows,
+            done: finding.rows.analyses().min(head.analyses),
+            analyses: head.analyses,
             damaged_bytes: finding.damaged_bytes,
         }
     }

@@ -167,8 +167,8 @@ impl SetArguments {
 
 fn import(options: &ImportOptions, terminal: &Terminal) -> Result<(), CommandError> {
     let report = import_folder(options, terminal)?;
-    tell_remarks(&report, terminal);
     if report.manifest.is_none() {
+        tell_remarks(&report, terminal);
         return Err(CommandError::input(format!(
             "no pair of horizontal components in {}: {} files read, {} components found",
             options.folder.display(),
@@ -176,5 +176,7 @@ fn import(options: &ImportOptions, terminal: &Terminal) -> Result<(), CommandErr
             report.components
         )));
     }
-    print_import(&report, terminal)
+    print_import(&report, terminal)?;
+    tell_remarks(&report, terminal);
+    Ok(())
 }

@@ -4,9 +4,10 @@ use std::io::Write;
 
 use uplift::efficiency::{EfficiencyReport, EfficiencyRow, Trend};
 use uplift::text::{Table, nearest, rounded};
+use uplift_motion::IntensityMeasure;
 
 use super::alarms::print_synthetic;
-use super::{print_more, shown_path};
+use super::{print_more, shown_path, typed_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -113,11 +114,17 @@ impl Shown<'_> {
     }
 
     fn print_reading(&self, out: &mut impl Write) -> Result<(), CommandError> {
+        let own: Vec<&[EfficiencyRow]> = self.measures.iter().filter(|rows| !rows[0].is_told()).copied().collect();
+        if let (2.., Some((name, measure, others))) = (own.len(), self.winner(&own, |row| row.dispersion_level)) {
+            let result = typed_path(&self.report.result);
+            writeln!(out, "Use {name}{others}: uplift spectrum {result} --measure {measure}")?;
+        }
         for (what, of) in [
             ("the displacement", (|row| row.dispersion_level) as fn(&EfficiencyRow) -> f64),
             ("initiation", |row| row.dispersion_initiation),
         ] {
-            writeln!(out, "{}", self.most_efficient(what, of))?;
+            let best = self.winner(&self.measures, of).map(|(name, _, others)| name + &others);
+            writeln!(out, "Best for {what}: {}", best.as_deref().unwrap_or("these stripes do not show it"))?;
         }
         let mean = |rows: &[EfficiencyRow], of: fn(&EfficiencyRow) -> f64| {
             let known: Vec<f64> =
@@ -147,29 +154,26 @@ impl Shown<'_> {
         Ok(())
     }
 
-    /// Which measure scatters least, and at how many of the strengths shown.
-    fn most_efficient(&self, what: &str, of: fn(&EfficiencyRow) -> f64) -> String {
+    /// Which of `measures` scatters least at most of the strengths shown, its key, and the others that do at some.
+    fn winner(&self, measures: &[&[EfficiencyRow]], of: fn(&EfficiencyRow) -> f64) -> Option<(String, String, String)> {
         let best = |&index: &usize| {
-            let known = self.measures.iter().filter(|rows| of(&rows[index]).is_finite());
-            let least = known.min_by(|a, b| of(&a[index]).total_cmp(&of(&b[index])))?;
-            Some(label(&least[index]))
+            let known = measures.iter().filter(|rows| of(&rows[index]).is_finite());
+            known.min_by(|a, b| of(&a[index]).total_cmp(&of(&b[index]))).map(|rows| &rows[index])
         };
-        let winners: Vec<(String, f64)> =
-            self.strengths.iter().filter_map(|index| Some((best(index)?, self.report.strengths[*index]))).collect();
-        let wins = |name: &str| winners.iter().filter(|(of, _)| *of == name).count();
+        let winners: Vec<&EfficiencyRow> = self.strengths.iter().filter_map(best).collect();
+        let wins = |row: &EfficiencyRow| winners.iter().filter(|of| of.im == row.im).count();
         // of as many wins the first
-        let Some((first, _)) = winners.iter().rev().max_by_key(|(name, _)| wins(name)) else {
-            return format!("Best for {what}: these stripes do not show it");
-        };
+        let first = winners.iter().rev().max_by_key(|row| wins(row))?;
         let others: Vec<String> = winners
-            .chunk_by(|a, b| a.0 == b.0)
-            .filter(|of| of[0].0 != *first)
+            .chunk_by(|a, b| a.im == b.im)
+            .filter(|of| of[0].im != first.im)
             .map(|of| {
-                let strengths: Vec<String> = of.iter().map(|(_, strength)| rounded(*strength, 3).to_string()).collect();
-                format!("; {} at strength {}", of[0].0, strengths.join(", "))
+                let strengths: Vec<String> = of.iter().map(|row| rounded(row.strength, 3).to_string()).collect();
+                format!("; {} at strength {}", label(of[0]), strengths.join(", "))
             })
             .collect();
-        format!("Best for {what}: {first}{}", others.concat())
+        let key = first.im.parse().map(IntensityMeasure::key).unwrap_or_default();
+        Some((label(first), key.to_owned(), others.concat()))
     }
 }
 

@@ -56,7 +56,7 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, terminal: &Term
     let rows = shown(of_poe.collect(), |row| (row.im, row.repaired), |row| &row.site, (|_| 0, terminal));
     writeln!(
         out,
-        "Change of the displacement without the record that matters most, per cent, {}",
+        "Change of the displacement without the record that matters most, per cent, by strength, {}",
         risk_in_words(report.poe, report.years)
     )?;
     let mut above = None;
@@ -65,8 +65,10 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, terminal: &Term
         .right("im", |row| spectrum_words(row.im, row.repaired))
         .right("record", |row| &row.record)
         .right("average", |row| format!("{:+.1}", row.mean_change_pct))
-        .right("at most", |row| format!("{:+.0}", row.largest_change_pct))
-        .right("at strength", |row| format!("{:.3}", row.at_strength));
+        .each(report.records.first(), |table, first| {
+            table.right(format!("at {:.3}", first.strength), |row| format!("{:+.1}", row.change_pct))
+        })
+        .right("at most (strength)", |row| format!("{:+.0} ({:.3})", row.largest_change_pct, row.at_strength));
     if table.is_empty() {
         writeln!(out, "none: the set has one record, or nothing rocks")?;
         return Ok(());

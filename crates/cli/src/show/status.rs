@@ -77,13 +77,13 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
 }
 
 fn print_unfinished(out: &mut impl Write, unfinished: &UnfinishedStatus) -> Result<(), CommandError> {
-    let UnfinishedStatus { file, title, shard, shards, done, rows, damaged_bytes } = unfinished;
+    let UnfinishedStatus { file, title, shard, shards, done, analyses, damaged_bytes } = unfinished;
     let what =
         if *shards > 1 { format!("shard {shard} of {shards}") } else { "checkpoint of an unfinished run".to_owned() };
-    let share = 100.0 * *done as f64 / (*rows).max(1) as f64;
-    writeln!(out, "{}: {what}, {done} of {rows} analysis rows ({share:.0} %) {}", file.display(), one_line(title))?;
+    let share = 100.0 * *done as f64 / (*analyses).max(1) as f64;
+    writeln!(out, "{}: {what}, {done} of {analyses} analyses ({share:.0} %) {}", file.display(), one_line(title))?;
     if *damaged_bytes > 0 {
-        writeln!(out, "  analysis rows that were cut off or damaged ({damaged_bytes} bytes) will be computed again")?;
+        writeln!(out, "  those that were cut off or damaged ({damaged_bytes} bytes) will be computed again")?;
     }
     Ok(())
 }

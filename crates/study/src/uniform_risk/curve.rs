@@ -4,22 +4,22 @@ use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 use serde_json::json;
-use uplift_hazard::CurveUnit;
+use uplift_hazard::{CurveUnit, Declared, table_text};
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::YEARS;
 
 use super::branches::{self, Branch, MOST_BRANCHES};
 use super::measures::MeasureKeys;
-use crate::keys::{Choice, Declared, File, Key, Number, Special, choice, file, number, special};
+use crate::keys::{self, Choice, File, Key, Number, Special, choice, file, number, special};
 use crate::reading::{Field, Paths, Rule, Section, Value};
 
-pub(super) const KEYS: &[&dyn Declared] = &[&FILE, &UNIT, &KIND, &OF_YEARS, &BRANCHES];
+pub(super) const KEYS: &[&dyn keys::Declared] = &[&FILE, &UNIT, &KIND, &OF_YEARS, &BRANCHES];
 pub(super) const FILE: Key<File> =
     file("file").without_default("needed without `branches`").meaning("the curve").note("existing file");
 const UNIT: Key<Special> = special("unit", || json!({ "type": "string", "minLength": 1 }))
     .without_default(
-        "`\"cm/s\"` for PGV, CAV and the Arias intensity, `\"g\"` for PGA and spectral accelerations, `\"cm\"` for PGD \
-         and SI",
+        "as the file says, else `\"cm/s\"` for PGV, CAV and the Arias intensity, `\"g\"` for PGA and spectral \
+         accelerations, `\"cm\"` for PGD and SI",
     )
     .meaning("unit of its levels")
     .note("`\"cm/s\"`, `\"m/s\"`, `\"g s\"` (CAV); `\"g\"`, `\"m/s2\"`, `\"cm/s2\"`; `\"cm\"`, `\"m\"`");
@@ -93,13 +93,9 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
     let units = MeasureKeys::from_measure(measure).units;
     match field.node.value {
         Value::Text(_) => {
-            return Some(CurveFile {
-                measure,
-                file: Some(paths.input(field)?),
-                unit: units[0],
-                kind: CurveKind::Maf,
-                branches: Vec::new(),
-            });
+            let file = paths.input(field)?;
+            let unit = unit_said(&file, units);
+            return Some(CurveFile { measure, file: Some(file), unit, kind: CurveKind::Maf, branches: Vec::new() });
         }
         Value::Table(_) => {}
         _ => {
@@ -121,10 +117,19 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
             None
         }
     };
-    let unit = section.given(&UNIT).map_or(Some(units[0]), |field| read_unit(&field, units));
+    let given = section.given(&UNIT).map(|field| read_unit(&field, units));
     let kind = kind(&mut section);
     section.finish();
-    Some(CurveFile { measure, file: file?, unit: unit?, kind: kind?, branches: branches? })
+    let (file, branches) = (file?, branches?);
+    let first = file.as_ref().or(branches.first().map(|branch| &branch.file));
+    let unit = given.unwrap_or_else(|| Some(first.map_or(units[0], |file| unit_said(file, units))));
+    Some(CurveFile { measure, file, unit: unit?, kind: kind?, branches })
+}
+
+/// The unit that a file says itself, else that of the measure; what is wrong with the file is said where it is read.
+fn unit_said(file: &Path, units: &[CurveUnit]) -> CurveUnit {
+    let said = table_text(file).ok().and_then(|text| CurveUnit::parse(&Declared::in_table(&text).1?));
+    said.filter(|said| units.contains(said)).unwrap_or(units[0])
 }
 
 /// A unit as people write it, gal for cm/s2. What is spelt nearly as one is no suggestion: mm/s is not m/s.

@@ -62,12 +62,13 @@ pub fn carry_out_shard<E: From<EngineError>>(
     also: &dyn Fn(&Checkpoint) -> Result<(), E>,
 ) -> Result<ShardReport, E> {
     let head = work.head(shard);
+    let [_, rows] = work.share_of(shard, &FinishedRows::default());
     let checkpoint = Checkpoint::open(path, &head)?;
     events.resumes_from(path);
     work.carry_out(&checkpoint, shard, events, &mut |_, _| Ok(()))?;
     also(&checkpoint)?;
     checkpoint.sync().map_err(EngineError::from)?;
-    Ok(ShardReport { shard: shard.index + 1, shards: shard.count, rows: head.rows, file: path.to_owned() })
+    Ok(ShardReport { shard: shard.index + 1, shards: shard.count, rows, file: path.to_owned() })
 }
 
 /// Carries out one shard of `work`, asked of a result, into the file `path`.

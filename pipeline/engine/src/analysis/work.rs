@@ -63,8 +63,13 @@ impl<'a> Work<'a> {
         for key in self.keys.iter().flat_map(RowKeys::as_slice) {
             hash.update(key.0);
         }
-        let rows = self.keys_of(shard).count() as u64;
-        RowFileHead::new(hexadecimal(&hash.finalize()), &self.title, [shard.index + 1, shard.count], rows)
+        let place = [shard.index + 1, shard.count];
+        RowFileHead::new(hexadecimal(&hash.finalize()), &self.title, place, self.analyses_of(shard))
+    }
+
+    /// Analyses of one shard.
+    fn analyses_of(&self, shard: Shard) -> u64 {
+        self.plans.iter().map(|labelled| labelled.plan.analyses() / shard.count).sum()
     }
 
     /// How many of the rows of one shard are among `rows`, and how many there are.
@@ -120,7 +125,7 @@ impl<'a> Work<'a> {
             ));
         }
         let share = |analyses: u64| analyses / shard.count;
-        let total: u64 = self.plans.iter().map(|labelled| share(labelled.plan.analyses())).sum();
+        let total = self.analyses_of(shard);
         let before: u64 = self.plans.iter().zip(&self.keys).map(|(plan, keys)| known(plan, keys, checkpoint)).sum();
         if before > 0 {
             let (known, total) = (thousands(before.min(total)), thousands(total));

@@ -43,15 +43,15 @@ pub struct RowFileHead {
     pub shard: u64,
     /// Of how many.
     pub shards: u64,
-    /// Analysis rows of this shard.
-    #[serde(alias = "pieces")]
-    pub rows: u64,
+    /// Analyses of this shard.
+    #[serde(default)]
+    pub analyses: u64,
 }
 
 impl RowFileHead {
     /// The head of the file of one shard of a work.
-    pub fn new(work: String, title: &str, [shard, shards]: [u64; 2], rows: u64) -> Self {
-        Self { format: FORMAT.to_owned(), work, title: title.to_owned(), shard, shards, rows }
+    pub fn new(work: String, title: &str, [shard, shards]: [u64; 2], analyses: u64) -> Self {
+        Self { format: FORMAT.to_owned(), work, title: title.to_owned(), shard, shards, analyses }
     }
 }
 
@@ -84,6 +84,11 @@ impl FinishedRows {
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.rows.len()
+    }
+
+    /// Number of analyses in them.
+    pub fn analyses(&self) -> u64 {
+        self.rows.values().map(|(displacement_m, _)| displacement_m.len() as u64).sum()
     }
 
     /// Whether there is none.

@@ -7,7 +7,6 @@ use uplift_hazard::{
     CsvOptions, Declared, ExportedCurve, ExportedCurves, HazardCurve, SecondColumn, SiteSelection, Statistic, read_csv,
     read_export, table_text,
 };
-use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::text::counted;
 use uplift_job::typed::number;
@@ -84,26 +83,14 @@ pub(super) fn read_file(
     if an_export {
         return Err(export);
     }
-    let (measure, unit) = Declared::in_table(&text);
-    let Some(measure) = options.measure.clone().or(measure) else {
-        return Err(JobError::input(format!(
-            "{}: the table does not say its measure: name its columns, for example pgv_cm_s,maf or \
-             pga_g,return_period, add a first line such as \"# IM: PGV [cm/s]\", or give --measure",
-            path.display()
-        ))
-        .into());
-    };
-    // without a unit the levels are in that of a study
-    let known: Option<IntensityMeasure> = measure.parse().ok();
-    let Some(unit) = options.unit.clone().or(unit).or(known.map(|known| known.unit().to_owned())) else {
-        let reason = "the table does not say the unit of its levels: give --unit";
-        return Err(JobError::input(format!("{}: {reason}", path.display())).into());
-    };
-    let measure = known.map_or_else(|| measure.to_uppercase(), |known| known.label().to_owned());
-    let declared = Declared { measure, unit };
+    let name = path.display().to_string();
+    let mut declared = Declared::completed(&text, &name, options.measure.as_deref(), options.unit.as_deref())?;
+    if let Ok(known) = declared.measure.parse::<IntensityMeasure>() {
+        known.label().clone_into(&mut declared.measure);
+    }
     let options =
         CsvOptions { declared, second_column: options.years.map(|_| SecondColumn::Probability), years: options.years };
-    let read = read_csv(&text, &path.display().to_string(), &options)?;
+    let read = read_csv(&text, &name, &options)?;
     let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
     let folder = path.parent().and_then(Path::file_name).map(|folder| format!("{}/", folder.to_string_lossy()));
     let curve = read.curve.in_field_units(STANDARD_GRAVITY_M_S2)?;

@@ -161,17 +161,17 @@ pub struct Remarks {
 }
 
 impl Remarks {
-    /// Those of an import, kinds in the order in which they came up, files that are no records last.
+    /// Those of an import, files that were not read first, the others in the order in which they came up.
     pub(super) fn from_import(imported: &Imported) -> Vec<Self> {
         let mut kinds: Vec<Self> = Vec::new();
+        if !imported.passed_over.is_empty() {
+            kinds.push(Self { kind: "not read", texts: imported.passed_over.clone() });
+        }
         for warning in &imported.warnings {
             match kinds.iter_mut().find(|kind| kind.kind == warning.kind) {
                 Some(kind) => kind.texts.push(warning.text.clone()),
                 None => kinds.push(Self { kind: warning.kind, texts: vec![warning.text.clone()] }),
             }
-        }
-        if !imported.passed_over.is_empty() {
-            kinds.push(Self { kind: "not read", texts: imported.passed_over.clone() });
         }
         kinds
     }

@@ -52,6 +52,10 @@ pub struct RecordChange {
     pub record: String,
     /// Mean change of the ordinates, per cent.
     pub mean_change_pct: f64,
+    /// A strength in the middle of those of structures.
+    pub strength: f64,
+    /// Change of the ordinate at it, per cent; NaN where there is none.
+    pub change_pct: f64,
     /// Largest change by magnitude, per cent.
     pub largest_change_pct: f64,
     /// The strength at which it is.
@@ -96,10 +100,13 @@ impl InfluenceReport {
         poe: usize,
         top: usize,
     ) -> Self {
+        let middle = nearest(&stored.strengths, &SHOWN_STRENGTHS[1..2])[0];
         let mut records = Vec::new();
         for (influence, rankings) in influences.iter().zip(rankings) {
             for ([site, poe], ranking) in rankings.blocks() {
+                let full_m = influence.exact_m[[site, poe, middle]];
                 for entry in ranking[0].iter().take(top) {
+                    let without_m = influence.without_m.as_ref().map(|own| own[[site, poe, entry.record, middle]]);
                     records.push(RecordChange {
                         site: stored.sites[site].clone(),
                         im: influence.measure.label(),
@@ -107,6 +114,8 @@ impl InfluenceReport {
                         poe: stored.poes[poe],
                         record: stored.units.name(entry.record).to_owned(),
                         mean_change_pct: 100.0 * entry.mean_change,
+                        strength: stored.strengths[middle],
+                        change_pct: without_m.map_or(f64::NAN, |without_m| 100.0 * (without_m / full_m - 1.0)),
                         largest_change_pct: 100.0 * entry.largest_change,
                         at_strength: entry.strength,
                     });

@@ -7,8 +7,9 @@ use polars::prelude::Column;
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::write_table;
 use uplift_result::declared::{Field, Place, Quantity};
-use uplift_result::{Fits, StoredSpectra, flag_word, regression, urs};
+use uplift_result::{Fits, ResultFile, StoredSpectra, flag_word, regression, urs};
 use uplift_study::UniformRiskStudy;
+use uplift_uniform_risk::{DisplacementOptions, displacements};
 
 use super::ComputedStudy;
 use super::site_table::{cube_path, site_table_paths};
@@ -39,7 +40,8 @@ pub fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
     tables
 }
 
-/// Write the tables of `outcome` beside the result file `result`, and beside each where it comes from.
+/// Write the tables of `outcome` beside the result file `result`, which is written already, and beside each where it
+/// comes from.
 ///
 /// # Errors
 /// A file that cannot be written.
@@ -47,7 +49,9 @@ pub fn write_csv(result: &Path, outcome: &ComputedStudy<'_>) -> Result<(), Studi
     let line = outcome.provenance.line(&outcome.study.title, &outcome.records.description);
     let [ordinates, coefficients] = csv_paths(result);
     let spectra = outcome.stored_spectra();
-    write_table(&ordinates, &line, spectra_table(&spectra))?;
+    let mut columns = spectra_table(&spectra);
+    columns.extend(band_columns(&ResultFile::open(result)?, &spectra)?);
+    write_table(&ordinates, &line, columns)?;
     Ok(write_table(&coefficients, &line, regression_table(&spectra))?)
 }
 
@@ -59,6 +63,18 @@ pub fn spectra_table(spectra: &StoredSpectra) -> Vec<Column> {
     let places = || spectra.measures.iter().flat_map(|of| (0..of.u_m.values().len()).map(move |at| (of, at)));
     columns.extend(urs::GROUP.quantities.iter().map(|quantity| column(quantity, places(), |_, _| true)));
     columns
+}
+
+/// Limits of the quoted bands of the ordinates in `file`; empty for a single record.
+fn band_columns(file: &ResultFile, spectra: &StoredSpectra) -> Result<[Column; 2], StudiesError> {
+    let mut bands_m = Vec::new();
+    for of in &spectra.measures {
+        let (strengths, measure) = (spectra.strengths.clone(), Some(of.measure));
+        let asked = DisplacementOptions { strengths, measure, every_probability: true, ..Default::default() };
+        bands_m.extend(displacements(file, &asked)?.displacements.into_iter().map(|own| own.band_m));
+    }
+    let limits_m = |at: usize| bands_m.iter().map(|own| own.map(|limits_m| limits_m[at])).collect::<Vec<Option<f64>>>();
+    Ok([("lower_m", 0), ("upper_m", 1)].map(|(name, at)| Column::new(name.into(), limits_m(at))))
 }
 
 /// A row for each spectrum: what it is of, then its coefficients.

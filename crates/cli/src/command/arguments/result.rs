@@ -45,6 +45,11 @@ impl ResultArguments {
         Some(self.input.as_path()).filter(|file| Structure::is_written_in(file))
     }
 
+    /// The result to read from: as [`find`](Self::find), or the only one in a folder.
+    pub(crate) fn find_to_read(&self, terminal: &Terminal) -> Result<PathBuf, CommandError> {
+        if self.input.is_dir() { only_result(&self.input) } else { Ok(self.find(terminal)?.path) }
+    }
+
     /// The result; a study without one is run.
     pub(crate) fn find(&self, terminal: &Terminal) -> Result<FoundResult, CommandError> {
         if is_hdf5(&self.input) || self.input.extension().is_some_and(|ending| ending == "h5" || ending == "part") {
@@ -68,4 +73,22 @@ impl ResultArguments {
         let repair = study.consistency.repair == Repair::Weights;
         Ok(FoundResult { path, bootstrap: Some(study.bootstrap.clone()), repair })
     }
+}
+
+/// The result in a folder, or in its `results`.
+fn only_result(folder: &Path) -> Result<PathBuf, CommandError> {
+    let folders = [folder.to_owned(), folder.join("results")];
+    let files = folders.iter().filter_map(|folder| folder.read_dir().ok()).flatten().flatten().map(|file| file.path());
+    let mut results: Vec<PathBuf> = files.filter(|file| file.is_file() && is_hdf5(file)).collect();
+    results.sort();
+    let name = folder.display();
+    let reason = match &mut results[..] {
+        [only] => return Ok(std::mem::take(only)),
+        [] => format!("{name} is a folder without a result: run its study: uplift run {name}/study.toml"),
+        several => {
+            let several: Vec<String> = several.iter().map(|file| file.display().to_string()).collect();
+            format!("{name} is a folder with several results: give one of {}", several.join(", "))
+        }
+    };
+    Err(CommandError::Usage(reason))
 }

@@ -14,7 +14,7 @@ use crate::terminal::Terminal;
 pub(crate) struct MeasuresArguments {
     #[command(flatten)]
     result: ResultArguments,
-    /// Further measure to compare; repeat for several [default: eight usual ones]
+    /// Measure to compare; repeat for several [default: ten usual ones]
     #[arg(long = "measure", value_name = "MEASURE")]
     measures: Vec<IntensityMeasure>,
     /// Print JSON

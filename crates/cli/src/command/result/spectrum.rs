@@ -36,13 +36,13 @@ pub(crate) struct SpectrumArguments {
 }
 
 pub(crate) fn spectrum(arguments: &SpectrumArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    let found = arguments.result.find(terminal)?;
+    let result = arguments.result.find_to_read(terminal)?;
     let strengths = arguments.strength.iter().flat_map(|Numbers(all)| all.iter().copied()).collect();
     let asked = DisplacementOptions { strengths, ..arguments.options.clone() };
-    let report = read(&found.path, &asked)?;
+    let report = read(&result, &asked)?;
     match (arguments.json, arguments.csv) {
         (true, _) => print_json(&report),
         (_, true) => print_spectrum_csv(&report.found),
-        _ => print_spectrum(&report, &found.path, terminal),
+        _ => print_spectrum(&report, &result, terminal),
     }
 }

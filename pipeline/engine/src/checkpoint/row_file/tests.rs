@@ -110,7 +110,7 @@ fn a_file_of_the_version_before_is_no_mistake() {
     };
     write(1);
     let found = RowFile::read(&path).unwrap().unwrap();
-    assert_eq!((found.head.rows, found.rows.len(), found.damaged_bytes), (9, 1, 0));
+    assert_eq!((found.rows.len(), found.damaged_bytes), (1, 0));
     let (_, found) = RowFile::open(&path, &head()).unwrap();
     assert!(found.rows.is_empty() && found.damaged_bytes == 0);
     assert_eq!(RowFile::read(&path).unwrap().unwrap().head, head());
