@@ -97,8 +97,8 @@ pub fn efficiency(
         if let Some(from) = measured(own.measure) {
             let reaching = FactorsToReach::new(&stored, own, from)?;
             for found in &mut measures {
-                if let Some(to) = measured(found.measure) {
-                    found.reaching = reaching.scatter(to);
+                if let Some(to) = measured(found.own.measure) {
+                    found.own.reaching = reaching.scatter(to);
                 }
             }
             up_to_m = reaching.up_to_m;

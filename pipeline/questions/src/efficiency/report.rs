@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::Serialize;
+use uplift_result::StoredEfficiency;
 use uplift_uniform_risk::StoredStripes;
 
 use super::of_measure::{Covariate, MeasureEfficiency};
@@ -82,8 +83,8 @@ pub struct Trend {
 
 /// The place of the scatter `of` a measure among those of all at the strength `index`, the smallest first; none where
 /// there is no such number.
-pub(super) fn rank(measures: &[MeasureEfficiency], of: &MeasureEfficiency, index: usize) -> Option<u32> {
-    let smaller = |other: &&MeasureEfficiency| other.reaching[index] < of.reaching[index];
+pub(super) fn rank(measures: &[MeasureEfficiency], of: &StoredEfficiency, index: usize) -> Option<u32> {
+    let smaller = |other: &&MeasureEfficiency| other.own.reaching[index] < of.reaching[index];
     let place = || u32::try_from(1 + measures.iter().filter(smaller).count()).unwrap_or(u32::MAX);
     of.reaching[index].is_finite().then(place)
 }
@@ -95,7 +96,7 @@ impl EfficiencyReport {
         measures: &[MeasureEfficiency],
         up_to_m: Vec<Option<f64>>,
     ) -> Self {
-        let row = |of: &MeasureEfficiency, index: usize| EfficiencyRow {
+        let row = |MeasureEfficiency { own: of, lines, .. }: &MeasureEfficiency, index: usize| EfficiencyRow {
             im: of.measure.label(),
             scaled_to: of.scaled_to.label(),
             strength: stored.strengths[index],
@@ -106,7 +107,7 @@ impl EfficiencyReport {
             dispersion_initiation: of.initiation[index],
             trends: covariates
                 .iter()
-                .zip(&of.lines)
+                .zip(lines)
                 .map(|(covariate, lines)| {
                     let line = lines[index].as_ref();
                     let trend = Trend {
