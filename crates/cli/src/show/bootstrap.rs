@@ -2,7 +2,8 @@
 
 use std::io::Write;
 
-use uplift::bootstrap::{Bands, BootstrapReport, BootstrapRow, Initiation, JointBands, MANY_FAILED, ReferenceRow};
+use uplift::bootstrap::{BootstrapReport, BootstrapRow, Initiation, MANY_FAILED, ReferenceRow};
+use uplift::result::{MeasureBands, StoredJointBands};
 use uplift::text::{Table, per_cent, risk_in_words, risk_name};
 
 use uplift::uniform_risk::DisplacementReport;
@@ -102,7 +103,7 @@ fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
     let mut failing = Vec::new();
     for row in &report.rows {
         let Some(repaired) = row.repaired else { continue };
-        let percent = |value: Option<f64>, digits: usize| figure(value.map(|value| value / 100.0), digits);
+        let percent = |value: Option<f64>, digits: usize| figure(value.unwrap_or(f64::NAN), digits);
         rows.push(vec![
             row.site.clone(),
             row.im.to_owned(),
@@ -215,14 +216,13 @@ fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), Com
             ];
             if has_repaired {
                 let of_repair = repaired_joint(bands);
-                let failed = of_repair.and_then(|joint| Some(joint.failed.as_ref()?[[site, size]]));
-                let failed = failed.filter(|share| !share.is_nan());
-                let repaired = bands.repaired.as_ref().and_then(|own| own.bands.range_of_interval[at]);
-                row.push(figure(repaired, 0));
-                row.push(figure(of_repair.and_then(|joint| joint.range_of_interval[at]), 0));
-                row.push(figure(failed, 1));
-                if let Some(share) = failed.filter(|&share| poe == 0 && share > MANY_FAILED) {
-                    failing.push(format!("{name} by {label}, samples of {records}: {:.0} %", 100.0 * share));
+                let failed = of_repair.and_then(|joint| Some(joint.failed.as_ref()?[[site, size]])).unwrap_or(f64::NAN);
+                let repaired = bands.repaired.as_ref().map(|own| own.bands.range_of_interval[at]);
+                row.push(figure(repaired.unwrap_or(f64::NAN), 0));
+                row.push(figure(of_repair.map_or(f64::NAN, |joint| joint.range_of_interval[at]), 0));
+                row.push(figure(100.0 * failed, 1));
+                if poe == 0 && failed > MANY_FAILED {
+                    failing.push(format!("{name} by {label}, samples of {records}: {:.0} %", 100.0 * failed));
                 }
             }
             rows.push(row);
@@ -251,7 +251,7 @@ fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), Com
 }
 
 /// The joint bands of the repaired spectra by a measure.
-fn repaired_joint(bands: &Bands) -> Option<&JointBands> {
+fn repaired_joint(bands: &MeasureBands) -> Option<&StoredJointBands> {
     bands.repaired.as_ref()?.bands.joint.as_ref()
 }
 
@@ -289,8 +289,8 @@ fn print_initiation(out: &mut impl Write, report: &BootstrapReport) -> Result<()
     Ok(())
 }
 
-fn figure(ratio: Option<f64>, digits: usize) -> String {
-    ratio.map_or_else(|| "-".to_owned(), |ratio| format!("{:.digits$}", 100.0 * ratio))
+fn figure(per_cent: f64, digits: usize) -> String {
+    if per_cent.is_nan() { "-".to_owned() } else { format!("{per_cent:.digits$}") }
 }
 
 /// Strengths at which the lower limit, the median and the upper limit fall to the uplift displacement, and the width of
@@ -298,5 +298,5 @@ fn figure(ratio: Option<f64>, digits: usize) -> String {
 fn initiation(found: Initiation) -> [String; 4] {
     let strength = |strength: Option<f64>| strength.map_or_else(|| "above all".to_owned(), |eta| format!("{eta:.3}"));
     let [lower, median, upper] = [found.lower, found.median, found.upper].map(strength);
-    [lower, median, upper, figure(found.width, 0)]
+    [lower, median, upper, figure(100.0 * found.width.unwrap_or(f64::NAN), 0)]
 }

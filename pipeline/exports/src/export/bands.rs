@@ -1,76 +1,21 @@
 //! The bands of a result, as every format takes them.
 
-use uplift_job::Array;
-use uplift_result::{MeasureBands, StoredBands};
+use uplift_result::{BandKind, StoredBands};
 
 use super::Export;
 use super::source::Row;
 
-/// Which spectra bands are of, and what each format calls them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Kind {
-    /// What the weights of the records are, and whether weighted hazard curves are drawn too.
-    pub(super) weights: &'static str,
-    /// What follows the names of the table and of JSON: `u05_joint_n20_m`, `bands_joint`.
-    pub(super) suffix: &'static str,
-    is_repaired: bool,
-    is_joint: bool,
-}
+/// All kinds of bands, those of a kind of spectrum side by side.
+pub(super) const BY_SPECTRUM: [BandKind; 4] =
+    [BandKind::PLAIN, BandKind::JOINT, BandKind::REPAIRED, BandKind::REPAIRED_JOINT];
 
-/// Of spectra of records that count alike.
-pub(super) const PLAIN: Kind = Kind { weights: "alike", suffix: "", is_repaired: false, is_joint: false };
-/// Of these over records and weighted hazard curves together.
-pub(super) const JOINT: Kind =
-    Kind { weights: "alike, with hazard curves", suffix: "_joint", is_repaired: false, is_joint: true };
-/// Of repaired spectra.
-pub(super) const REPAIRED: Kind =
-    Kind { weights: "repaired", suffix: "_consistent", is_repaired: true, is_joint: false };
-/// Of these over records and weighted hazard curves together.
-pub(super) const REPAIRED_JOINT: Kind =
-    Kind { weights: "repaired, with hazard curves", suffix: "_consistent_joint", is_repaired: true, is_joint: true };
-/// The bands that some spectra have and others have not.
-pub(super) const FURTHER: [Kind; 3] = [REPAIRED, JOINT, REPAIRED_JOINT];
-/// All bands, those of a kind of spectrum side by side.
-pub(super) const ALL: [Kind; 4] = [PLAIN, JOINT, REPAIRED, REPAIRED_JOINT];
-
-/// Figures of Table 4.1, %: the name of each, and its heading of the workbook.
-pub(super) const FIGURES: [(&str, &str); 2] =
-    [("e_median_pct", "error of the median, %"), ("r_90ci_pct", "range of the interval, %")];
-
-/// The bands of a kind, of all spectra of a measure.
-pub(super) struct MeasureBandsOf<'a> {
-    /// Lower limits, medians and upper limits `[site, poe, size, strength]`, m.
-    pub(super) limits_m: &'a [Array<4>; 3],
-    /// The [`FIGURES`] `[site, poe, size]`; joint bands have no error of the median.
-    pub(super) figures: [Option<&'a Array<3>>; 2],
-    /// Share of the samples whose weights miss the site's hazard `[site, size]`; of repaired spectra alone.
-    pub(super) failed: Option<&'a Array<2>>,
-}
-
-impl Kind {
-    /// The name of one of its arrays of a measure in a MATLAB file: `u05_joint_pgv_m`.
-    pub(super) fn name_with(self, name: &str, key: &str) -> String {
-        let (stem, unit) = name.rsplit_once('_').filter(|(_, unit)| ["m", "pct"].contains(unit)).unwrap_or((name, ""));
-        let joint = if self.is_joint { "_joint" } else { "" };
-        let repaired = if self.is_repaired { "_consistent" } else { "" };
-        let unit = if unit.is_empty() { String::new() } else { format!("_{unit}") };
-        format!("{stem}{joint}{repaired}_{key}{unit}")
-    }
-
-    /// The bands of this kind of a measure.
-    pub(super) fn of(self, bands: &MeasureBands) -> Option<MeasureBandsOf<'_>> {
-        let (own, failed) = match &bands.repaired {
-            _ if !self.is_repaired => (&bands.plain, None),
-            repaired => repaired.as_ref().map(|own| (&own.bands, Some(&own.failed)))?,
-        };
-        Some(if self.is_joint {
-            let own = own.joint.as_ref()?;
-            let figures = [None, Some(&own.range_of_interval)];
-            MeasureBandsOf { limits_m: &own.limits_m, figures, failed: own.failed.as_ref() }
-        } else {
-            let figures = [Some(&own.error_of_median), Some(&own.range_of_interval)];
-            MeasureBandsOf { limits_m: &own.limits_m, figures, failed }
-        })
+/// The name of an array of a measure's bands in a MATLAB file: `u05_joint_pgv_m`.
+pub(super) fn name_with(kind: BandKind, name: &str, key: &str) -> String {
+    let joint = if kind.is_joint { "_joint" } else { "" };
+    let repaired = if kind.is_repaired { "_consistent" } else { "" };
+    match name.rsplit_once('_') {
+        Some((stem, unit)) => format!("{stem}{joint}{repaired}_{key}_{unit}"),
+        None => format!("{name}{joint}{repaired}_{key}"),
     }
 }
 
@@ -82,7 +27,7 @@ pub(super) struct BandOf<'a> {
     /// Limits of the spectra of all records there could be, and of another set, as
     /// [`INFERRED_BANDS`](uplift_result::INFERRED_BANDS) names them, m; of plain spectra alone, none in older results.
     pub(super) inferred_m: Option<[&'a [f64]; 4]>,
-    /// The [`FIGURES`]; NaN where there is none.
+    /// The [`BAND_FIGURES`](uplift_result::BAND_FIGURES); NaN where there is none.
     pub(super) figures: [f64; 2],
     /// Share of the samples whose weights miss the site's hazard; of repaired spectra alone.
     pub(super) failed_share: Option<f64>,
@@ -91,11 +36,11 @@ pub(super) struct BandOf<'a> {
 impl Export {
     /// The bands of a kind of a spectrum, by size of the sample; none where it has none: at a site without repair or
     /// without weighted hazard curves.
-    pub(super) fn bands_of(&self, row: &Row<'_>, kind: Kind) -> Vec<BandOf<'_>> {
+    pub(super) fn bands_of(&self, row: &Row<'_>, kind: BandKind) -> Vec<BandOf<'_>> {
         let of_measure = self.bands.as_ref().and_then(|bands| Some((bands, bands.of(row.spectrum.measure)?)));
         let Some((StoredBands { sizes, .. }, of_measure)) = of_measure else { return Vec::new() };
         let Some(of) = kind.of(of_measure) else { return Vec::new() };
-        let inferred = of_measure.inferred.as_ref().filter(|_| kind == PLAIN);
+        let inferred = of_measure.inferred.as_ref().filter(|_| kind == BandKind::PLAIN);
         let [site, poe] = row.at;
         let of_size = |(size, &records): (usize, &u32)| BandOf {
             records,
@@ -112,12 +57,12 @@ impl Export {
     }
 
     /// The bands of every kind.
-    pub(super) fn all_bands_of(&self, row: &Row<'_>) -> impl Iterator<Item = (Kind, BandOf<'_>)> {
-        ALL.into_iter().flat_map(|kind| self.bands_of(row, kind).into_iter().map(move |band| (kind, band)))
+    pub(super) fn all_bands_of(&self, row: &Row<'_>) -> impl Iterator<Item = (BandKind, BandOf<'_>)> {
+        BY_SPECTRUM.into_iter().flat_map(|kind| self.bands_of(row, kind).into_iter().map(move |band| (kind, band)))
     }
 
     /// Whether there are bands of a kind.
-    pub(super) fn has_bands(&self, kind: Kind) -> bool {
+    pub(super) fn has_bands(&self, kind: BandKind) -> bool {
         self.bands.iter().flat_map(|bands| &bands.measures).any(|of| kind.of(of).is_some())
     }
 

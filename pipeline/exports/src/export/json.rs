@@ -6,12 +6,13 @@ use uplift_questions::efficiency::{FIGURES, Figure, TRENDS};
 use uplift_questions::influence::{CHANGES, RecordInfluence};
 use uplift_result::declared::{Field, Quantity};
 use uplift_result::{
-    Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, flag_word, regression, urs,
+    BAND_FIGURES, BandKind, Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, flag_word,
+    regression, urs,
 };
 
 use super::Export;
 use super::added::Influence;
-use super::bands::{self, BandOf, JOINT, PLAIN, REPAIRED, REPAIRED_JOINT};
+use super::bands::BandOf;
 use super::source::{self, ConsistencyOf, Row};
 
 impl Export {
@@ -55,15 +56,15 @@ impl Export {
             spectrum[quantity.name] = (first..first + strengths).map(|at| cell(quantity, row.of_measure, at)).collect();
         }
         spectrum["fit"] = coefficients(&row.spectrum.fit);
-        spectrum["bands"] = self.bands_of(row, PLAIN).iter().map(band).collect();
+        spectrum["bands"] = self.bands_of(row, BandKind::PLAIN).iter().map(band).collect();
         spectrum["disaggregation"] =
             self.influence_on(row).map(|influence| self.disaggregation(row.at, influence)).into();
         if let Some((u_m, fit)) = self.repaired(row) {
             spectrum["u_consistent_m"] = numbers(u_m).into();
             spectrum["fit_consistent"] = coefficients(fit);
-            spectrum["bands_consistent"] = self.bands_of(row, REPAIRED).iter().map(band).collect();
+            spectrum["bands_consistent"] = self.bands_of(row, BandKind::REPAIRED).iter().map(band).collect();
         }
-        for kind in [JOINT, REPAIRED_JOINT] {
+        for kind in [BandKind::JOINT, BandKind::REPAIRED_JOINT] {
             let bands = self.bands_of(row, kind);
             if !bands.is_empty() {
                 spectrum[format!("bands{}", kind.suffix)] = bands.iter().map(band).collect();
@@ -163,7 +164,7 @@ fn band(band: &BandOf<'_>) -> Value {
     for (name, limit_m) in ["lower_m", "median_m", "upper_m"].iter().zip(band.limits_m) {
         said[*name] = numbers(limit_m).into();
     }
-    for ((name, _), figure) in bands::FIGURES.iter().zip(band.figures) {
+    for ((name, _), figure) in BAND_FIGURES.iter().zip(band.figures) {
         said[*name] = finite(figure).into();
     }
     for (quantity, limits_m) in INFERRED_BANDS.quantities.iter().zip(band.inferred_m.iter().flatten()) {

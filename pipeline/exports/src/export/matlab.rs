@@ -6,11 +6,12 @@ use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_questions::efficiency::{FIGURES, TRENDS};
 use uplift_result::declared::Quantity;
-use uplift_result::{INFERRED_BANDS, StoredSpectra, StoredSpread, regression, urs};
+use uplift_result::{BAND_FIGURES, INFERRED_BANDS, StoredSpectra, StoredSpread, regression, urs};
 
 use super::Export;
 use super::added::Influence;
-use super::{bands, source};
+use super::bands::{BY_SPECTRUM, name_with};
+use super::source;
 use crate::error::ExportsError;
 use level_5::{MatFile, Shape};
 
@@ -142,19 +143,19 @@ impl Export {
             let spectra = Shape(vec![strengths.len(), sizes.len(), poes.len(), sites.len()]);
             let figures = Shape(vec![sizes.len(), poes.len(), sites.len()]);
             let of_sizes = Shape(vec![sizes.len(), sites.len()]);
-            let kinds = bands::ALL.into_iter().filter_map(|kind| Some((kind, kind.of(of)?)));
+            let kinds = BY_SPECTRUM.into_iter().filter_map(|kind| Some((kind, kind.of(of)?)));
             for (kind, own) in kinds.clone() {
                 for (name, limits) in bands.limit_names().iter().zip(own.limits_m) {
-                    file.numbers(&kind.name_with(name, key), &spectra, limits.values());
+                    file.numbers(&name_with(kind, name, key), &spectra, limits.values());
                 }
-                for ((name, _), figure) in bands::FIGURES.iter().zip(own.figures) {
+                for ((name, _), figure) in BAND_FIGURES.iter().zip(own.figures) {
                     if let Some(figure) = figure {
-                        file.numbers(&kind.name_with(name, key), &figures, figure.values());
+                        file.numbers(&name_with(kind, name, key), &figures, figure.values());
                     }
                 }
             }
             for (kind, failed) in kinds.rev().filter_map(|(kind, own)| Some((kind, own.failed?))) {
-                file.numbers(&kind.name_with("failed", key), &of_sizes, failed.values());
+                file.numbers(&name_with(kind, "failed", key), &of_sizes, failed.values());
             }
             if let Some(inferred) = &of.inferred {
                 add(file, INFERRED_BANDS.quantities, key, &spectra, inferred);

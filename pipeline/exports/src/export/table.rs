@@ -3,12 +3,11 @@
 use polars::prelude::Column;
 use uplift_job::text::finite;
 use uplift_questions::efficiency;
-use uplift_result::{INFERRED_BANDS, StoredSpread, urs};
+use uplift_result::{BandKind, INFERRED_BANDS, StoredSpread, urs};
 use uplift_studies::uniform_risk::spectra_table;
 
 use super::Export;
 use super::added::SHARES;
-use super::bands::{FURTHER, Kind, PLAIN};
 use super::source::Row;
 
 /// A column: its name, and its cells of a spectrum over the strengths, where that has some.
@@ -44,9 +43,9 @@ impl Export {
         let mut columns = spectra_table(&self.spectra);
         let beside = columns.iter().position(|column| column.name() == urs::U_M.name).map_or(0, |place| place + 1);
         columns.splice(beside..beside, [fit_m, period].map(column));
-        let mut more = self.band_cells(PLAIN);
+        let mut more = self.band_cells(BandKind::PLAIN);
         more.extend(self.added_cells());
-        more.extend(FURTHER.into_iter().flat_map(|kind| self.band_cells(kind)));
+        more.extend(BandKind::ALL[1..].iter().flat_map(|&kind| self.band_cells(kind)));
         more.extend(self.inferred_cells());
         for over in self.spread_over() {
             let of = |(place, name)| {
@@ -60,7 +59,7 @@ impl Export {
     }
 
     /// The limits of the bands of a kind, by size of the sample, then limit.
-    fn band_cells(&self, kind: Kind) -> Vec<Cells<'_>> {
+    fn band_cells(&self, kind: BandKind) -> Vec<Cells<'_>> {
         let Some(bands) = self.bands.as_ref().filter(|_| self.has_bands(kind)) else { return Vec::new() };
         let names = bands.limit_names();
         let of_size = |(size, records): (usize, &u32)| {
@@ -79,7 +78,8 @@ impl Export {
         let of_size = |(size, records): (usize, &u32)| {
             let key = format!("n{records}");
             INFERRED_BANDS.quantities.iter().enumerate().map(move |(limit, quantity)| {
-                let limit_m = move |row: &Row<'_>| Some(all(self.bands_of(row, PLAIN).get(size)?.inferred_m?[limit]));
+                let limit_m =
+                    move |row: &Row<'_>| Some(all(self.bands_of(row, BandKind::PLAIN).get(size)?.inferred_m?[limit]));
                 Cells::new(quantity.name_with(&key), limit_m)
             })
         };

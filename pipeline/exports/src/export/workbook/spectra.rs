@@ -1,11 +1,10 @@
 //! The sheets of spectra and of bands: strengths down, spectra across.
 
 use rust_xlsxwriter::XlsxError;
-use uplift_result::flag_word;
+use uplift_result::{BandKind, flag_word};
 
 use super::sheet::{Sheet, Shown};
 use crate::export::Export;
-use crate::export::bands::FURTHER;
 use crate::export::source::Row;
 
 /// In place of an ordinate that does not exist.
@@ -58,7 +57,7 @@ impl Export {
     /// The bands of all sizes.
     pub(super) fn bands_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
         // plain bands alone need no line that says so
-        let has_others = FURTHER.into_iter().any(|kind| self.has_bands(kind));
+        let has_others = BandKind::ALL[1..].iter().any(|&kind| self.has_bands(kind));
         let weights = has_others.then_some("weights");
         let headings: Vec<&str> = weights.into_iter().chain(["records in a sample", "limit"]).collect();
         let below = self.heads(sheet, &headings)?;

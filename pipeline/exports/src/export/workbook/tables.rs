@@ -1,11 +1,10 @@
 //! The sheets with a line each spectrum, and that of the hazard curves.
 
 use rust_xlsxwriter::XlsxError;
-use uplift_result::Fit;
+use uplift_result::{BAND_FIGURES, Fit};
 
 use super::sheet::{Sheet, Shown};
 use crate::export::Export;
-use crate::export::bands::FIGURES;
 use crate::export::source::Row;
 
 /// Columns of what a line is of.
@@ -38,7 +37,7 @@ impl Export {
 
     /// How wide the bands are (Table 4.1).
     pub(super) fn band_figures(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
-        let [(_, error), (_, range)] = FIGURES;
+        let [(_, error), (_, range)] = BAND_FIGURES;
         let headings = ["records in a sample", error, range, "weights"];
         of_headings(sheet, &headings)?;
         let mut line = 1;
