@@ -30,9 +30,9 @@ pub(crate) fn print_bootstrap(
     }
     if !terminal.is_quiet() {
         print_sizes(out, report, shown)?;
-        print_synthetic(out, report.synthetic, terminal)?;
+        print_synthetic(out, report.stored.synthetic, terminal)?;
         let tables = report.tables.each_ref().map(|file| shown_path(file).display().to_string());
-        writeln!(out, "\nBands    /bootstrap in {}", shown_path(&report.result).display())?;
+        writeln!(out, "\nBands    /bootstrap in {}", shown_path(&report.stored.path).display())?;
         writeln!(out, "Tables   {}", tables.join(", "))?;
         print_more(out, terminal)?;
     }
@@ -41,7 +41,7 @@ pub(crate) fn print_bootstrap(
 
 /// Table 4.1 for each probability, repaired and joint bands, and rocking initiation.
 fn print_details(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
-    for poe in 0..report.poes.len() {
+    for poe in 0..report.stored.poes.len() {
         print_figures(out, report, poe, poe == rarest(report))?;
     }
     print_repaired(out, report)?;
@@ -52,7 +52,7 @@ fn print_details(out: &mut impl Write, report: &BootstrapReport) -> Result<(), C
 
 /// The position of the smallest probability, which Table 4.1 is about.
 fn rarest(report: &BootstrapReport) -> usize {
-    (0..report.poes.len()).min_by(|&a, &b| report.poes[a].total_cmp(&report.poes[b])).unwrap_or(0)
+    (0..report.stored.poes.len()).min_by(|&a, &b| report.stored.poes[a].total_cmp(&report.stored.poes[b])).unwrap_or(0)
 }
 
 fn print_figures(
@@ -65,11 +65,11 @@ fn print_figures(
     writeln!(
         out,
         "\nAccuracy of the spectra, {}: error of the median e and width r of the {} interval, per cent{}",
-        risk_in_words(report.poes[poe], report.years),
+        risk_in_words(report.stored.poes[poe], report.stored.years),
         per_cent(report.confidence),
         if reference.is_some() { "; right of the bars the reference" } else { "" }
     )?;
-    let places = report.sites.iter().enumerate();
+    let places = report.stored.sites.iter().enumerate();
     let places = places.flat_map(|site| report.sizes.iter().enumerate().map(move |size| (site, size)));
     let table = Table::of(places)
         .left("site", |((_, name), (index, _))| if index == 0 { name.as_str() } else { "" })
@@ -107,7 +107,7 @@ fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
         rows.push(vec![
             row.site.clone(),
             row.im.to_owned(),
-            risk_name(row.poe, report.years),
+            risk_name(row.poe, report.stored.years),
             row.sample_size.to_string(),
             percent(row.r_90ci, 0),
             percent(repaired.e_median, 1),
@@ -138,9 +138,9 @@ fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
 
 /// What the records say beyond themselves: for the rarest probability, samples of their own number.
 fn print_inferred(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
-    let own = u32::try_from(report.records).unwrap_or(u32::MAX);
+    let own = u32::try_from(report.stored.records.len()).unwrap_or(u32::MAX);
     let size = if report.sizes.contains(&own) { Some(own) } else { report.sizes.iter().copied().max() };
-    let rarest = report.poes.iter().copied().min_by(f64::total_cmp);
+    let rarest = report.stored.poes.iter().copied().min_by(f64::total_cmp);
     let (Some(size), Some(poe)) = (size, rarest) else { return Ok(()) };
     let limits = |[lower, upper]: [f64; 2]| [format!("{lower:+.0}"), format!("{upper:+.0}")];
     let rows: Vec<Vec<String>> = report
@@ -163,7 +163,7 @@ fn print_inferred(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
         "\nConfidence and prediction bands, {}: the spectrum of all records like these, and of another set of {size}, \
          each with {} confidence; limits in per cent of the ordinate, at the strength where the confidence band is \
          widest in metres",
-        risk_in_words(poe, report.years),
+        risk_in_words(poe, report.stored.years),
         per_cent(report.confidence)
     )?;
     let header = ["site", "im", "strength", "truth from", "to", "another set from", "to"];
@@ -205,11 +205,11 @@ fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), Com
             if !joint.sites.contains(&site) {
                 continue;
             }
-            let (name, label, records) = (&report.sites[site], bands.measure.label(), report.sizes[size]);
+            let (name, label, records) = (&report.stored.sites[site], bands.measure.label(), report.sizes[size]);
             let mut row = vec![
                 name.clone(),
                 label.to_owned(),
-                risk_name(report.poes[poe], report.years),
+                risk_name(report.stored.poes[poe], report.stored.years),
                 records.to_string(),
                 figure(of_records[0], 0),
                 figure(joint.range_of_interval[at], 0),
@@ -264,11 +264,13 @@ fn too_many_fail(what: &str, failing: &[String]) -> String {
 fn print_initiation(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
     let Some(size_index) = (0..report.sizes.len()).max_by_key(|&index| report.sizes[index]) else { return Ok(()) };
     // the most frequent shaking is the one that may not lift the structure
-    let Some(poe) = (0..report.poes.len()).max_by(|&a, &b| report.poes[a].total_cmp(&report.poes[b])) else {
+    let Some(poe) =
+        (0..report.stored.poes.len()).max_by(|&a, &b| report.stored.poes[a].total_cmp(&report.stored.poes[b]))
+    else {
         return Ok(());
     };
     let mut rows = Vec::new();
-    for (site, name) in report.sites.iter().enumerate() {
+    for (site, name) in report.stored.sites.iter().enumerate() {
         for (index, bands) in report.bands.iter().enumerate() {
             let mut row = vec![if index == 0 { name.clone() } else { String::new() }];
             row.push(bands.measure.label().to_owned());
@@ -280,9 +282,9 @@ fn print_initiation(out: &mut impl Write, report: &BootstrapReport) -> Result<()
         out,
         "\nRocking initiation, {}, samples of {}: strength at which the limits and the median fall to the\n\
          uplift displacement of {} m, and the width of the interval there over the median",
-        risk_in_words(report.poes[poe], report.years),
+        risk_in_words(report.stored.poes[poe], report.stored.years),
         report.sizes[size_index],
-        report.uplift_displacement_m
+        report.stored.uplift_displacement_m
     )?;
     let header = ["site", "im", "lower", "median", "upper", "width of u, %"];
     writeln!(out, "{}", Table::new(header, rows))?;

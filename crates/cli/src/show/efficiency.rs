@@ -18,17 +18,17 @@ const SIGNIFICANT: f64 = 0.05;
 /// The report for people; a quiet terminal gets the tables alone.
 pub(crate) fn print_efficiency(report: &EfficiencyReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
-    let shown = nearest(&report.strengths, &SHOWN_STRENGTHS);
-    let measures: Vec<&[EfficiencyRow]> = report.rows.chunks(report.strengths.len()).collect();
+    let shown = nearest(&report.stored.strengths, &SHOWN_STRENGTHS);
+    let measures: Vec<&[EfficiencyRow]> = report.rows.chunks(report.stored.strengths.len()).collect();
     let shown = Shown { report, measures, strengths: shown };
     shown.print_reading(out)?;
     if terminal.shows_details() {
         shown.print_scatter(out)?;
         shown.print_trends(out)?;
     }
-    print_synthetic(out, report.synthetic, terminal)?;
+    print_synthetic(out, report.stored.synthetic, terminal)?;
     if !terminal.is_quiet() {
-        writeln!(out, "\nResult   /efficiency and /sufficiency in {}", shown_path(&report.result).display())?;
+        writeln!(out, "\nResult   /efficiency and /sufficiency in {}", shown_path(&report.stored.path).display())?;
         writeln!(out, "Table    {}", shown_path(&report.table).display())?;
     }
     print_more(out, terminal)
@@ -58,7 +58,7 @@ impl Shown<'_> {
         Table::of(&self.measures)
             .left("measure", |rows| label(&rows[0]))
             .each(&self.strengths, |table, &at| {
-                table.right(format!("{:.3}", self.report.strengths[at]), |rows| cell(&rows[at]))
+                table.right(format!("{:.3}", self.report.stored.strengths[at]), |rows| cell(&rows[at]))
             })
             .build()
     }
@@ -141,8 +141,8 @@ impl Shown<'_> {
         if let Some(told) = self.rows().find(|row| row.is_told()) {
             writeln!(out, "+ has no hazard curve here: read in runs scaled to {}", told.scaled_to)?;
         }
-        if self.report.records < 30 {
-            writeln!(out, "With {} records only strong trends are found.", self.report.records)?;
+        if self.report.stored.records.len() < 30 {
+            writeln!(out, "With {} records only strong trends are found.", self.report.stored.records.len())?;
         }
         Ok(())
     }
@@ -154,8 +154,11 @@ impl Shown<'_> {
             let least = known.min_by(|a, b| of(&a[index]).total_cmp(&of(&b[index])))?;
             Some(label(&least[index]))
         };
-        let winners: Vec<(String, f64)> =
-            self.strengths.iter().filter_map(|index| Some((best(index)?, self.report.strengths[*index]))).collect();
+        let winners: Vec<(String, f64)> = self
+            .strengths
+            .iter()
+            .filter_map(|index| Some((best(index)?, self.report.stored.strengths[*index])))
+            .collect();
         let wins = |name: &str| winners.iter().filter(|(of, _)| *of == name).count();
         // of as many wins the first
         let Some((first, _)) = winners.iter().rev().max_by_key(|(name, _)| wins(name)) else {

@@ -12,44 +12,23 @@ use super::bands::BandSettings;
 use crate::error::QuestionsError;
 
 /// The report of a bootstrap.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 #[serde(transparent)]
 pub struct BootstrapReport {
     /// The figures of Table 4.1, one a measure, site, probability and sample size, in this order.
     pub rows: Vec<BootstrapRow>,
-    /// The result file, which holds the bands now.
+    /// The result, whose file holds the bands now.
     #[serde(skip)]
-    pub result: PathBuf,
+    pub stored: StoredStripes,
     /// The tables beside it: bands, and figures of Table 4.1.
     #[serde(skip)]
     pub tables: [PathBuf; 2],
     /// Share of the replicates between the limits.
     #[serde(skip)]
     pub confidence: f64,
-    /// Names of the sites.
-    #[serde(skip)]
-    pub sites: Vec<String>,
-    /// Probabilities of exceedance.
-    #[serde(skip)]
-    pub poes: Vec<f64>,
-    /// Years that they refer to.
-    #[serde(skip)]
-    pub years: f64,
-    /// Records of the result.
-    #[serde(skip)]
-    pub records: usize,
-    /// Whether the records are synthetic.
-    #[serde(skip)]
-    pub synthetic: bool,
     /// Records in a sample.
     #[serde(skip)]
     pub sizes: Vec<u32>,
-    /// Uplift strengths.
-    #[serde(skip)]
-    pub strengths: Vec<f64>,
-    /// Displacement at uplift, m.
-    #[serde(skip)]
-    pub uplift_displacement_m: f64,
     /// The bands, a measure each.
     #[serde(skip)]
     pub bands: Vec<MeasureBands>,
@@ -156,22 +135,7 @@ impl BootstrapReport {
                 });
             }
         }
-        Self {
-            rows,
-            result: stored.path,
-            tables,
-            confidence: settings.confidence,
-            sites: stored.sites,
-            poes: stored.poes,
-            years: stored.years,
-            records: stored.records.len(),
-            synthetic: stored.synthetic,
-            sizes,
-            strengths: stored.strengths,
-            uplift_displacement_m: stored.uplift_displacement_m,
-            bands,
-            reference,
-        }
+        Self { rows, stored, tables, confidence: settings.confidence, sizes, bands, reference }
     }
 
     /// Where rocking begins, by `bands` at the positions `[site, poe, size]`.
@@ -179,8 +143,8 @@ impl BootstrapReport {
     /// # Panics
     /// If a position is out of range, which is a bug of the caller.
     pub fn initiation(&self, bands: &StoredSpectraBands, at: [usize; 3]) -> Initiation {
-        let at_uplift = |values: &[f64]| values.iter().position(|&u_m| u_m <= self.uplift_displacement_m);
-        let strength = |values: &[f64]| at_uplift(values).map(|index| self.strengths[index]);
+        let at_uplift = |values: &[f64]| values.iter().position(|&u_m| u_m <= self.stored.uplift_displacement_m);
+        let strength = |values: &[f64]| at_uplift(values).map(|index| self.stored.strengths[index]);
         let [lower, median, upper] = bands.limits_m.each_ref().map(|limits| limits.block(at));
         Initiation {
             lower: strength(lower),

@@ -105,7 +105,7 @@ pub fn efficiency(
         }
     }
     write_efficiency(&locked, (&stored, &file.efficiency()?), &covariates, &measures)?;
-    Ok(EfficiencyReport::new(&stored, &covariates, &measures, up_to_m))
+    Ok(EfficiencyReport::new(stored, &covariates, &measures, up_to_m))
 }
 
 /// Those of the measures `wanted` that can be had, of each record.

@@ -11,29 +11,20 @@ use super::of_measure::{Covariate, MeasureEfficiency};
 use super::write::efficiency_path;
 
 /// The report on efficiency and sufficiency.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 #[serde(transparent)]
 pub struct EfficiencyReport {
     /// One a measure and strength, in this order.
     pub rows: Vec<EfficiencyRow>,
-    /// Uplift strengths.
+    /// The result, whose file holds all of it now.
     #[serde(skip)]
-    pub strengths: Vec<f64>,
+    pub stored: StoredStripes,
     /// What is known of the records, in order: the keys of [`EfficiencyRow::trends`].
     #[serde(skip)]
     pub covariates: Vec<&'static str>,
     /// The largest displacement at which measures are compared, m, of each strength; none where there is none.
     #[serde(skip)]
     pub up_to_m: Vec<Option<f64>>,
-    /// Records.
-    #[serde(skip)]
-    pub records: usize,
-    /// Whether the records are synthetic.
-    #[serde(skip)]
-    pub synthetic: bool,
-    /// The result file, which holds all of it now.
-    #[serde(skip)]
-    pub result: PathBuf,
     /// The table beside it.
     #[serde(skip)]
     pub table: PathBuf,
@@ -91,7 +82,7 @@ pub(super) fn rank(measures: &[MeasureEfficiency], of: &StoredEfficiency, index:
 
 impl EfficiencyReport {
     pub(super) fn new(
-        stored: &StoredStripes,
+        stored: StoredStripes,
         covariates: &[Covariate],
         measures: &[MeasureEfficiency],
         up_to_m: Vec<Option<f64>>,
@@ -120,14 +111,14 @@ impl EfficiencyReport {
                 .collect(),
         };
         Self {
-            rows: measures.iter().flat_map(|of| (0..stored.strengths.len()).map(move |index| row(of, index))).collect(),
-            strengths: stored.strengths.clone(),
+            rows: measures
+                .iter()
+                .flat_map(|of| (0..stored.strengths.len()).map(|index| row(of, index)).collect::<Vec<_>>())
+                .collect(),
             covariates: covariates.iter().map(|covariate| covariate.key).collect(),
             up_to_m,
-            records: stored.records.len(),
-            synthetic: stored.synthetic,
-            result: stored.path.clone(),
             table: efficiency_path(&stored.path),
+            stored,
         }
     }
 }
