@@ -118,7 +118,7 @@ fn coefficients(fit: &Fit) -> Value {
 
 /// The value at an index of a stored array.
 fn cell<T>(quantity: &Quantity<T>, of: &T, at: usize) -> Value {
-    match quantity.field {
+    match &quantity.field {
         Field::F64(place) => finite(*(place.get)(of, at)).into(),
         Field::Made(number) => finite(number(of, at)).into(),
         Field::U32(place) => (*(place.get)(of, at)).into(),
