@@ -1,7 +1,5 @@
 //! What is exported of a result, as every format takes it.
 
-use std::path::Path;
-
 use uplift_alarms::alarms;
 use uplift_hazard::rate_from_probability;
 use uplift_job::JobError;
@@ -53,14 +51,6 @@ pub(super) struct Row<'a> {
 }
 
 impl Export {
-    /// Read the result at `path`.
-    ///
-    /// # Errors
-    /// A file that is missing, damaged or no result of uniform risk spectra.
-    pub fn read(path: &Path) -> Result<Self, ExportsError> {
-        Self::from_file(&ResultFile::open(path)?)
-    }
-
     /// Read `file`, at the risks that it was asked for.
     ///
     /// # Errors
