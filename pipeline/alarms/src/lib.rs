@@ -82,9 +82,11 @@ pub fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsE
 /// A file that is damaged.
 pub fn every_alarm(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError> {
     let mut every = alarms(file)?;
-    if file.kind() == Kind::UniformRisk {
+    if file.kind() == Kind::UniformRisk && !file.axes()?.sites.is_empty() {
+        let evidence = Evidence::read(file, &Scope::default())?;
         for measure in file.measures() {
-            for alarm in alarms_of(file, &Scope { measure: Some(measure), ..Scope::default() })? {
+            let scope = Scope { measure: Some(measure), ..Scope::default() };
+            for alarm in ranked(spectra_alarms(&evidence, &scope)?) {
                 if every.iter().all(|known| known.kind != alarm.kind) {
                     every.push(alarm);
                 }

@@ -2,6 +2,7 @@
 //! file, a workbook.
 
 mod added;
+mod bands;
 mod findings;
 mod json;
 mod matlab;

@@ -12,9 +12,7 @@ mod report;
 mod write;
 
 pub use asked::{resampled, resampling_plan};
-pub use bands::{Bands, RepairedBands, SpectraBands};
 pub use checkpoint::{finished_strengths, part_path};
 pub use job::{BootstrapOptions, bootstrap};
-pub use joint::JointBands;
 pub use report::{BootstrapReport, BootstrapRow, Initiation, ReferenceRow, RepairedFigures, read_reference};
 pub use uplift_uniform_risk::MANY_FAILED;

@@ -8,5 +8,7 @@ mod restated;
 mod write;
 
 pub use job::{EfficiencyOptions, efficiency, usual_measures};
-pub use of_measure::{Covariate, MeasureEfficiency, covariates, efficiency_by};
+pub use of_measure::{
+    Covariate, FIGURES, Figure, INITIATION, MeasureEfficiency, ROCKING, TRENDS, covariates, efficiency_by,
+};
 pub use report::{EfficiencyReport, EfficiencyRow, Trend};

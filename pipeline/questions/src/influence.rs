@@ -5,6 +5,6 @@ mod job;
 mod report;
 mod write;
 
-pub use change::{RecordInfluence, level_of_share, rank_records};
+pub use change::{CHANGES, Change, RecordInfluence, level_of_share, rank_records};
 pub use job::{InfluenceOptions, influence};
 pub use report::{InfluenceReport, IntensityShares, RecordChange};

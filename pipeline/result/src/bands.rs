@@ -42,6 +42,9 @@ pub struct MeasureBands {
 pub struct StoredSpectraBands {
     /// Lower limits, medians and upper limits, each `[site, poe, size, strength]`, m.
     pub limits_m: [Array<4>; 3],
+    /// Lower and upper limits of the band of whole spectra `[site, poe, size, strength]`, m, where they are made; not
+    /// read from a file.
+    pub simultaneous_m: Option<[Array<4>; 2]>,
     /// Errors of the median `[site, poe, size]`, % (Eq. 4.9); NaN where an ordinate is censored or 0.
     pub error_of_median: Array<3>,
     /// Widths of the interval `[site, poe, size]`, % (Eq. 4.10); NaN where an ordinate is censored or 0.
@@ -54,6 +57,8 @@ pub struct StoredSpectraBands {
 /// also where one of them has no repair.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredJointBands {
+    /// Positions of the sites that have such curves.
+    pub sites: Vec<usize>,
     /// Lower limits, medians and upper limits, each `[site, poe, size, strength]`, m.
     pub limits_m: [Array<4>; 3],
     /// Widths of the interval `[site, poe, size]`, % (Eq. 4.10); NaN where an ordinate is censored or 0.
@@ -333,6 +338,7 @@ impl ResultFile {
                 let names = band_names(measure, &limits, of_repaired);
                 let mut bands = StoredSpectraBands {
                     limits_m: [nan(), nan(), nan()],
+                    simultaneous_m: None,
                     error_of_median: nan_figures(),
                     range_of_interval: nan_figures(),
                     joint: self.joint_bands(&names, &axes.sites, shape)?,
@@ -371,13 +377,13 @@ impl ResultFile {
     ) -> Result<Option<StoredJointBands>, ResultError> {
         let [count, poes, sizes, strengths] = shape;
         let nan = |length| vec![f64::NAN; length];
-        let (mut has_some, mut has_failed) = (false, false);
-        let of_site = |site: &String| {
+        let (mut places, mut has_failed) = (Vec::new(), false);
+        let of_site = |(place, site): (usize, &String)| {
             let names = [names, &[("<site>", site)]].concat();
             let limits_m = [(); 3].map(|()| nan(poes * sizes * strengths));
             let mut own = SiteJointBands { limits_m, range_of_interval: nan(poes * sizes), failed: nan(sizes) };
             if JOINT_BANDS.is_in(self, &names) {
-                has_some = true;
+                places.push(place);
                 JOINT_BANDS.read(self, &names, &band_lengths(shape), &mut own)?;
             }
             if FAILED_PAIRS.is_in(self, &names) {
@@ -386,13 +392,14 @@ impl ResultFile {
             }
             Ok(own)
         };
-        let sites = sites.iter().map(of_site).collect::<Result<Vec<_>, ResultError>>()?;
+        let sites = sites.iter().enumerate().map(of_site).collect::<Result<Vec<_>, ResultError>>()?;
         let limit = |limit: usize| {
             Array::from_fn(shape, |[site, poe, size, strength]| {
                 sites[site].limits_m[limit][(poe * sizes + size) * strengths + strength]
             })
         };
-        Ok(has_some.then(|| StoredJointBands {
+        Ok((!places.is_empty()).then(|| StoredJointBands {
+            sites: places,
             limits_m: [0, 1, 2].map(limit),
             range_of_interval: Array::from_fn([count, poes, sizes], |[site, poe, size]| {
                 sites[site].range_of_interval[poe * sizes + size]

@@ -55,7 +55,7 @@ pub enum Field<T: 'static> {
     Made(fn(&T, usize) -> f64),
 }
 
-/// Where the value at an index is, to read it and to change it; made by `place!`.
+/// Where the value at an index is, to read it and to change it.
 pub struct Place<T, V> {
     /// The value at an index.
     pub get: fn(&T, usize) -> &V,
@@ -63,16 +63,33 @@ pub struct Place<T, V> {
     pub get_mut: fn(&mut T, usize) -> &mut V,
 }
 
-/// The [`Place`] of `|value, index| value.field[index]`: written once, to read it and to change it.
-macro_rules! place {
-    (|$value:ident, $index:ident| $place:expr) => {
-        $crate::declared::Place { get: |$value, $index| &$place, get_mut: |$value, $index| &mut $place }
+/// A [`Quantity`] as a row: the name of the array, its axes, type, unit, long name, in brackets the note where it is
+/// another, and the field.
+macro_rules! quantity {
+    (
+        $name:literal $axes:tt $kind:ident $unit:literal $long_name:literal $(($note:literal))?
+            = |$of:ident, $at:ident| $field:expr
+    ) => {
+        $crate::declared::Quantity {
+            name: $name,
+            axes: &$axes,
+            unit: $unit,
+            long_name: $long_name,
+            note: concat!($($note)?),
+            field: $crate::declared::quantity!(@field $kind |$of, $at| $field),
+        }
+    };
+    (@field Made |$of:ident, $at:ident| $field:expr) => { $crate::declared::Field::Made(|$of, $at| $field) };
+    (@field $kind:ident |$of:ident, $at:ident| $field:expr) => {
+        $crate::declared::Field::$kind($crate::declared::Place {
+            get: |$of, $at| &$field,
+            get_mut: |$of, $at| &mut $field,
+        })
     };
 }
-pub(crate) use place;
+pub(crate) use quantity;
 
-/// A [`Group`] as a table: the name of each array, its axes, type, unit, long name, in brackets the note where it is
-/// another, and the field.
+/// A [`Group`] as a table of such rows.
 macro_rules! group {
     (
         $(#[$doc:meta])* pub const $group:ident: $value:ty = $path:expr;
@@ -82,46 +99,13 @@ macro_rules! group {
         $(#[$doc])*
         pub const $group: $crate::declared::Group<$value> = $crate::declared::Group {
             path: $path,
-            quantities: &[$($crate::declared::Quantity {
-                name: $name,
-                axes: &$axes,
-                unit: $unit,
-                long_name: $long_name,
-                note: concat!($($note)?),
-                field: group!(@field $kind |$of, $at| $field),
-            }),+],
+            quantities: &[$($crate::declared::quantity!(
+                $name $axes $kind $unit $long_name $(($note))? = |$of, $at| $field
+            )),+],
         };
-    };
-    (@field Made |$of:ident, $at:ident| $field:expr) => { $crate::declared::Field::Made(|$of, $at| $field) };
-    (@field $kind:ident |$of:ident, $at:ident| $field:expr) => {
-        $crate::declared::Field::$kind($crate::declared::place!(|$of, $at| $field))
     };
 }
 pub(crate) use group;
-
-impl<T, V> Clone for Place<T, V> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T, V> Copy for Place<T, V> {}
-
-impl<T> Clone for Field<T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Field<T> {}
-
-impl<T> Clone for Quantity<T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Quantity<T> {}
 
 /// The arrays of a group of the file. What stands in angle brackets is replaced by [`Names`]: a group each.
 pub struct Group<T: 'static> {
@@ -137,7 +121,7 @@ pub type Lengths<'a> = &'a [(&'a str, usize)];
 impl<T> Quantity<T> {
     /// The type of its values, as `docs/hdf5-layout.md` names it.
     pub fn element(&self) -> &'static str {
-        match self.field {
+        match &self.field {
             Field::F64(_) | Field::Made(_) => "f64",
             Field::U32(_) => "u32",
             Field::Bool(_) | Field::Flag(_) => "u8",
@@ -155,7 +139,7 @@ impl<T> Quantity<T> {
 
     /// Its value at an index as a number; none of a text.
     pub fn number(&self, value: &T, index: usize) -> Option<f64> {
-        match self.field {
+        match &self.field {
             Field::F64(place) => Some(*(place.get)(value, index)),
             Field::U32(place) => Some((*(place.get)(value, index)).into()),
             Field::Bool(place) => Some(f64::from(u8::from(*(place.get)(value, index)))),
@@ -192,7 +176,7 @@ impl<T> Quantity<T> {
         let dims: &[&str] = &shape.iter().map(|(name, _)| name.as_ref()).collect::<Vec<_>>();
         let each = shape.iter().map(|(_, length)| length).product::<usize>() / rows.len().max(1);
         let (unit, long_name) = (&*named(self.unit, names), &*named(self.long_name, names));
-        match self.field {
+        match &self.field {
             Field::F64(Place { get, .. }) => {
                 let values = all(rows, each, |row, at| *get(row, at), &f64::NAN);
                 writer.array_f64(path, dims, &values, unit, long_name)
@@ -216,13 +200,13 @@ impl<T> Quantity<T> {
     }
 
     fn read(&self, file: &ResultFile, path: &str, shape: &[(String, usize)], value: &mut T) -> Result<(), ResultError> {
-        fn fill<T, V>(value: &mut T, place: Place<T, V>, values: impl IntoIterator<Item = V>) {
+        fn fill<T, V>(value: &mut T, place: &Place<T, V>, values: impl IntoIterator<Item = V>) {
             for (index, own) in values.into_iter().enumerate() {
                 *(place.get_mut)(value, index) = own;
             }
         }
         let reader = &file.reader;
-        match self.field {
+        match &self.field {
             Field::F64(place) => fill(value, place, file.checked(path, reader.array_f64(path)?, shape)?),
             Field::U32(place) => fill(value, place, file.checked(path, reader.array_u32(path)?, shape)?),
             Field::Text(place) => fill(value, place, file.checked(path, reader.array_text(path)?, shape)?),
@@ -254,10 +238,7 @@ impl<const N: usize> Group<Array<N>> {
         names: Names<'_>,
         values: &[f64],
     ) -> Result<(), LabelledError> {
-        let own = &self.quantities[0];
-        let axes = own.axes(names);
-        let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
-        writer.array_f64(&self.path(own, names), &dims, values, &named(own.unit, names), &named(own.long_name, names))
+        self.with_only(names, |path, dims, unit, long_name| writer.array_f64(path, dims, values, unit, long_name))
     }
 }
 
@@ -272,10 +253,7 @@ impl<const N: usize> Group<Array<N, u32>> {
         names: Names<'_>,
         values: &[u32],
     ) -> Result<(), LabelledError> {
-        let own = &self.quantities[0];
-        let axes = own.axes(names);
-        let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
-        writer.array_u32(&self.path(own, names), &dims, values, &named(own.unit, names), &named(own.long_name, names))
+        self.with_only(names, |path, dims, unit, long_name| writer.array_u32(path, dims, values, unit, long_name))
     }
 }
 
@@ -298,6 +276,14 @@ impl<T> Group<T> {
     /// The path of an array of one measure.
     pub fn path_of(&self, quantity: &Quantity<T>, measure: IntensityMeasure) -> String {
         self.path(quantity, &of_measure(measure))
+    }
+
+    /// What `write` makes of path, axes, unit and long name of the only array.
+    fn with_only<R>(&self, names: Names<'_>, write: impl FnOnce(&str, &[&str], &str, &str) -> R) -> R {
+        let own = &self.quantities[0];
+        let axes = own.axes(names);
+        let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
+        write(&self.path(own, names), &dims, &named(own.unit, names), &named(own.long_name, names))
     }
 
     fn path(&self, quantity: &Quantity<T>, names: Names<'_>) -> String {
@@ -387,7 +373,7 @@ impl<T> Group<T> {
         for quantity in self.quantities {
             let path = self.path(quantity, names);
             let (reader, row) = (&file.reader, rows.iter());
-            let same = match quantity.field {
+            let same = match &quantity.field {
                 Field::F64(Place { get, .. }) => {
                     let kept = reader.array_f64(&path)?.values;
                     kept.iter().map(|value| value.to_bits()).eq(row.map(|row| get(row, 0).to_bits()))

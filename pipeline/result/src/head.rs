@@ -50,6 +50,7 @@ pub struct Head {
 
 /// What a result holds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Overview {
     /// Uniform risk spectra.
     UniformRisk {
@@ -69,7 +70,7 @@ pub enum Overview {
         /// Name and number of records of each set, in the order of their names.
         sets: Vec<(String, u64)>,
         /// Whether there is a design example.
-        designed: bool,
+        has_design: bool,
     },
     /// The tests of a shaking table.
     ShakeTable {
@@ -150,7 +151,7 @@ impl ResultFile {
                 structure: reader.attribute_text("/", "structure")?,
                 analyses: reader.attribute_u64(SPECTRA.path, "analyses")?,
                 sets: sets.into_iter().map(|(records, name)| (name, records)).collect(),
-                designed: reader.exists(RESTRAINED_DESIGN.path),
+                has_design: reader.exists(RESTRAINED_DESIGN.path),
             });
         }
         if self.kind() == Kind::ShakeTable {

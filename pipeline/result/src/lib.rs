@@ -4,6 +4,7 @@
 //! and [`layout`] names the axes.
 
 mod asked_spectra;
+mod band_kind;
 mod bands;
 mod consistency;
 pub mod declared;
@@ -32,6 +33,7 @@ mod study;
 mod target;
 
 pub use asked_spectra::AskedSpectra;
+pub use band_kind::{BAND_FIGURES, BandKind, BandsOfKind};
 pub use bands::{
     BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, REPAIRED_BANDS, SIMULTANEOUS_BANDS,
 };

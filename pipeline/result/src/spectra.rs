@@ -1,12 +1,13 @@
 //! The uniform risk spectra of a result, and what was fitted to them.
 
+use serde::Serialize;
 use uplift_job::Array;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
 use uplift_regression::{Exponential, ExponentialFit};
 use uplift_risk::OrdinateFlag;
 
-use super::declared::{Field, Group, Place, Quantity, of_measure, place};
+use super::declared::{Group, Quantity, of_measure, quantity};
 use super::file::ResultFile;
 use super::layout::{HALF_WIDTHS, URS_PRECISION, axis};
 use crate::error::ResultError;
@@ -45,50 +46,31 @@ pub struct MeasureSpectra {
 
 /// Uniform risk spectra: the arrays of `/urs/<im>`.
 pub mod urs {
-    use super::{Field, Group, MeasureSpectra, Quantity, axis, place};
+    use super::axis::{POE, SITE, STRENGTH};
+    use super::{Group, MeasureSpectra, Quantity, quantity};
 
     /// The group.
     pub const GROUP: Group<MeasureSpectra> =
         Group { path: "/urs/<im>", quantities: &[U_M, FLAG, LOWER_TAIL_SHARE, UPPER_TAIL_SHARE] };
     /// The spectra.
-    pub const U_M: Quantity<MeasureSpectra> = Quantity {
-        name: "u_m",
-        axes: &[axis::SITE, axis::POE, axis::STRENGTH],
-        unit: "m",
-        long_name: "uniform risk displacement",
-        note: "the spectra; `inf` where censored",
-        field: Field::F64(place!(|of, at| of.u_m[at])),
-    };
+    pub const U_M: Quantity<MeasureSpectra> = quantity!("u_m" [SITE, POE, STRENGTH] F64 "m"
+        "uniform risk displacement" ("the spectra; `inf` where censored") = |of, at| of.u_m[at]);
     /// What kind of ordinate each is.
-    pub const FLAG: Quantity<MeasureSpectra> = Quantity {
-        name: "flag",
-        unit: "1",
-        long_name: "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored",
-        note: "0 regular; 1 no exceedance, ordinate 0; 2 censored",
-        field: Field::Flag(place!(|of, at| of.flags[at])),
-        ..U_M
-    };
+    pub const FLAG: Quantity<MeasureSpectra> = quantity!("flag" [SITE, POE, STRENGTH] Flag "1"
+        "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored"
+        ("0 regular; 1 no exceedance, ordinate 0; 2 censored") = |of, at| of.flags[at]);
     /// The risk from below the first stripe.
-    pub const LOWER_TAIL_SHARE: Quantity<MeasureSpectra> = Quantity {
-        name: "lower_tail_share",
-        unit: "1",
-        long_name: "share of the risk from below the first stripe",
-        note: "",
-        field: Field::F64(place!(|of, at| of.lower_tail_share[at])),
-        ..U_M
-    };
+    pub const LOWER_TAIL_SHARE: Quantity<MeasureSpectra> = quantity!("lower_tail_share" [SITE, POE, STRENGTH] F64 "1"
+        "share of the risk from below the first stripe" = |of, at| of.lower_tail_share[at]);
     /// The risk from above the last stripe.
-    pub const UPPER_TAIL_SHARE: Quantity<MeasureSpectra> = Quantity {
-        name: "upper_tail_share",
-        long_name: "share of the risk from above the last stripe",
-        field: Field::F64(place!(|of, at| of.upper_tail_share[at])),
-        ..LOWER_TAIL_SHARE
-    };
+    pub const UPPER_TAIL_SHARE: Quantity<MeasureSpectra> = quantity!("upper_tail_share" [SITE, POE, STRENGTH] F64 "1"
+        "share of the risk from above the last stripe" = |of, at| of.upper_tail_share[at]);
 }
 
 /// Coefficients of Eq. 4.11: the arrays of `/regression/<im>`.
 pub mod regression {
-    use super::{Field, Fits, Group, Place, Quantity, axis, place};
+    use super::axis::{POE, SITE};
+    use super::{Fits, Group, Quantity, quantity};
 
     /// The group.
     pub const GROUP: Group<Fits> = Group {
@@ -98,71 +80,58 @@ pub mod regression {
     /// The four that every table of coefficients has.
     pub const COEFFICIENTS: &[Quantity<Fits>] = &[C0_M, C1, C2_M, RMSE_M];
     /// Amplitude.
-    pub const C0_M: Quantity<Fits> = Quantity {
-        note: "coefficient of Eq. 4.11; NaN where there is no fit, here and below",
-        ..number("c0_m", "m", "c0 of u = c0 exp(c1 strength) + c2", place!(|of, at| of[at].c0_m))
-    };
+    pub const C0_M: Quantity<Fits> = quantity!("c0_m" [SITE, POE] F64 "m" "c0 of u = c0 exp(c1 strength) + c2"
+        ("coefficient of Eq. 4.11; NaN where there is no fit, here and below") = |of, at| of[at].c0_m);
     /// Exponent.
-    pub const C1: Quantity<Fits> = number("c1", "1", "c1", place!(|of, at| of[at].c1));
+    pub const C1: Quantity<Fits> = quantity!("c1" [SITE, POE] F64 "1" "c1" = |of, at| of[at].c1);
     /// Constant.
-    pub const C2_M: Quantity<Fits> = number("c2_m", "m", "c2, not negative", place!(|of, at| of[at].c2_m));
+    pub const C2_M: Quantity<Fits> = quantity!("c2_m" [SITE, POE] F64 "m" "c2, not negative" = |of, at| of[at].c2_m);
     /// Root mean square error.
-    pub const RMSE_M: Quantity<Fits> =
-        number("rmse_m", "m", "root mean square error with n - 3 degrees of freedom", place!(|of, at| of[at].rmse_m));
+    pub const RMSE_M: Quantity<Fits> = quantity!("rmse_m" [SITE, POE] F64 "m"
+        "root mean square error with n - 3 degrees of freedom" = |of, at| of[at].rmse_m);
     /// Root mean square error over n points.
-    pub const RMSE_PLAIN_M: Quantity<Fits> =
-        number("rmse_plain_m", "m", "root mean square error over n points", place!(|of, at| of[at].rmse_plain_m));
+    pub const RMSE_PLAIN_M: Quantity<Fits> = quantity!("rmse_plain_m" [SITE, POE] F64 "m"
+        "root mean square error over n points" = |of, at| of[at].rmse_plain_m);
     /// Largest residual.
-    pub const MAX_ABS_RESIDUAL_M: Quantity<Fits> =
-        number("max_abs_residual_m", "m", "largest residual", place!(|of, at| of[at].max_abs_residual_m));
+    pub const MAX_ABS_RESIDUAL_M: Quantity<Fits> = quantity!("max_abs_residual_m" [SITE, POE] F64 "m"
+        "largest residual" = |of, at| of[at].max_abs_residual_m);
     /// Whether c2 is held at 0.
-    pub const BOUND_ACTIVE: Quantity<Fits> = Quantity {
-        name: "bound_active",
-        long_name: "1 where c2 is held at 0",
-        field: Field::Bool(place!(|of, at| of[at].bound_active)),
-        ..C1
-    };
+    pub const BOUND_ACTIVE: Quantity<Fits> = quantity!("bound_active" [SITE, POE] Bool "1"
+        "1 where c2 is held at 0" = |of, at| of[at].bound_active);
     /// Strengths fitted.
-    pub const POINTS: Quantity<Fits> = Quantity {
-        name: "points",
-        long_name: "strengths fitted, 0 where there is no fit",
-        note: "strengths fitted, n; 0 where there is no fit",
-        field: Field::U32(place!(|of, at| of[at].points)),
-        ..C1
-    };
-
-    /// A number of each fit.
-    const fn number(
-        name: &'static str,
-        unit: &'static str,
-        long_name: &'static str,
-        place: Place<Fits, f64>,
-    ) -> Quantity<Fits> {
-        Quantity { name, axes: &[axis::SITE, axis::POE], unit, long_name, note: "", field: Field::F64(place) }
-    }
+    pub const POINTS: Quantity<Fits> = quantity!("points" [SITE, POE] U32 "1"
+        "strengths fitted, 0 where there is no fit" ("strengths fitted, n; 0 where there is no fit")
+        = |of, at| of[at].points);
 }
 
 /// Coefficients of spectra `[site, poe]`.
 pub type Fits = Array<2, Fit>;
 
 /// Coefficients of Eq. 4.11; NaN where there is no fit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Fit {
     /// c0, m.
+    #[serde(rename = "c0")]
     pub c0_m: f64,
     /// c1.
     pub c1: f64,
     /// c2, m.
+    #[serde(rename = "c2")]
     pub c2_m: f64,
     /// Root mean square error with n − 3 degrees of freedom, m.
+    #[serde(rename = "rmse")]
     pub rmse_m: f64,
     /// Root mean square error over n points, m; NaN of repaired spectra that are read from a file.
+    #[serde(skip)]
     pub rmse_plain_m: f64,
     /// Largest residual, m; NaN of repaired spectra that are read from a file.
+    #[serde(skip)]
     pub max_abs_residual_m: f64,
     /// True where c2 is held at 0.
+    #[serde(skip)]
     pub bound_active: bool,
     /// Strengths fitted; 0 where there is no fit, and of repaired spectra that are read from a file.
+    #[serde(skip)]
     pub points: u32,
 }
 

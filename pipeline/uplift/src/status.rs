@@ -60,7 +60,7 @@ pub struct ResultStatus {
     /// Where the records come from, in a line.
     pub record_set: String,
     /// What it holds.
-    pub content: ResultContent,
+    pub content: Overview,
     /// What structures were asked under it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub asked: Vec<AskedStatus>,
@@ -77,43 +77,6 @@ pub struct AskedStatus {
     pub created: String,
     /// Whether the structure file was another when the structure was last asked something.
     pub is_of_earlier_file: bool,
-}
-
-/// What a finished result holds.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum ResultContent {
-    /// Uniform risk spectra.
-    UniformRisk {
-        /// Analyses of each intensity measure, by its name.
-        analyses: Vec<(String, u64)>,
-        /// The sites; none where the study has none.
-        sites: Vec<String>,
-        /// What was added by later jobs: `bootstrap`, `influence`, `measures`, `structures`.
-        added: Vec<String>,
-    },
-    /// Displacement spectra.
-    Displacement {
-        /// What was shaken: `oscillator` or `block`.
-        structure: String,
-        /// Analyses of the spectra.
-        analyses: u64,
-        /// Records of each set, by its name.
-        sets: Vec<(String, u64)>,
-        /// Whether there is a design example.
-        has_design: bool,
-    },
-    /// The tests of a shaking table.
-    ShakeTable {
-        /// The structure file.
-        structure: String,
-        /// Tests.
-        analyses: u64,
-        /// Names of the levels.
-        levels: Vec<String>,
-        /// Excitations.
-        excitations: usize,
-    },
 }
 
 /// A file of finished rows of the analysis.
@@ -222,7 +185,7 @@ impl ResultStatus {
             study: head.study_file,
             title: head.title,
             record_set: head.record_set,
-            content: ResultContent::from_overview(file.overview()?),
+            content: file.overview()?,
             asked: file.findings()?.into_iter().map(AskedStatus::from_finding).collect(),
         })
     }
@@ -232,23 +195,6 @@ impl AskedStatus {
     fn from_finding(stored: StoredFinding) -> Self {
         let StoredFinding { finding, created, is_of_earlier_file, .. } = stored;
         Self { question: finding.question(), structure: finding.structure, created, is_of_earlier_file }
-    }
-}
-
-impl ResultContent {
-    fn from_overview(overview: Overview) -> Self {
-        match overview {
-            Overview::Displacement { structure, analyses, sets, designed } => {
-                Self::Displacement { structure, analyses, sets, has_design: designed }
-            }
-            Overview::ShakeTable { structure, analyses, levels, excitations } => {
-                Self::ShakeTable { structure, analyses, levels, excitations }
-            }
-            Overview::UniformRisk { analyses, sites, added } => {
-                let analyses = analyses.into_iter().map(|(measure, count)| (measure.to_owned(), count)).collect();
-                Self::UniformRisk { analyses, sites, added: added.into_iter().map(str::to_owned).collect() }
-            }
-        }
     }
 }
 

@@ -6,10 +6,10 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use uplift::hazard_curves::{CurveOptions, HazardImportOptions, import as import_curves, show as show_curves};
-use uplift_hazard::{ComponentDefinition, SiteSelection};
+use uplift_hazard::SiteSelection;
 use uplift_report::{HazardPlotOptions, plot_hazard};
 
-use super::arguments::{ForceArgument, number, require_folder};
+use super::arguments::{ForceArgument, require_folder};
 use crate::error::CommandError;
 use crate::show::{print_curves, print_hazard_import};
 use crate::terminal::Terminal;
@@ -79,38 +79,18 @@ impl SiteArguments {
     after_help = "Example:\n  uplift hazard import hazard_curve-mean-PGV_1.csv -o hazard/athens --near 23.73,37.98"
 )]
 struct ImportArguments {
-    /// Exports (OpenQuake CSV or NRML, USGS JSON): one a measure or realization
-    #[arg(required = true, value_name = "EXPORT")]
-    exports: Vec<PathBuf>,
-    /// Folder for the curve files
-    #[arg(short, long, value_name = "FOLDER")]
-    output: PathBuf,
     #[command(flatten)]
     site: SiteArguments,
-    /// Definition of the horizontal component: geometric mean, GMRotI50, RotD50, RotD100, larger, arbitrary
-    #[arg(long, value_name = "WORD")]
-    component: Option<ComponentDefinition>,
-    /// Weights of the realizations (realizations_*.csv of OpenQuake)
-    #[arg(long, value_name = "FILE")]
-    weights: Option<PathBuf>,
-    /// Largest distance from --near, km
-    #[arg(long, value_name = "KM", default_value_t = 100.0, value_parser = number)]
-    within_km: f64,
+    #[command(flatten)]
+    options: HazardImportOptions,
     #[command(flatten)]
     overwriting: ForceArgument,
 }
 
 fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    require_folder(&arguments.output, "curves")?;
-    let options = HazardImportOptions {
-        exports: arguments.exports.clone(),
-        folder: arguments.output.clone(),
-        site: arguments.site.selection(),
-        component: arguments.component,
-        weights: arguments.weights.clone(),
-        within_km: arguments.within_km,
-        force: arguments.overwriting.force,
-    };
+    let (site, force) = (arguments.site.selection(), arguments.overwriting.force);
+    let options = HazardImportOptions { site, force, ..arguments.options.clone() };
+    require_folder(&options.folder, "curves")?;
     print_hazard_import(&import_curves(&options, terminal)?)
 }
 

@@ -212,20 +212,14 @@ impl ResponseArguments {
         let [h1, h2, vertical] = [h1, h2, v]
             .map(|file| file.as_ref().map(|record| ComponentFile { record: record.clone(), channel: channels.next() }));
         Ok(FrameResponseOptions {
+            shaking: self.shaking(),
             h1,
             h2,
             vertical,
-            dt_s: self.dt_s,
-            unit: self.unit,
-            scale: Some(self.scale),
-            free_vibration_s: self.free_vibration_s,
             model: self.frame.model,
             restitution: self.restitution,
             rest_amplitude_rad: self.frame.rest_amplitude_rad,
             start_rotation_rad: self.frame.start_rotation_rad,
-            history: self.plot.is_some(),
-            history_file: self.history.clone(),
-            force: self.overwriting.force,
         })
     }
 }

@@ -2,7 +2,8 @@
 
 use std::io::Write;
 
-use uplift::bootstrap::{Bands, BootstrapReport, BootstrapRow, Initiation, JointBands, MANY_FAILED, ReferenceRow};
+use uplift::bootstrap::{BootstrapReport, BootstrapRow, Initiation, MANY_FAILED, ReferenceRow};
+use uplift::result::{MeasureBands, StoredJointBands};
 use uplift::text::{Table, per_cent, risk_in_words, risk_name};
 
 use uplift::uniform_risk::DisplacementReport;
@@ -29,9 +30,9 @@ pub(crate) fn print_bootstrap(
     }
     if !terminal.is_quiet() {
         print_sizes(out, report, shown)?;
-        print_synthetic(out, report.synthetic, terminal)?;
+        print_synthetic(out, report.stored.synthetic, terminal)?;
         let tables = report.tables.each_ref().map(|file| shown_path(file).display().to_string());
-        writeln!(out, "\nBands    /bootstrap in {}", shown_path(&report.result).display())?;
+        writeln!(out, "\nBands    /bootstrap in {}", shown_path(&report.stored.path).display())?;
         writeln!(out, "Tables   {}", tables.join(", "))?;
         print_more(out, terminal)?;
     }
@@ -40,7 +41,7 @@ pub(crate) fn print_bootstrap(
 
 /// Table 4.1 for each probability, repaired and joint bands, and rocking initiation.
 fn print_details(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
-    for poe in 0..report.poes.len() {
+    for poe in 0..report.stored.poes.len() {
         print_figures(out, report, poe, poe == rarest(report))?;
     }
     print_repaired(out, report)?;
@@ -51,7 +52,7 @@ fn print_details(out: &mut impl Write, report: &BootstrapReport) -> Result<(), C
 
 /// The position of the smallest probability, which Table 4.1 is about.
 fn rarest(report: &BootstrapReport) -> usize {
-    (0..report.poes.len()).min_by(|&a, &b| report.poes[a].total_cmp(&report.poes[b])).unwrap_or(0)
+    (0..report.stored.poes.len()).min_by(|&a, &b| report.stored.poes[a].total_cmp(&report.stored.poes[b])).unwrap_or(0)
 }
 
 fn print_figures(
@@ -64,11 +65,11 @@ fn print_figures(
     writeln!(
         out,
         "\nAccuracy of the spectra, {}: error of the median e and width r of the {} interval, per cent{}",
-        risk_in_words(report.poes[poe], report.years),
+        risk_in_words(report.stored.poes[poe], report.stored.years),
         per_cent(report.confidence),
         if reference.is_some() { "; right of the bars the reference" } else { "" }
     )?;
-    let places = report.sites.iter().enumerate();
+    let places = report.stored.sites.iter().enumerate();
     let places = places.flat_map(|site| report.sizes.iter().enumerate().map(move |size| (site, size)));
     let table = Table::of(places)
         .left("site", |((_, name), (index, _))| if index == 0 { name.as_str() } else { "" })
@@ -102,11 +103,11 @@ fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
     let mut failing = Vec::new();
     for row in &report.rows {
         let Some(repaired) = row.repaired else { continue };
-        let percent = |value: Option<f64>, digits: usize| figure(value.map(|value| value / 100.0), digits);
+        let percent = |value: Option<f64>, digits: usize| figure(value.unwrap_or(f64::NAN), digits);
         rows.push(vec![
             row.site.clone(),
             row.im.to_owned(),
-            risk_name(row.poe, report.years),
+            risk_name(row.poe, report.stored.years),
             row.sample_size.to_string(),
             percent(row.r_90ci, 0),
             percent(repaired.e_median, 1),
@@ -137,9 +138,9 @@ fn print_repaired(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
 
 /// What the records say beyond themselves: for the rarest probability, samples of their own number.
 fn print_inferred(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
-    let own = u32::try_from(report.records).unwrap_or(u32::MAX);
+    let own = u32::try_from(report.stored.records.len()).unwrap_or(u32::MAX);
     let size = if report.sizes.contains(&own) { Some(own) } else { report.sizes.iter().copied().max() };
-    let rarest = report.poes.iter().copied().min_by(f64::total_cmp);
+    let rarest = report.stored.poes.iter().copied().min_by(f64::total_cmp);
     let (Some(size), Some(poe)) = (size, rarest) else { return Ok(()) };
     let limits = |[lower, upper]: [f64; 2]| [format!("{lower:+.0}"), format!("{upper:+.0}")];
     let rows: Vec<Vec<String>> = report
@@ -162,7 +163,7 @@ fn print_inferred(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
         "\nConfidence and prediction bands, {}: the spectrum of all records like these, and of another set of {size}, \
          each with {} confidence; limits in per cent of the ordinate, at the strength where the confidence band is \
          widest in metres",
-        risk_in_words(poe, report.years),
+        risk_in_words(poe, report.stored.years),
         per_cent(report.confidence)
     )?;
     let header = ["site", "im", "strength", "truth from", "to", "another set from", "to"];
@@ -204,25 +205,24 @@ fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), Com
             if !joint.sites.contains(&site) {
                 continue;
             }
-            let (name, label, records) = (&report.sites[site], bands.measure.label(), report.sizes[size]);
+            let (name, label, records) = (&report.stored.sites[site], bands.measure.label(), report.sizes[size]);
             let mut row = vec![
                 name.clone(),
                 label.to_owned(),
-                risk_name(report.poes[poe], report.years),
+                risk_name(report.stored.poes[poe], report.stored.years),
                 records.to_string(),
                 figure(of_records[0], 0),
                 figure(joint.range_of_interval[at], 0),
             ];
             if has_repaired {
                 let of_repair = repaired_joint(bands);
-                let failed = of_repair.and_then(|joint| Some(joint.failed.as_ref()?[[site, size]]));
-                let failed = failed.filter(|share| !share.is_nan());
-                let repaired = bands.repaired.as_ref().and_then(|own| own.bands.range_of_interval[at]);
-                row.push(figure(repaired, 0));
-                row.push(figure(of_repair.and_then(|joint| joint.range_of_interval[at]), 0));
-                row.push(figure(failed, 1));
-                if let Some(share) = failed.filter(|&share| poe == 0 && share > MANY_FAILED) {
-                    failing.push(format!("{name} by {label}, samples of {records}: {:.0} %", 100.0 * share));
+                let failed = of_repair.and_then(|joint| Some(joint.failed.as_ref()?[[site, size]])).unwrap_or(f64::NAN);
+                let repaired = bands.repaired.as_ref().map(|own| own.bands.range_of_interval[at]);
+                row.push(figure(repaired.unwrap_or(f64::NAN), 0));
+                row.push(figure(of_repair.map_or(f64::NAN, |joint| joint.range_of_interval[at]), 0));
+                row.push(figure(100.0 * failed, 1));
+                if poe == 0 && failed > MANY_FAILED {
+                    failing.push(format!("{name} by {label}, samples of {records}: {:.0} %", 100.0 * failed));
                 }
             }
             rows.push(row);
@@ -251,7 +251,7 @@ fn print_joint(out: &mut impl Write, report: &BootstrapReport) -> Result<(), Com
 }
 
 /// The joint bands of the repaired spectra by a measure.
-fn repaired_joint(bands: &Bands) -> Option<&JointBands> {
+fn repaired_joint(bands: &MeasureBands) -> Option<&StoredJointBands> {
     bands.repaired.as_ref()?.bands.joint.as_ref()
 }
 
@@ -264,11 +264,13 @@ fn too_many_fail(what: &str, failing: &[String]) -> String {
 fn print_initiation(out: &mut impl Write, report: &BootstrapReport) -> Result<(), CommandError> {
     let Some(size_index) = (0..report.sizes.len()).max_by_key(|&index| report.sizes[index]) else { return Ok(()) };
     // the most frequent shaking is the one that may not lift the structure
-    let Some(poe) = (0..report.poes.len()).max_by(|&a, &b| report.poes[a].total_cmp(&report.poes[b])) else {
+    let Some(poe) =
+        (0..report.stored.poes.len()).max_by(|&a, &b| report.stored.poes[a].total_cmp(&report.stored.poes[b]))
+    else {
         return Ok(());
     };
     let mut rows = Vec::new();
-    for (site, name) in report.sites.iter().enumerate() {
+    for (site, name) in report.stored.sites.iter().enumerate() {
         for (index, bands) in report.bands.iter().enumerate() {
             let mut row = vec![if index == 0 { name.clone() } else { String::new() }];
             row.push(bands.measure.label().to_owned());
@@ -280,17 +282,17 @@ fn print_initiation(out: &mut impl Write, report: &BootstrapReport) -> Result<()
         out,
         "\nRocking initiation, {}, samples of {}: strength at which the limits and the median fall to the\n\
          uplift displacement of {} m, and the width of the interval there over the median",
-        risk_in_words(report.poes[poe], report.years),
+        risk_in_words(report.stored.poes[poe], report.stored.years),
         report.sizes[size_index],
-        report.uplift_displacement_m
+        report.stored.uplift_displacement_m
     )?;
     let header = ["site", "im", "lower", "median", "upper", "width of u, %"];
     writeln!(out, "{}", Table::new(header, rows))?;
     Ok(())
 }
 
-fn figure(ratio: Option<f64>, digits: usize) -> String {
-    ratio.map_or_else(|| "-".to_owned(), |ratio| format!("{:.digits$}", 100.0 * ratio))
+fn figure(per_cent: f64, digits: usize) -> String {
+    if per_cent.is_nan() { "-".to_owned() } else { format!("{per_cent:.digits$}") }
 }
 
 /// Strengths at which the lower limit, the median and the upper limit fall to the uplift displacement, and the width of
@@ -298,5 +300,5 @@ fn figure(ratio: Option<f64>, digits: usize) -> String {
 fn initiation(found: Initiation) -> [String; 4] {
     let strength = |strength: Option<f64>| strength.map_or_else(|| "above all".to_owned(), |eta| format!("{eta:.3}"));
     let [lower, median, upper] = [found.lower, found.median, found.upper].map(strength);
-    [lower, median, upper, figure(found.width, 0)]
+    [lower, median, upper, figure(100.0 * found.width.unwrap_or(f64::NAN), 0)]
 }

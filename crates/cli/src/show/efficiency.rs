@@ -19,17 +19,17 @@ const SIGNIFICANT: f64 = 0.05;
 /// The report for people; a quiet terminal gets the tables alone.
 pub(crate) fn print_efficiency(report: &EfficiencyReport, terminal: &Terminal) -> Result<(), CommandError> {
     let out = &mut output();
-    let shown = nearest(&report.strengths, &SHOWN_STRENGTHS);
-    let measures: Vec<&[EfficiencyRow]> = report.rows.chunks(report.strengths.len()).collect();
+    let shown = nearest(&report.stored.strengths, &SHOWN_STRENGTHS);
+    let measures: Vec<&[EfficiencyRow]> = report.rows.chunks(report.stored.strengths.len()).collect();
     let shown = Shown { report, measures, strengths: shown };
     shown.print_reading(out)?;
     if terminal.shows_details() {
         shown.print_scatter(out)?;
         shown.print_trends(out)?;
     }
-    print_synthetic(out, report.synthetic, terminal)?;
+    print_synthetic(out, report.stored.synthetic, terminal)?;
     if !terminal.is_quiet() {
-        writeln!(out, "\nResult   /efficiency and /sufficiency in {}", shown_path(&report.result).display())?;
+        writeln!(out, "\nResult   /efficiency and /sufficiency in {}", shown_path(&report.stored.path).display())?;
         writeln!(out, "Table    {}", shown_path(&report.table).display())?;
     }
     print_more(out, terminal)
@@ -59,7 +59,7 @@ impl Shown<'_> {
         Table::of(&self.measures)
             .left("measure", |rows| label(&rows[0]))
             .each(&self.strengths, |table, &at| {
-                table.right(format!("{:.3}", self.report.strengths[at]), |rows| cell(&rows[at]))
+                table.right(format!("{:.3}", self.report.stored.strengths[at]), |rows| cell(&rows[at]))
             })
             .build()
     }
@@ -116,7 +116,7 @@ impl Shown<'_> {
     fn print_reading(&self, out: &mut impl Write) -> Result<(), CommandError> {
         let own: Vec<&[EfficiencyRow]> = self.measures.iter().filter(|rows| !rows[0].is_told()).copied().collect();
         if let (2.., Some((name, measure, others))) = (own.len(), self.winner(&own, |row| row.dispersion_level)) {
-            let result = typed_path(&self.report.result);
+            let result = typed_path(&self.report.stored.path);
             writeln!(out, "Use {name}{others}: uplift spectrum {result} --measure {measure}")?;
         }
         for (what, of) in [
@@ -148,8 +148,8 @@ impl Shown<'_> {
         if let Some(told) = self.rows().find(|row| row.is_told()) {
             writeln!(out, "+ has no hazard curve here: read in runs scaled to {}", told.scaled_to)?;
         }
-        if self.report.records < 30 {
-            writeln!(out, "With {} records only strong trends are found.", self.report.records)?;
+        if self.report.stored.records.len() < 30 {
+            writeln!(out, "With {} records only strong trends are found.", self.report.stored.records.len())?;
         }
         Ok(())
     }

@@ -2,7 +2,8 @@
 
 use std::io::Write;
 
-use uplift::status::{BootstrapStatus, ResultContent, ResultStatus, StatusReport, UnfinishedStatus};
+use uplift::result::Overview;
+use uplift::status::{BootstrapStatus, ResultStatus, StatusReport, UnfinishedStatus};
 
 use uplift::text::one_line;
 
@@ -46,7 +47,7 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
         writeln!(out, "  not of it: {} was made of another result of this name", other.display())?;
     }
     match &result.content {
-        ResultContent::Displacement { structure, analyses, sets, has_design } => {
+        Overview::Displacement { structure, analyses, sets, has_design } => {
             writeln!(out, "  spectra  displacement spectra of {structure}s, {analyses} analyses")?;
             for (set, records) in sets {
                 writeln!(out, "  set      {set}: {records} records, {} motions", 2 * records)?;
@@ -55,16 +56,16 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
                 writeln!(out, "  design   uplift table {file}")?;
             }
         }
-        ResultContent::ShakeTable { structure, analyses, levels, excitations } => {
+        Overview::ShakeTable { structure, analyses, levels, excitations } => {
             writeln!(out, "  tests    {analyses} of {structure}: {excitations} excitations at {}", levels.join(", "))?;
         }
-        ResultContent::UniformRisk { analyses, sites, added } => {
+        Overview::UniformRisk { analyses, sites, added } => {
             for (measure, analyses) in analyses {
                 writeln!(out, "  {measure:<8} {analyses} analyses")?;
             }
-            for (what, names) in [("sites", sites), ("added", added)] {
+            for (what, names) in [("sites", sites.join(", ")), ("added", added.join(", "))] {
                 if !names.is_empty() {
-                    writeln!(out, "  {what:<8} {}", names.join(", "))?;
+                    writeln!(out, "  {what:<8} {names}")?;
                 }
             }
         }

@@ -33,10 +33,10 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
     writeln!(out, "u = c0 exp(c1 strength) + c2, metres; records: {}", report.record_set)?;
     // a fit without coefficients says so in the first of its columns
     let fitted =
-        |row: &CoefficientRow, value: f64| if row.c0_m.is_nan() { String::new() } else { format!("{value:.4}") };
-    let c2 = |row: &CoefficientRow| match fitted(row, row.c2_m) {
+        |row: &CoefficientRow, value: f64| if row.fit.c0_m.is_nan() { String::new() } else { format!("{value:.4}") };
+    let c2 = |row: &CoefficientRow| match fitted(row, row.fit.c2_m) {
         none if none.is_empty() => none,
-        shown => shown + if row.bound_active { " *" } else { "  " },
+        shown => shown + if row.fit.bound_active { " *" } else { "  " },
     };
     let printed = |row: &CoefficientRow, value: fn(&ReferenceFit) -> Option<f64>| {
         row.reference.as_ref().and_then(value).map_or_else(|| "-".to_owned(), |value| format!("{value:.4}"))
@@ -50,10 +50,10 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
         .left("site", |row| &row.site)
         .right("im", measure)
         .right("poe", |row| risk_name(row.poe, report.years))
-        .right("c0", |row| if row.c0_m.is_nan() { "no fit".to_owned() } else { fitted(row, row.c0_m) })
-        .right("c1", |row| fitted(row, row.c1))
+        .right("c0", |row| if row.fit.c0_m.is_nan() { "no fit".to_owned() } else { fitted(row, row.fit.c0_m) })
+        .right("c1", |row| fitted(row, row.fit.c1))
         .right("c2  ", c2)
-        .right("rmse", |row| fitted(row, row.rmse_m))
+        .right("rmse", |row| fitted(row, row.fit.rmse_m))
         .right("within 10 %", within)
         .when(report.compared, |table| {
             table
@@ -64,7 +64,7 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
                 .bar("ratio", |row| ratio(row).unwrap_or_else(|| "-".to_owned()))
         });
     writeln!(out, "{table}")?;
-    let starred = if report.rows.iter().any(|row| row.bound_active) { "* c2 held at 0; " } else { "" };
+    let starred = if report.rows.iter().any(|row| row.fit.bound_active) { "* c2 held at 0; " } else { "" };
     let poes: Vec<f64> = report.rows.iter().map(|row| row.poe).collect();
     let kind = kind_of_risks(&poes, report.years).map_or_else(String::new, |kind| kind + "; ");
     writeln!(

@@ -6,9 +6,10 @@ use crate::error::HazardError;
 use crate::text::excerpt;
 
 /// Which site to read.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub enum SiteSelection {
     /// Every site.
+    #[default]
     All,
     /// The site of this name, exactly as the export writes it.
     Name(String),

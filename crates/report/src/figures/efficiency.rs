@@ -25,8 +25,8 @@ pub(super) fn efficiency(source: &FigureSource) -> Result<Figure, UpliftError> {
         let found = efficiency_by(stored, measure, &covariates)?;
         let label = measure.measure.label();
         let tone = Tone::Distinct(index);
-        panels[0].series.push(source.over_strengths(label, &found.rocking, tone));
-        panels[1].series.push(source.over_strengths(label, &found.initiation, tone));
+        panels[0].series.push(source.over_strengths(label, &found.own.rocking, tone));
+        panels[1].series.push(source.over_strengths(label, &found.own.initiation, tone));
         for (panel, lines) in panels[2..].iter_mut().zip(&found.lines) {
             let values: Vec<f64> =
                 lines.iter().map(|line| line.as_ref().map_or(f64::NAN, |line| line.p_value.max(1e-6))).collect();

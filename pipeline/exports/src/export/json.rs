@@ -2,15 +2,18 @@
 
 use serde_json::{Value, json};
 use uplift_job::text::finite;
-use uplift_questions::influence::RecordInfluence;
+use uplift_questions::efficiency::{FIGURES, Figure, TRENDS};
+use uplift_questions::influence::{CHANGES, RecordInfluence};
 use uplift_result::declared::{Field, Quantity};
 use uplift_result::{
-    Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, flag_word, regression, urs,
+    BAND_FIGURES, BandKind, Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, flag_word,
+    regression, urs,
 };
 
 use super::Export;
 use super::added::Influence;
-use super::source::{BandOf, ConsistencyOf, Row};
+use super::bands::BandOf;
+use super::source::{self, ConsistencyOf, Row};
 
 impl Export {
     /// Everything as one JSON object; what is not finite is null.
@@ -53,19 +56,18 @@ impl Export {
             spectrum[quantity.name] = (first..first + strengths).map(|at| cell(quantity, row.of_measure, at)).collect();
         }
         spectrum["fit"] = coefficients(&row.spectrum.fit);
-        spectrum["bands"] = self.bands_of(row).iter().map(band).collect();
+        spectrum["bands"] = self.bands_of(row, BandKind::PLAIN).iter().map(band).collect();
         spectrum["disaggregation"] =
             self.influence_on(row).map(|influence| self.disaggregation(row.at, influence)).into();
         if let Some((u_m, fit)) = self.repaired(row) {
             spectrum["u_consistent_m"] = numbers(u_m).into();
             spectrum["fit_consistent"] = coefficients(fit);
-            spectrum["bands_consistent"] = self.repaired_bands_of(row).iter().map(band).collect();
+            spectrum["bands_consistent"] = self.bands_of(row, BandKind::REPAIRED).iter().map(band).collect();
         }
-        for (key, bands) in
-            [("bands_joint", self.joint_bands_of(row)), ("bands_consistent_joint", self.repaired_joint_bands_of(row))]
-        {
+        for kind in [BandKind::JOINT, BandKind::REPAIRED_JOINT] {
+            let bands = self.bands_of(row, kind);
             if !bands.is_empty() {
-                spectrum[key] = bands.iter().map(band).collect();
+                spectrum[format!("bands{}", kind.suffix)] = bands.iter().map(band).collect();
             }
         }
         for over in self.spread_over() {
@@ -81,15 +83,16 @@ impl Export {
     fn influences(&self) -> Vec<Value> {
         let of_row = |row: Row<'_>| {
             let of = |found: &RecordInfluence| {
-                json!({
+                let mut said = json!({
                     "site": row.spectrum.site,
                     "im": row.spectrum.measure.label(),
                     "poe": row.spectrum.poe,
                     "record": self.added.records[found.record],
-                    "mean_change_pct": finite(100.0 * found.mean_change),
-                    "largest_change_pct": finite(100.0 * found.largest_change),
-                    "at_strength": found.strength,
-                })
+                });
+                for (name, _, value) in CHANGES {
+                    said[name] = finite(value(found)).into();
+                }
+                said
             };
             let ranking = self.influence_on(&row).map(|influence| &influence.ranking[row.at]);
             ranking.into_iter().flatten().map(of).collect::<Vec<Value>>()
@@ -115,7 +118,7 @@ fn coefficients(fit: &Fit) -> Value {
 
 /// The value at an index of a stored array.
 fn cell<T>(quantity: &Quantity<T>, of: &T, at: usize) -> Value {
-    match quantity.field {
+    match &quantity.field {
         Field::F64(place) => finite(*(place.get)(of, at)).into(),
         Field::Made(number) => finite(number(of, at)).into(),
         Field::U32(place) => (*(place.get)(of, at)).into(),
@@ -133,10 +136,11 @@ fn consistency(row: &ConsistencyOf<'_>) -> Value {
         "poe": row.of.poes,
         "years": row.of.years,
         "ratio": numbers(row.ratio),
-        "bias": finite(row.bias),
-        "max": finite(row.max),
-        "verdict": row.verdict,
     });
+    for ((name, ..), figure) in source::FIGURES.iter().zip(row.figures) {
+        said[*name] = finite(figure).into();
+    }
+    said["verdict"] = row.verdict.into();
     if let Some(least) = row.least_effective {
         said["least_effective_records"] = finite(least).into();
     }
@@ -145,33 +149,24 @@ fn consistency(row: &ConsistencyOf<'_>) -> Value {
 
 fn efficiency(of: &StoredEfficiency) -> Value {
     let trend = |trend: &StoredTrend| {
-        json!({
-            "covariate": trend.covariate,
-            "slope": numbers(&trend.slope),
-            "p_value": numbers(&trend.p_value),
-        })
+        let mut said = json!({ "covariate": trend.covariate });
+        add(&mut said, &TRENDS, trend);
+        said
     };
-    json!({
-        "im": of.measure.label(),
-        "scaled_to": of.scaled_to.label(),
-        "dispersion_level": numbers(&of.reaching),
-        "dispersion_rocking": numbers(&of.rocking),
-        "undefined_share": numbers(&of.undefined),
-        "dispersion_initiation": numbers(&of.initiation),
-        "trends": of.trends.iter().map(trend).collect::<Vec<_>>(),
-    })
+    let mut said = json!({ "im": of.measure.label(), "scaled_to": of.scaled_to.label() });
+    add(&mut said, &FIGURES, of);
+    said["trends"] = of.trends.iter().map(trend).collect();
+    said
 }
 
 fn band(band: &BandOf<'_>) -> Value {
-    let [lower_m, median_m, upper_m] = band.limits_m.map(numbers);
-    let mut said = json!({
-        "sample_size": band.records,
-        "lower_m": lower_m,
-        "median_m": median_m,
-        "upper_m": upper_m,
-        "e_median_pct": finite(band.error_of_median_pct),
-        "r_90ci_pct": finite(band.range_of_interval_pct),
-    });
+    let mut said = json!({ "sample_size": band.records });
+    for (name, limit_m) in ["lower_m", "median_m", "upper_m"].iter().zip(band.limits_m) {
+        said[*name] = numbers(limit_m).into();
+    }
+    for ((name, _), figure) in BAND_FIGURES.iter().zip(band.figures) {
+        said[*name] = finite(figure).into();
+    }
     for (quantity, limits_m) in INFERRED_BANDS.quantities.iter().zip(band.inferred_m.iter().flatten()) {
         said[quantity.name] = numbers(limits_m).into();
     }
@@ -179,6 +174,12 @@ fn band(band: &BandOf<'_>) -> Value {
         said["failed_share"] = finite(share).into();
     }
     said
+}
+
+fn add<T>(said: &mut Value, figures: &[Figure<T>], of: &T) {
+    for (name, _, values) in figures {
+        said[*name] = numbers(values(of)).into();
+    }
 }
 
 fn numbers(values: &[f64]) -> Vec<Option<f64>> {

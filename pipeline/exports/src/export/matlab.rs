@@ -4,11 +4,14 @@ pub(super) mod level_5;
 
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
+use uplift_questions::efficiency::{FIGURES, TRENDS};
 use uplift_result::declared::Quantity;
-use uplift_result::{INFERRED_BANDS, StoredSpectra, StoredSpectraBands, StoredSpread, regression, urs};
+use uplift_result::{BAND_FIGURES, INFERRED_BANDS, StoredSpectra, StoredSpread, regression, urs};
 
 use super::Export;
 use super::added::Influence;
+use super::bands::{BY_SPECTRUM, name_with};
+use super::source;
 use crate::error::ExportsError;
 use level_5::{MatFile, Shape};
 
@@ -55,8 +58,9 @@ impl Export {
         for of in &self.consistency {
             let key = of.scaled_to.key();
             let column = Shape::column(sites.len());
-            file.numbers(&format!("consistency_bias_{key}"), &column, &of.bias);
-            file.numbers(&format!("consistency_max_{key}"), &column, &of.max);
+            for (name, _, by_site) in source::FIGURES {
+                file.numbers(&format!("consistency_{name}_{key}"), &column, by_site(of));
+            }
             let verdicts: Vec<&str> = of.verdict.iter().map(String::as_str).collect();
             file.texts(&format!("consistency_verdict_{key}"), &verdicts);
             if let Some(least) = &of.least_effective {
@@ -118,13 +122,11 @@ impl Export {
         let shape = Shape::column(self.spectra.strengths.len());
         for of in &self.added.efficiency {
             let key = of.measure.key();
-            file.numbers(&format!("dispersion_level_{key}"), &shape, &of.reaching);
-            file.numbers(&format!("dispersion_rocking_{key}"), &shape, &of.rocking);
-            file.numbers(&format!("undefined_share_{key}"), &shape, &of.undefined);
-            file.numbers(&format!("dispersion_initiation_{key}"), &shape, &of.initiation);
-            for trend in &of.trends {
-                file.numbers(&format!("slope_{}_{key}", trend.covariate), &shape, &trend.slope);
-                file.numbers(&format!("p_value_{}_{key}", trend.covariate), &shape, &trend.p_value);
+            for (name, _, values) in FIGURES {
+                file.numbers(&format!("{name}_{key}"), &shape, values(of));
+            }
+            for (trend, (name, _, values)) in of.trends.iter().flat_map(|trend| TRENDS.map(|own| (trend, own))) {
+                file.numbers(&format!("{name}_{}_{key}", trend.covariate), &shape, values(trend));
             }
         }
     }
@@ -141,29 +143,22 @@ impl Export {
             let spectra = Shape(vec![strengths.len(), sizes.len(), poes.len(), sites.len()]);
             let figures = Shape(vec![sizes.len(), poes.len(), sites.len()]);
             let of_sizes = Shape(vec![sizes.len(), sites.len()]);
-            let mut add = |key: &str, own: &StoredSpectraBands| {
-                for (name, limits) in bands.limit_names().iter().zip(&own.limits_m) {
-                    file.numbers(&format!("{}_{key}_m", name.trim_end_matches("_m")), &spectra, limits.values());
+            let kinds = BY_SPECTRUM.into_iter().filter_map(|kind| Some((kind, kind.of(of)?)));
+            for (kind, own) in kinds.clone() {
+                for (name, limits) in bands.limit_names().iter().zip(own.limits_m) {
+                    file.numbers(&name_with(kind, name, key), &spectra, limits.values());
                 }
-                file.numbers(&format!("e_median_{key}_pct"), &figures, own.error_of_median.values());
-                file.numbers(&format!("r_90ci_{key}_pct"), &figures, own.range_of_interval.values());
-                let Some(joint) = &own.joint else { return };
-                for (name, limits) in bands.limit_names().iter().zip(&joint.limits_m) {
-                    file.numbers(&format!("{}_joint_{key}_m", name.trim_end_matches("_m")), &spectra, limits.values());
+                for ((name, _), figure) in BAND_FIGURES.iter().zip(own.figures) {
+                    if let Some(figure) = figure {
+                        file.numbers(&name_with(kind, name, key), &figures, figure.values());
+                    }
                 }
-                file.numbers(&format!("r_90ci_joint_{key}_pct"), &figures, joint.range_of_interval.values());
-                if let Some(failed) = &joint.failed {
-                    file.numbers(&format!("failed_joint_{key}"), &of_sizes, failed.values());
-                }
-            };
-            add(key, &of.plain);
-            if let Some(own) = &of.repaired {
-                let key = format!("consistent_{key}");
-                add(&key, &own.bands);
-                file.numbers(&format!("failed_{key}"), &of_sizes, own.failed.values());
+            }
+            for (kind, failed) in kinds.rev().filter_map(|(kind, own)| Some((kind, own.failed?))) {
+                file.numbers(&name_with(kind, "failed", key), &of_sizes, failed.values());
             }
             if let Some(inferred) = &of.inferred {
-                self::add(file, INFERRED_BANDS.quantities, key, &spectra, inferred);
+                add(file, INFERRED_BANDS.quantities, key, &spectra, inferred);
             }
         }
     }

@@ -8,7 +8,7 @@ use uplift_job::events::Events;
 use uplift_job::{JobError, ReferenceTable};
 use uplift_motion::IntensityMeasure;
 use uplift_regression::Exponential;
-use uplift_result::{ResultFile, Spectrum, StoredConsistency};
+use uplift_result::{Fit, ResultFile, Spectrum, StoredConsistency};
 use uplift_study::UniformRiskStudy;
 
 use super::TableOptions;
@@ -46,25 +46,14 @@ pub struct CoefficientRow {
     pub repaired: bool,
     /// Probability of exceedance in the years of the study.
     pub poe: f64,
-    /// c0, m.
-    #[serde(rename = "c0")]
-    pub c0_m: f64,
-    /// c1.
-    pub c1: f64,
-    /// c2, m.
-    #[serde(rename = "c2")]
-    pub c2_m: f64,
-    /// Root mean square error with n − 3 degrees of freedom, m.
-    #[serde(rename = "rmse")]
-    pub rmse_m: f64,
+    /// Its coefficients.
+    #[serde(flatten)]
+    pub fit: Fit,
     /// How far the curve goes with its spectrum; none without a fit, or where no ordinate is above uplift.
     pub reach: Option<FitReach>,
     /// Median of our spectrum over the curve of the reference, for strengths in ([`COMPARED_ABOVE`], 1] where that
     /// curve exceeds [`COMPARED_FROM_M`]; none where the reference has no such row.
     pub median_ratio: Option<f64>,
-    /// Whether c2 is held at 0.
-    #[serde(skip)]
-    pub bound_active: bool,
     /// What the reference says; nothing of repaired spectra.
     #[serde(skip)]
     pub reference: Option<ReferenceFit>,
@@ -156,7 +145,6 @@ impl CoefficientRow {
         spectrum: &Spectrum<'_>,
         reference: Option<ReferenceFit>,
     ) -> Self {
-        let fit = &spectrum.fit;
         let (above, uplift_m) = (study.regression.strength_above, study.oscillator.uplift_displacement_m);
         let reach = |curve| reach_of_fit(&curve, (strengths, spectrum.u_m), above, uplift_m);
         Self {
@@ -164,13 +152,9 @@ impl CoefficientRow {
             im: spectrum.measure.label().to_owned(),
             repaired: false,
             poe: spectrum.poe,
-            c0_m: fit.c0_m,
-            c1: fit.c1,
-            c2_m: fit.c2_m,
-            rmse_m: fit.rmse_m,
-            reach: fit.curve().and_then(reach),
+            reach: spectrum.fit.curve().and_then(reach),
+            fit: spectrum.fit,
             median_ratio: reference.and_then(|reference| median_ratio(strengths, spectrum.u_m, &reference)),
-            bound_active: fit.bound_active,
             reference,
         }
     }

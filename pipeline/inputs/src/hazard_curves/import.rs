@@ -6,6 +6,7 @@ mod text;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde::Serialize;
 use uplift_atomic_file::read_file;
 use uplift_hazard::{
@@ -17,6 +18,7 @@ use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::write_atomically;
 use uplift_job::text::counted;
+use uplift_job::typed::number;
 
 use super::read::distinct;
 use crate::error::InputsError;
@@ -27,22 +29,29 @@ use text::{curve_text, file_stem, study_lines};
 pub(super) const NEAR_KM: f64 = 10.0;
 
 /// Which curves are taken, and where they go.
-#[derive(Debug, Clone, PartialEq)]
+#[expect(clippy::doc_markdown, reason = "what --help prints has no backticks")]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct HazardImportOptions {
-    /// Exports: `OpenQuake` CSV or NRML, USGS JSON; several for several measures, or for the realizations of a logic
-    /// tree.
+    /// Exports (OpenQuake CSV or NRML, USGS JSON): one a measure or realization
+    #[arg(required = true, value_name = "EXPORT")]
     pub exports: Vec<PathBuf>,
-    /// Folder for the curve files; made if it is not there.
+    /// Folder for the curve files
+    #[arg(short = 'o', long = "output", value_name = "FOLDER")]
     pub folder: PathBuf,
     /// Which site of an export with several.
+    #[arg(skip)]
     pub site: SiteSelection,
-    /// How the ground-motion models combine horizontal components, which exports do not say.
+    /// Definition of the horizontal component: geometric mean, GMRotI50, RotD50, RotD100, larger, arbitrary
+    #[arg(long, value_name = "WORD")]
     pub component: Option<ComponentDefinition>,
-    /// Weights of the realizations (`realizations_*.csv` of `OpenQuake`).
+    /// Weights of the realizations (realizations_*.csv of OpenQuake)
+    #[arg(long, value_name = "FILE")]
     pub weights: Option<PathBuf>,
-    /// Farthest that a site may be from the place asked for, km.
+    /// Largest distance from --near, km
+    #[arg(long, value_name = "KM", default_value_t = 100.0, value_parser = number)]
     pub within_km: f64,
     /// Whether other curves at the places of the files are overwritten.
+    #[arg(skip)]
     pub force: bool,
 }
 

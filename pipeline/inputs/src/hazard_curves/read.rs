@@ -16,10 +16,10 @@ use super::import::NEAR_KM;
 use crate::error::InputsError;
 
 /// Which curves of a file are read, and what a table does not say.
-#[derive(Debug, Clone, PartialEq, Args)]
+#[derive(Debug, Clone, Default, PartialEq, Args)]
 pub struct CurveOptions {
     /// Which site of an export with several.
-    #[arg(skip = SiteSelection::All)]
+    #[arg(skip)]
     pub site: SiteSelection,
     /// Intensity measure, if the table does not name it: PGV, PGA
     #[arg(long, value_name = "NAME")]
@@ -30,12 +30,6 @@ pub struct CurveOptions {
     /// Years of the probabilities
     #[arg(long, value_name = "YEARS", value_parser = number)]
     pub years: Option<f64>,
-}
-
-impl Default for CurveOptions {
-    fn default() -> Self {
-        Self { site: SiteSelection::All, measure: None, unit: None, years: None }
-    }
 }
 
 /// A curve with what to call it.

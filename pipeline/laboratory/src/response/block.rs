@@ -34,18 +34,6 @@ pub struct BlockResponseOptions {
 }
 
 impl BlockResponseOptions {
-    /// `record`, unscaled, through the block of this width and height, m, with Housner's restitution; no history.
-    pub fn new(record: impl Into<PathBuf>, width_m: f64, height_m: f64) -> Self {
-        Self {
-            shaking: Shaking::new(record),
-            width_m: Some(width_m),
-            height_m: Some(height_m),
-            size_m: None,
-            slenderness_rad: None,
-            restitution: None,
-        }
-    }
-
     /// The block, its numbers plausible.
     fn block(&self) -> Result<RockingBlock, LaboratoryError> {
         self.shaking.check(&[

@@ -8,7 +8,7 @@ use uplift_inputs::{TORSION, model_of, rocking_frame};
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_motion::{AccelerationUnit, Accelerogram};
+use uplift_motion::Accelerogram;
 use uplift_plausible::{RESTITUTION, USUAL_RESTITUTION};
 use uplift_study::Structure;
 
@@ -26,22 +26,17 @@ pub struct ComponentFile {
 
 /// What shakes a frame, and by which model. Without free vibration it is followed to its first peak after the shaking,
 /// the last that may be the largest; whether it survives is then a root of its energy.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct FrameResponseOptions {
+    /// What the components share, and what is kept of the motion; the record and its component, and gravity, are those
+    /// of each of them and of the frame.
+    pub shaking: Shaking,
     /// First horizontal component.
     pub h1: Option<ComponentFile>,
     /// Second horizontal component.
     pub h2: Option<ComponentFile>,
     /// Vertical component, upwards positive.
     pub vertical: Option<ComponentFile>,
-    /// Sampling interval of files that do not say it, s.
-    pub dt_s: Option<f64>,
-    /// Unit of files that do not say it.
-    pub unit: Option<AccelerationUnit>,
-    /// Factor on all components; none is 1.
-    pub scale: Option<f64>,
-    /// How long the free vibration after the shaking is followed, s.
-    pub free_vibration_s: f64,
     /// The model; by the section of the columns where none is given.
     pub model: Option<Model>,
     /// Ratio of velocities after to before an impact; see [`FrameResponseReport::restitution`].
@@ -51,12 +46,6 @@ pub struct FrameResponseOptions {
     pub rest_amplitude_rad: Option<f64>,
     /// Tilt with which a wobbling frame leaves the ground, rad; 1e-12 where none is given.
     pub start_rotation_rad: Option<f64>,
-    /// Whether the report holds the time history.
-    pub history: bool,
-    /// A CSV file for the time history.
-    pub history_file: Option<PathBuf>,
-    /// Whether whatever is at the place of that file is overwritten.
-    pub force: bool,
 }
 
 impl FrameResponseOptions {
@@ -67,27 +56,16 @@ impl FrameResponseOptions {
     }
 
     fn shaking(&self, file: &ComponentFile, gravity_m_s2: f64) -> Shaking {
-        Shaking {
-            channel: file.channel,
-            dt_s: self.dt_s,
-            unit: self.unit,
-            scale: self.scale.unwrap_or(1.0),
-            gravity_m_s2,
-            free_vibration_s: self.free_vibration_s,
-            ..Shaking::new(&file.record)
-        }
-    }
-
-    fn wants_history(&self) -> bool {
-        self.history || self.history_file.is_some()
+        let (record, channel) = (file.record.clone(), file.channel);
+        Shaking { record, channel, gravity_m_s2, history_file: None, ..self.shaking.clone() }
     }
 
     /// Names that would lose something, before anything is computed.
     fn check_history(&self, structure: &Structure) -> Result<(), LaboratoryError> {
-        let Some(file) = &self.history_file else { return Ok(()) };
+        let Some(file) = &self.shaking.history_file else { return Ok(()) };
         let records = self.components().map(|(_, file)| file.record.as_path());
         let inputs: Vec<&Path> = [structure.file.as_path()].into_iter().chain(records).collect();
-        Ok(outputs::check(&[Output::new(file, OutputKind::Table(FrameHistory::COLUMN))], &inputs, self.force)?)
+        Ok(outputs::check(&[Output::new(file, OutputKind::Table(FrameHistory::COLUMN))], &inputs, self.shaking.force)?)
     }
 }
 
@@ -266,7 +244,7 @@ pub fn frame_response(
         components,
         runs,
         alarms,
-        history_file: options.history_file.clone(),
+        history_file: options.shaking.history_file.clone(),
     };
     if let Some(file) = &report.history_file {
         super::frame_history::write(file, &report)?;
@@ -354,7 +332,7 @@ impl FrameRun {
     ) -> Result<Self, LaboratoryError> {
         let [x, y, z] = shaken.map(|motion| motion.map(uplift_frame::Shaking::Record));
         let ground = GroundMotion { x, y, z };
-        let free_s = options.free_vibration_s;
+        let free_s = options.shaking.free_vibration_s;
         let until = if free_s > 0.0 { Until::Time(ground.duration_s() + free_s) } else { Until::FirstFreePeak };
         let usual = Options::default();
         let asked = Options {
@@ -364,7 +342,7 @@ impl FrameRun {
             start_rotation_rad: options.start_rotation_rad.unwrap_or(usual.start_rotation_rad),
             ..usual
         };
-        if options.wants_history() {
+        if options.shaking.wants_history() {
             let (response, history) = uplift_frame::respond_with_history(frame, &ground, model, &asked)?;
             let history = FrameHistory::from_history(frame, history, shaken);
             Ok(Self { history: Some(history), ..Self::told(frame, under, response) })

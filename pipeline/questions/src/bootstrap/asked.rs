@@ -35,7 +35,7 @@ pub fn resampled(file: ResultFile, events: &dyn Events) -> Result<ResultFile, Qu
     let quoted = QuotedUnits::from_file(&file)?;
     let source =
         Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, quoted: &quoted, settings: &settings };
-    let measures = compute(&source, None, events)?.into_iter().map(|bands| bands.stored()).collect();
+    let measures = compute(&source, None, events)?;
     let (sizes, unit) = (plan.sizes().to_vec(), plan.unit());
     Ok(file.with_bands(StoredBands { sizes, unit, confidence, measures }))
 }

@@ -3,12 +3,11 @@
 use rayon::prelude::*;
 use uplift_bootstrap::{Band, Interval, Replicates, ResamplingPlan, acceleration, simultaneous_bands, without_each};
 use uplift_job::Array;
-use uplift_motion::IntensityMeasure;
-use uplift_result::{InferredBands, MeasureBands, StoredJointBands, StoredRepairedBands, StoredSpectraBands};
+use uplift_result::{InferredBands, MeasureBands, StoredSpectraBands};
 use uplift_risk::StripeWeights;
 use uplift_uniform_risk::{StoredMeasure, StoredStripes};
 
-use super::joint::{JointBands, joint_bands};
+use super::joint::{joint_bands, joint_from_draws};
 use crate::error::QuestionsError;
 
 /// What kind of bands.
@@ -64,66 +63,6 @@ pub(super) struct StrengthBands {
     pub(super) replicates_m: Vec<f64>,
 }
 
-/// The bands of one measure.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Bands {
-    /// The measure.
-    pub measure: IntensityMeasure,
-    /// Those of the spectra of records that count alike.
-    pub plain: SpectraBands,
-    /// Those of the spectra of all records there could be, and of another set.
-    pub inferred: InferredBands,
-    /// Those of the repaired spectra, where the result has some.
-    pub repaired: Option<RepairedBands>,
-}
-
-/// Bands of the spectra of all sites, with the figures of Table 4.1.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SpectraBands {
-    /// Lower limits `[site, poe, size, strength]`, m.
-    pub lower_m: Array<4>,
-    /// Medians `[site, poe, size, strength]`, m.
-    pub median_m: Array<4>,
-    /// Upper limits `[site, poe, size, strength]`, m.
-    pub upper_m: Array<4>,
-    /// Lower and upper limits of the band of whole spectra `[site, poe, size, strength]`, m, if made.
-    pub simultaneous_m: Option<[Array<4>; 2]>,
-    /// Error of the median `[site, poe, size]` (Eq. 4.9); none where an ordinate is censored or 0.
-    pub error_of_median: Array<3, Option<f64>>,
-    /// Width of the interval `[site, poe, size]` (Eq. 4.10); none where an ordinate is censored or 0.
-    pub range_of_interval: Array<3, Option<f64>>,
-    /// Bands over records and hazard together; none where no site has weighted hazard curves.
-    pub joint: Option<JointBands>,
-}
-
-/// Bands of repaired spectra; NaN at sites without repair.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RepairedBands {
-    /// The bands.
-    pub bands: SpectraBands,
-    /// Share of the samples whose weights miss the site's hazard `[site, size]`.
-    pub failed: Array<2>,
-    /// Those of the repaired spectra of all records there could be, and of another set.
-    pub inferred: InferredBands,
-}
-
-impl Bands {
-    /// The same as a result has them.
-    pub(super) fn stored(&self) -> MeasureBands {
-        let repaired = |RepairedBands { bands, failed, inferred }: &RepairedBands| StoredRepairedBands {
-            bands: bands.stored(),
-            failed: failed.clone(),
-            inferred: Some(inferred.clone()),
-        };
-        MeasureBands {
-            measure: self.measure,
-            plain: self.plain.stored(),
-            inferred: Some(self.inferred.clone()),
-            repaired: self.repaired.as_ref().map(repaired),
-        }
-    }
-}
-
 /// The bands of the strength at `index`.
 pub(super) fn bands_of_strength(
     stored: &StoredStripes,
@@ -172,7 +111,7 @@ pub(super) fn gather_bands(
     plan: &ResamplingPlan,
     settings: &BandSettings,
     (strengths, inferred): (&[&StrengthBands], InferredBands),
-) -> Bands {
+) -> MeasureBands {
     let (sites, poes, sizes) = (stored.sites.len(), stored.poes.len(), plan.sizes().len());
     let shape = [sites, poes, sizes, strengths.len()];
     let cell = |site: usize, poe: usize, size: usize| (site * poes + poe) * sizes + size;
@@ -194,51 +133,45 @@ pub(super) fn gather_bands(
         [limits.map(|limits| limits.0), limits.map(|limits| limits.1)]
     });
     let band = |[site, poe, size, strength]: [usize; 4]| strengths[strength].bands[cell(site, poe, size)];
-    let mut plain = SpectraBands::from_bands(&Array::from_fn(shape, band), &measure.exact_m, first);
+    let mut plain = spectra_bands(&Array::from_fn(shape, band), &measure.exact_m, first);
     plain.simultaneous_m = simultaneous_m;
     let with_branches = (0..sites).filter(|&site| !measure.branches[site].is_empty()).collect();
     // behind those of the sites
-    plain.joint = JointBands::from_draws(with_branches, shape, first, |place, [poe, size, strength]| {
+    plain.joint = joint_from_draws(with_branches, shape, first, |place, [poe, size, strength]| {
         strengths[strength].bands[cell(sites + place, poe, size)]
     });
-    Bands { measure: measure.measure, plain, inferred, repaired: None }
+    MeasureBands { measure: measure.measure, plain, inferred: Some(inferred), repaired: None }
 }
 
-/// Shares in per cent; NaN for none.
-fn percent<const N: usize>(values: &Array<N, Option<f64>>) -> Array<N> {
-    values.map(|value| value.map_or(f64::NAN, |value| 100.0 * value))
+/// Bands `[site, poe, size, strength]` of spectra `[site, poe, strength]`, m, with the figures of Table 4.1 over the
+/// strengths from the position `first` on.
+pub(super) fn spectra_bands(bands: &Array<4, Band>, spectra_m: &Array<3>, first: usize) -> StoredSpectraBands {
+    let limits_m = limits(bands);
+    let [sites, poes, sizes, _] = bands.shape();
+    let error_of_median = Array::from_fn([sites, poes, sizes], |at @ [site, poe, _]| {
+        let (median_m, spectrum_m) = (limits_m[1].block(at), spectra_m.block([site, poe]));
+        percent(uplift_bootstrap::error_of_median(&median_m[first..], &spectrum_m[first..]))
+    });
+    let range_of_interval = ranges(&limits_m, first);
+    StoredSpectraBands { limits_m, simultaneous_m: None, error_of_median, range_of_interval, joint: None }
 }
 
-impl SpectraBands {
-    /// The same as a result has them.
-    pub(super) fn stored(&self) -> StoredSpectraBands {
-        let joint = |joint: &JointBands| StoredJointBands {
-            limits_m: joint.limits_m.clone(),
-            range_of_interval: percent(&joint.range_of_interval),
-            failed: joint.failed.clone(),
-        };
-        StoredSpectraBands {
-            limits_m: [&self.lower_m, &self.median_m, &self.upper_m].map(Clone::clone),
-            error_of_median: percent(&self.error_of_median),
-            range_of_interval: percent(&self.range_of_interval),
-            joint: self.joint.as_ref().map(joint),
-        }
-    }
+/// Lower limits, medians and upper limits.
+pub(super) fn limits(bands: &Array<4, Band>) -> [Array<4>; 3] {
+    [|band: &Band| band.lower_m, |band: &Band| band.median_m, |band: &Band| band.upper_m]
+        .map(|value: fn(&Band) -> f64| bands.map(value))
+}
 
-    /// Bands `[site, poe, size, strength]` of spectra `[site, poe, strength]`, m, with the figures of Table 4.1 over
-    /// the strengths from the position `first` on.
-    pub(super) fn from_bands(bands: &Array<4, Band>, spectra_m: &Array<3>, first: usize) -> Self {
-        let [lower_m, median_m, upper_m] =
-            [|band: &Band| band.lower_m, |band: &Band| band.median_m, |band: &Band| band.upper_m]
-                .map(|value: fn(&Band) -> f64| bands.map(value));
-        let [sites, poes, sizes, _] = bands.shape();
-        let error_of_median = Array::from_fn([sites, poes, sizes], |at @ [site, poe, _]| {
-            uplift_bootstrap::error_of_median(&median_m.block(at)[first..], &spectra_m.block([site, poe])[first..])
-        });
-        let range_of_interval = Array::from_fn([sites, poes, sizes], |at| {
-            let [lower, median, upper] = [&lower_m, &median_m, &upper_m].map(|limits| &limits.block(at)[first..]);
-            uplift_bootstrap::range_of_interval(lower, median, upper)
-        });
-        Self { lower_m, median_m, upper_m, simultaneous_m: None, error_of_median, range_of_interval, joint: None }
-    }
+/// Widths of the interval `[site, poe, size]`, % (Eq. 4.10), over the strengths from the position `first` on.
+pub(super) fn ranges(limits_m: &[Array<4>; 3], first: usize) -> Array<3> {
+    let [sites, poes, sizes, _] = limits_m[0].shape();
+    Array::from_fn([sites, poes, sizes], |at| {
+        let [lower, median, upper] = limits_m.each_ref().map(|limits| &limits.block(at)[first..]);
+        percent(uplift_bootstrap::range_of_interval(lower, median, upper))
+    })
+}
+
+/// A share in per cent; NaN for none.
+fn percent(share: Option<f64>) -> f64 {
+    share.map_or(f64::NAN, |share| 100.0 * share)
 }

@@ -10,12 +10,12 @@ use uplift_ida::Watch;
 use uplift_job::events::{Events, Progress};
 use uplift_job::{Array, JobError, is_stopped};
 use uplift_motion::IntensityMeasure;
-use uplift_result::InferredBands;
+use uplift_result::{InferredBands, MeasureBands};
 use uplift_risk::PooledDemand;
 use uplift_uniform_risk::consistency::Reweighing;
 use uplift_uniform_risk::{QuotedUnits, StoredMeasure, StoredStripes};
 
-use super::bands::{BandSettings, Bands, StrengthBands, bands_of_strength, gather_bands};
+use super::bands::{BandSettings, StrengthBands, bands_of_strength, gather_bands};
 use super::checkpoint::{Checkpoint, Expected, Finished};
 use super::joint::{JointSiteBands, gather_joint, joint_bands_of_site};
 use super::repaired::{SiteBands, SiteShape, bands_of_site, gather_repaired};
@@ -48,7 +48,7 @@ pub(super) fn compute(
     source: &Source<'_>,
     checkpoint: Option<&Checkpoint>,
     events: &dyn Events,
-) -> Result<Vec<Bands>, QuestionsError> {
+) -> Result<Vec<MeasureBands>, QuestionsError> {
     let mut finished = checkpoint.map(|checkpoint| finished_before(source, checkpoint)).unwrap_or_default();
     let (strengths, sites) = (finished.strengths.len(), finished.sites.len());
     if let Some(checkpoint) = checkpoint
@@ -64,7 +64,7 @@ pub(super) fn compute(
     // the result may not be writable, on a disk that has filled up for instance
     Keeper { checkpoint, kept: start }.keep_now_and_then(&finished)?;
     let Source { stored, plan, quoted, settings, .. } = source;
-    let of_measure = |(measure, quoted): (&StoredMeasure, &QuotedUnits)| -> Result<Bands, QuestionsError> {
+    let of_measure = |(measure, quoted): (&StoredMeasure, &QuotedUnits)| -> Result<MeasureBands, QuestionsError> {
         let key = measure.measure.key();
         let own: Vec<&StrengthBands> =
             finished.strengths.range((key, 0)..=(key, usize::MAX)).map(|(_, bands)| bands).collect();

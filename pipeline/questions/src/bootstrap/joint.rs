@@ -5,54 +5,33 @@ use rayon::prelude::*;
 use uplift_bootstrap::{Band, BootstrapError, Replicates, ResamplingPlan, weighted_quantile};
 use uplift_ida::Watch;
 use uplift_job::Array;
+use uplift_result::StoredJointBands;
 use uplift_risk::{PooledDemand, StripeWeights};
 use uplift_uniform_risk::consistency::{Reweighed, ReweighedBranch};
 
-use super::bands::{bands_of_numbers, numbers_of_bands};
+use super::bands::{bands_of_numbers, limits, numbers_of_bands, ranges};
 use super::repaired::{SiteShape, failed_shares, replicates_m};
 use crate::error::QuestionsError;
 
-/// The bands over records and weighted hazard curves together; NaN at sites without such curves, and of repaired
-/// spectra also where one of them has no repair.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JointBands {
-    /// Positions of the sites that have such curves.
-    pub sites: Vec<usize>,
-    /// Lower limits, medians and upper limits, each `[site, poe, size, strength]`, m.
-    pub limits_m: [Array<4>; 3],
-    /// Width of the interval `[site, poe, size]` (Eq. 4.10); none where an ordinate is censored or 0.
-    pub range_of_interval: Array<3, Option<f64>>,
-    /// Share of the pairs whose weights do not bring the branch's hazard `[site, size]`; of repaired spectra alone.
-    pub failed: Option<Array<2>>,
-}
-
-impl JointBands {
-    /// Those of the sites at the positions `places`, of which there are some, of all sites in `shape` `[site, poe,
-    /// size, strength]`; `band` is that of the place among them at `[poe, size, strength]`, and only strengths from the
-    /// position `first` on count in Eq. 4.10.
-    pub(super) fn from_draws(
-        places: Vec<usize>,
-        shape: [usize; 4],
-        first: usize,
-        band: impl Fn(usize, [usize; 3]) -> Band,
-    ) -> Option<Self> {
-        if places.is_empty() {
-            return None;
-        }
-        let none = Band { lower_m: f64::NAN, median_m: f64::NAN, upper_m: f64::NAN };
-        let bands = Array::from_fn(shape, |[site, poe, size, strength]| {
-            let place = places.iter().position(|&own| own == site);
-            place.map_or(none, |place| band(place, [poe, size, strength]))
-        });
-        let limits_m = [|band: &Band| band.lower_m, |band: &Band| band.median_m, |band: &Band| band.upper_m]
-            .map(|value: fn(&Band) -> f64| bands.map(value));
-        let [sites, poes, sizes, _] = shape;
-        let range_of_interval = Array::from_fn([sites, poes, sizes], |at| {
-            let [lower, median, upper] = limits_m.each_ref().map(|limits| &limits.block(at)[first..]);
-            uplift_bootstrap::range_of_interval(lower, median, upper)
-        });
-        Some(Self { sites: places, limits_m, range_of_interval, failed: None })
+/// Joint bands of the sites at the positions `places`, of all sites in `shape` `[site, poe, size, strength]`; none of
+/// no sites. `band` is that of the place among them at `[poe, size, strength]`, and only strengths from the position
+/// `first` on count in Eq. 4.10.
+pub(super) fn joint_from_draws(
+    places: Vec<usize>,
+    shape: [usize; 4],
+    first: usize,
+    band: impl Fn(usize, [usize; 3]) -> Band,
+) -> Option<StoredJointBands> {
+    if places.is_empty() {
+        return None;
     }
+    let none = Band { lower_m: f64::NAN, median_m: f64::NAN, upper_m: f64::NAN };
+    let limits_m = limits(&Array::from_fn(shape, |[site, poe, size, strength]| {
+        let place = places.iter().position(|&own| own == site);
+        place.map_or(none, |place| band(place, [poe, size, strength]))
+    }));
+    let range_of_interval = ranges(&limits_m, first);
+    Some(StoredJointBands { sites: places, limits_m, range_of_interval, failed: None })
 }
 
 /// The joint bands of one strength and site over `[poe, size]`, of records that count alike.
@@ -140,11 +119,15 @@ pub(super) fn joint_bands_of_site(
 }
 
 /// The joint bands of all sites, in order, as arrays; none where no site has some.
-pub(super) fn gather_joint(sites: &[Option<&JointSiteBands>], shape: SiteShape, first: usize) -> Option<JointBands> {
+pub(super) fn gather_joint(
+    sites: &[Option<&JointSiteBands>],
+    shape: SiteShape,
+    first: usize,
+) -> Option<StoredJointBands> {
     let SiteShape { poes, sizes, strengths } = shape;
     let own: Vec<&JointSiteBands> = sites.iter().copied().flatten().collect();
     let places = (0..sites.len()).filter(|&site| sites[site].is_some()).collect();
-    let mut joint = JointBands::from_draws(places, [sites.len(), poes, sizes, strengths], first, |place, at| {
+    let mut joint = joint_from_draws(places, [sites.len(), poes, sizes, strengths], first, |place, at| {
         own[place].bands[shape.cell(at)]
     })?;
     joint.failed =
@@ -181,6 +164,6 @@ mod tests {
             let lower = own.limits_m[0].values().to_vec();
             (own.sites, failed, lower[2..].to_vec(), lower[0].is_nan(), own.range_of_interval[[1, 0, 0]])
         });
-        assert_eq!(found, Some((vec![1], Some((true, 0.25)), vec![1.0, 2.0], true, Some(1.0 / 1.5))));
+        assert_eq!(found, Some((vec![1], Some((true, 0.25)), vec![1.0, 2.0], true, 100.0 * (1.0 / 1.5))));
     }
 }

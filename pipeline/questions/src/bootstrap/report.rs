@@ -5,54 +5,33 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use uplift_job::ReferenceTable;
 use uplift_motion::IntensityMeasure;
-use uplift_result::WidestInferred;
+use uplift_result::{MeasureBands, StoredSpectraBands, WidestInferred};
 use uplift_uniform_risk::StoredStripes;
 
-use super::bands::{BandSettings, Bands, SpectraBands};
+use super::bands::BandSettings;
 use crate::error::QuestionsError;
 
 /// The report of a bootstrap.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 #[serde(transparent)]
 pub struct BootstrapReport {
     /// The figures of Table 4.1, one a measure, site, probability and sample size, in this order.
     pub rows: Vec<BootstrapRow>,
-    /// The result file, which holds the bands now.
+    /// The result, whose file holds the bands now.
     #[serde(skip)]
-    pub result: PathBuf,
+    pub stored: StoredStripes,
     /// The tables beside it: bands, and figures of Table 4.1.
     #[serde(skip)]
     pub tables: [PathBuf; 2],
     /// Share of the replicates between the limits.
     #[serde(skip)]
     pub confidence: f64,
-    /// Names of the sites.
-    #[serde(skip)]
-    pub sites: Vec<String>,
-    /// Probabilities of exceedance.
-    #[serde(skip)]
-    pub poes: Vec<f64>,
-    /// Years that they refer to.
-    #[serde(skip)]
-    pub years: f64,
-    /// Records of the result.
-    #[serde(skip)]
-    pub records: usize,
-    /// Whether the records are synthetic.
-    #[serde(skip)]
-    pub synthetic: bool,
     /// Records in a sample.
     #[serde(skip)]
     pub sizes: Vec<u32>,
-    /// Uplift strengths.
-    #[serde(skip)]
-    pub strengths: Vec<f64>,
-    /// Displacement at uplift, m.
-    #[serde(skip)]
-    pub uplift_displacement_m: f64,
     /// The bands, a measure each.
     #[serde(skip)]
-    pub bands: Vec<Bands>,
+    pub bands: Vec<MeasureBands>,
     /// What was given to compare with.
     #[serde(skip)]
     pub reference: Vec<ReferenceRow>,
@@ -124,63 +103,49 @@ impl BootstrapReport {
         tables: [PathBuf; 2],
         sizes: Vec<u32>,
         settings: BandSettings,
-        bands: Vec<Bands>,
+        bands: Vec<MeasureBands>,
         reference: Vec<ReferenceRow>,
     ) -> Self {
         let mut rows = Vec::new();
         for (bands, measure) in bands.iter().zip(&stored.measures) {
-            let percent = |share: Option<f64>| share.map(|share| 100.0 * share);
+            let known = |figure: f64| Some(figure).filter(|figure| !figure.is_nan());
             for (at @ [site, poe, size], error) in bands.plain.error_of_median.blocks() {
+                let spectrum = (&stored.strengths[..], measure.exact_m.block([site, poe]));
                 let repaired = bands.repaired.as_ref().filter(|own| !own.failed[[site, size]].is_nan());
                 rows.push(BootstrapRow {
                     site: stored.sites[site].clone(),
                     im: bands.measure.label(),
                     poe: stored.poes[poe],
                     sample_size: sizes[size],
-                    e_median: percent(error[0]),
-                    r_90ci: percent(bands.plain.range_of_interval[at]),
-                    joint_r_90ci: percent(bands.plain.joint.as_ref().and_then(|joint| joint.range_of_interval[at])),
-                    inferred: bands.inferred.widest((&stored.strengths, measure.exact_m.block([site, poe])), at),
+                    e_median: known(error[0]),
+                    r_90ci: known(bands.plain.range_of_interval[at]),
+                    joint_r_90ci: bands.plain.joint.as_ref().and_then(|joint| known(joint.range_of_interval[at])),
+                    inferred: bands.inferred.as_ref().and_then(|inferred| inferred.widest(spectrum, at)),
                     repaired: repaired.map(|own| {
                         let joint = own.bands.joint.as_ref();
-                        let failed = joint.and_then(|joint| Some(joint.failed.as_ref()?[[site, size]]));
+                        let failed = joint.and_then(|joint| known(100.0 * joint.failed.as_ref()?[[site, size]]));
                         RepairedFigures {
-                            e_median: percent(own.bands.error_of_median[at]),
-                            r_90ci: percent(own.bands.range_of_interval[at]),
+                            e_median: known(own.bands.error_of_median[at]),
+                            r_90ci: known(own.bands.range_of_interval[at]),
                             failed: 100.0 * own.failed[[site, size]],
-                            joint_r_90ci: percent(joint.and_then(|joint| joint.range_of_interval[at])),
-                            joint_failed: percent(failed.filter(|share| !share.is_nan())),
+                            joint_r_90ci: joint.and_then(|joint| known(joint.range_of_interval[at])),
+                            joint_failed: failed,
                         }
                     }),
                 });
             }
         }
-        Self {
-            rows,
-            result: stored.path,
-            tables,
-            confidence: settings.confidence,
-            sites: stored.sites,
-            poes: stored.poes,
-            years: stored.years,
-            records: stored.records.len(),
-            synthetic: stored.synthetic,
-            sizes,
-            strengths: stored.strengths,
-            uplift_displacement_m: stored.uplift_displacement_m,
-            bands,
-            reference,
-        }
+        Self { rows, stored, tables, confidence: settings.confidence, sizes, bands, reference }
     }
 
     /// Where rocking begins, by `bands` at the positions `[site, poe, size]`.
     ///
     /// # Panics
     /// If a position is out of range, which is a bug of the caller.
-    pub fn initiation(&self, bands: &SpectraBands, at: [usize; 3]) -> Initiation {
-        let at_uplift = |values: &[f64]| values.iter().position(|&u_m| u_m <= self.uplift_displacement_m);
-        let strength = |values: &[f64]| at_uplift(values).map(|index| self.strengths[index]);
-        let (lower, median, upper) = (bands.lower_m.block(at), bands.median_m.block(at), bands.upper_m.block(at));
+    pub fn initiation(&self, bands: &StoredSpectraBands, at: [usize; 3]) -> Initiation {
+        let at_uplift = |values: &[f64]| values.iter().position(|&u_m| u_m <= self.stored.uplift_displacement_m);
+        let strength = |values: &[f64]| at_uplift(values).map(|index| self.stored.strengths[index]);
+        let [lower, median, upper] = bands.limits_m.each_ref().map(|limits| limits.block(at));
         Initiation {
             lower: strength(lower),
             median: strength(median),

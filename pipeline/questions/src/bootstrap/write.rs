@@ -7,15 +7,16 @@ use uplift_bootstrap::{ResamplingPlan, Unit};
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_result::declared::{Names, Quantity};
+use uplift_result::declared::Names;
 use uplift_result::layout::{axis, limit_names};
 use uplift_result::{
-    BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, InferredBands, JOINT_BANDS, LockedResult,
-    REPAIRED_BANDS, SIMULTANEOUS_BANDS, SiteJointBands, StoredDraws, band_lengths, band_names, sign,
+    BAND_FIGURES, BANDS, BandKind, BandsOfKind, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, InferredBands,
+    JOINT_BANDS, LockedResult, MeasureBands, REPAIRED_BANDS, SIMULTANEOUS_BANDS, SiteJointBands, StoredDraws,
+    StoredSpectraBands, band_lengths, band_names, sign,
 };
 use uplift_uniform_risk::{BandOf, QuotedUnits, StoredStripes};
 
-use super::bands::{BandSettings, Bands, RepairedBands, SpectraBands};
+use super::bands::BandSettings;
 use crate::error::QuestionsError;
 
 /// Groups and axes of the file that bands replace.
@@ -34,7 +35,7 @@ pub(super) struct BandsFile<'a> {
     /// What kind of bands.
     pub(super) settings: &'a BandSettings,
     /// The bands, a measure each.
-    pub(super) bands: &'a [Bands],
+    pub(super) bands: &'a [MeasureBands],
     /// Whose scatter those of the truth are of, where records are not drawn by earthquake, a measure each.
     pub(super) quoted: &'a [QuotedUnits],
 }
@@ -93,15 +94,12 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
     let limits = limit_names(settings.confidence);
     for (bands, quoted) in file.bands.iter().zip(file.quoted) {
         let names = |of_repaired| band_names(bands.measure, &limits, of_repaired);
-        add_spectra_bands(writer, &names(""), &bands.plain, &stored.sites)?;
-        let lengths = band_lengths(bands.plain.lower_m.shape());
-        INFERRED_BANDS.write(writer, &names(""), &lengths, &bands.inferred)?;
+        add_spectra_bands(writer, &names(""), (&bands.plain, bands.inferred.as_ref()), &stored.sites)?;
         let of = if plan.unit() == Unit::Event { BandOf::Earthquakes } else { quoted.of };
         writer.attribute(&BANDS.group(&names("")), "band_of", <&str>::from(of))?;
         if let Some(repaired) = &bands.repaired {
             let names = names(REPAIRED_BANDS);
-            add_spectra_bands(writer, &names, &repaired.bands, &stored.sites)?;
-            INFERRED_BANDS.write(writer, &names, &lengths, &repaired.inferred)?;
+            add_spectra_bands(writer, &names, (&repaired.bands, repaired.inferred.as_ref()), &stored.sites)?;
             FAILED_SAMPLES.write_array(writer, &names, repaired.failed.values())?;
         }
     }
@@ -112,30 +110,38 @@ fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), La
 fn add_spectra_bands(
     writer: &mut LabelledWriter,
     names: Names<'_>,
-    bands: &SpectraBands,
+    (bands, inferred): (&StoredSpectraBands, Option<&InferredBands>),
     sites: &[String],
 ) -> Result<(), LabelledError> {
-    let (stored, lengths) = (bands.stored(), band_lengths(bands.lower_m.shape()));
-    BANDS.write(writer, names, &lengths, &stored)?;
+    let lengths = band_lengths(bands.limits_m[0].shape());
+    BANDS.write(writer, names, &lengths, bands)?;
     if let Some(limits_m) = &bands.simultaneous_m {
         SIMULTANEOUS_BANDS.write(writer, names, &lengths, limits_m)?;
     }
-    let Some((joint, places)) = stored.joint.as_ref().zip(bands.joint.as_ref().map(|joint| &joint.sites)) else {
-        return Ok(());
-    };
-    for &site in places {
+    for (joint, &site) in bands.joint.iter().flat_map(|joint| joint.sites.iter().map(move |site| (joint, site))) {
         let (names, own) = ([names, &[("<site>", &sites[site])]].concat(), SiteJointBands::new(joint, site));
         JOINT_BANDS.write(writer, &names, &lengths, &own)?;
         if joint.failed.is_some() {
             FAILED_PAIRS.write(writer, &names, &lengths, &own)?;
         }
     }
-    Ok(())
+    inferred.map_or(Ok(()), |inferred| INFERRED_BANDS.write(writer, names, &lengths, inferred))
+}
+
+/// The kinds of bands that there are, each with those of every measure; none of a measure of whose sites none has any.
+fn kinds<'a>(file: &BandsFile<'a>) -> impl Iterator<Item = (BandKind, Vec<Option<BandsOfKind<'a>>>)> {
+    let bands = file.bands;
+    let of_kind = move |kind: BandKind| (kind, bands.iter().map(|bands| kind.of(bands)).collect::<Vec<_>>());
+    BandKind::ALL.into_iter().map(of_kind).filter(|(_, of)| of.iter().any(Option::is_some))
+}
+
+fn known(value: f64) -> Option<f64> {
+    Some(value).filter(|value| !value.is_nan())
 }
 
 fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
     let (stored, sizes) = (file.stored, file.plan.sizes());
-    let rows = file.bands.iter().flat_map(|of| of.plain.lower_m.blocks::<4>().map(move |(at, _)| (of.measure, at)));
+    let rows = file.bands.iter().flat_map(|of| of.plain.limits_m[0].blocks::<4>().map(move |(at, _)| (of.measure, at)));
     let mut columns = ColumnsOf::new(rows)
         .with("site", |(_, [site, ..])| stored.sites[site].as_str())
         .with("im", |(measure, _)| measure.label())
@@ -144,128 +150,44 @@ fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
         .with("sample_size", |(_, [_, _, size, _])| sizes[size])
         .with("strength", |(_, [.., strength])| stored.strengths[strength])
         .build();
-    let plain: Vec<&SpectraBands> = file.bands.iter().map(|bands| &bands.plain).collect();
-    columns.extend(limit_columns("", &plain, file.settings.confidence));
-    let inferred: Vec<&InferredBands> = file.bands.iter().map(|bands| &bands.inferred).collect();
-    columns.extend(inferred_columns("", &inferred));
-    let repaired: Vec<&SpectraBands> =
-        file.bands.iter().filter_map(|bands| bands.repaired.as_ref().map(|repaired| &repaired.bands)).collect();
-    columns.extend(limit_columns("_consistent", &repaired, file.settings.confidence));
-    let inferred: Vec<&InferredBands> =
-        file.bands.iter().filter_map(|bands| Some(&bands.repaired.as_ref()?.inferred)).collect();
-    columns.extend(inferred_columns("_consistent", &inferred));
-    columns.extend(joint_columns("_joint", &plain, file.settings.confidence));
-    columns.extend(joint_columns("_consistent_joint", &repaired, file.settings.confidence));
-    columns
-}
-
-/// The joint limits of all measures, their names with `suffix` before the unit; none where no site has any.
-fn joint_columns(suffix: &str, bands: &[&SpectraBands], confidence: f64) -> Vec<Column> {
-    if bands.iter().all(|of| of.joint.is_none()) {
-        return Vec::new();
-    }
-    let column = |(limit, name): (usize, String)| {
-        // a measure of whose sites none has any has as many rows
-        let of_measure = |of: &&SpectraBands| match &of.joint {
-            Some(joint) => {
-                joint.limits_m[limit].values().iter().map(|&u_m| Some(u_m).filter(|u_m| !u_m.is_nan())).collect()
-            }
-            None => vec![None; of.median_m.values().len()],
-        };
-        let values: Vec<Option<f64>> = bands.iter().flat_map(of_measure).collect();
-        Column::new(format!("{}{suffix}_m", name.trim_end_matches("_m")).into(), values)
-    };
-    limit_names(confidence).into_iter().enumerate().map(column).collect()
-}
-
-/// The limits beyond the set of all measures, their names with `suffix` before the unit; none of no bands.
-fn inferred_columns(suffix: &str, bands: &[&InferredBands]) -> Vec<Column> {
-    let column = |quantity: &Quantity<InferredBands>| {
-        let of_measure = |of: &&InferredBands| {
-            let places = 0..of.truth_m[0].values().len();
-            places.filter_map(|at| quantity.number(of, at)).collect::<Vec<f64>>()
-        };
-        let name = format!("{}{suffix}_m", quantity.name.trim_end_matches("_m"));
-        Column::new(name.into(), bands.iter().flat_map(of_measure).collect::<Vec<f64>>())
-    };
-    if bands.is_empty() { Vec::new() } else { INFERRED_BANDS.quantities.iter().map(column).collect() }
-}
-
-/// The limits of all measures, their names with `suffix` before the unit; none of no bands.
-fn limit_columns(suffix: &str, bands: &[&SpectraBands], confidence: f64) -> Vec<Column> {
-    let of_measures = bands.iter().map(|bands| {
-        let mut columns = vec![&bands.lower_m, &bands.median_m, &bands.upper_m];
-        columns.extend(bands.simultaneous_m.iter().flatten());
-        columns
-    });
-    let mut limits: Vec<Vec<f64>> = Vec::new();
-    for columns in of_measures {
-        limits.resize_with(columns.len(), Vec::new);
-        for (all, of_measure) in limits.iter_mut().zip(columns) {
-            all.extend_from_slice(of_measure.values());
+    let names = limit_names(file.settings.confidence);
+    for (kind, of) in kinds(file) {
+        let Some(first) = of.iter().flatten().next() else { continue };
+        for (place, (name, limits)) in first.limits(&names).enumerate() {
+            // a site without weighted hazard curves has empty cells
+            let cell = |u_m: &f64| if kind.is_joint { known(*u_m) } else { Some(*u_m) };
+            let of_measure = |of: &Option<BandsOfKind<'_>>| match of.and_then(|of| of.limits(&names).nth(place)) {
+                Some((_, limits)) => limits.values().iter().map(cell).collect(),
+                None => vec![None; limits.values().len()],
+            };
+            let values: Vec<Option<f64>> = of.iter().flat_map(of_measure).collect();
+            columns.push(Column::new(kind.column(name).into(), values));
         }
     }
-    let names = limit_names(confidence);
-    let names = names.iter().map(String::as_str).chain(SIMULTANEOUS_BANDS.quantities.iter().map(|own| own.name));
-    names
-        .zip(limits)
-        .map(|(name, values)| Column::new(format!("{}{suffix}_m", name.trim_end_matches("_m")).into(), values))
-        .collect()
-}
-
-fn per_cent(share: Option<f64>) -> Option<f64> {
-    share.map(|share| 100.0 * share)
+    columns
 }
 
 fn figures_table(file: &BandsFile<'_>) -> Vec<Column> {
     let (stored, sizes) = (file.stored, file.plan.sizes());
-    let rows = file.bands.iter().flat_map(|of| of.plain.error_of_median.blocks::<3>().map(move |(at, _)| (of, at)));
+    let places = (0..file.bands.len()).zip(file.bands);
+    let rows = places.flat_map(|(place, of)| of.plain.error_of_median.blocks::<3>().map(move |(at, _)| (place, at)));
     let mut columns = ColumnsOf::new(rows)
         .with("site", |(_, [site, ..])| stored.sites[site].as_str())
-        .with("im", |(of, _)| of.measure.label())
+        .with("im", |(place, _)| file.bands[place].measure.label())
         .with("poe", |(_, [_, poe, _])| stored.poes[poe])
         .with("years", |_| stored.years)
-        .with("sample_size", |(_, [.., size])| sizes[size])
-        .with("e_median_pct", |(of, at)| per_cent(of.plain.error_of_median[at]))
-        .with("r_90ci_pct", |(of, at)| per_cent(of.plain.range_of_interval[at]));
-    if file.bands.iter().any(|of| of.repaired.is_some()) {
-        let failed = |own: &RepairedBands, [site, _, size]: [usize; 3]| own.failed[[site, size]];
-        columns = columns
-            .with("e_median_consistent_pct", |(of, at)| per_cent(of.repaired.as_ref()?.bands.error_of_median[at]))
-            .with("r_90ci_consistent_pct", |(of, at)| per_cent(of.repaired.as_ref()?.bands.range_of_interval[at]))
-            .with("failed_consistent_pct", |(of, at)| {
-                per_cent(Some(failed(of.repaired.as_ref()?, at)).filter(|share| !share.is_nan()))
-            });
+        .with("sample_size", |(_, [.., size])| sizes[size]);
+    for (kind, of) in kinds(file) {
+        for (figure, (name, _)) in BAND_FIGURES.iter().enumerate() {
+            if of.iter().flatten().any(|of| of.figures[figure].is_some()) {
+                columns = columns.with(kind.column(name), |(place, at)| known(of[place]?.figures[figure]?[at]));
+            }
+        }
+        if of.iter().flatten().any(|of| of.failed.is_some()) {
+            let failed =
+                |(place, [site, _, size]): (usize, [usize; 3])| known(100.0 * of[place]?.failed?[[site, size]]);
+            columns = columns.with(kind.column("failed_pct"), failed);
+        }
     }
-    let mut columns = columns.build();
-    columns.extend(joint_figure_columns(file.bands));
-    columns
+    columns.build()
 }
-
-/// The figures of the joint bands; none where no site has weighted hazard curves.
-fn joint_figure_columns(bands: &[Bands]) -> Vec<Column> {
-    let figures: [JointFigure; 3] = [
-        ("r_90ci_joint_pct", |bands, at| bands.plain.joint.as_ref()?.range_of_interval[at]),
-        ("r_90ci_consistent_joint_pct", |bands, at| {
-            bands.repaired.as_ref()?.bands.joint.as_ref()?.range_of_interval[at]
-        }),
-        ("failed_consistent_joint_pct", |bands, [site, _, size]| {
-            let joint = bands.repaired.as_ref()?.bands.joint.as_ref()?;
-            Some(joint.failed.as_ref()?[[site, size]]).filter(|share| !share.is_nan())
-        }),
-    ];
-    let has_some = bands.iter().any(|of| of.plain.joint.is_some());
-    let is_repaired = bands.iter().any(|of| of.repaired.as_ref().is_some_and(|own| own.bands.joint.is_some()));
-    let column = |(name, figure): JointFigure| {
-        let of_measure = |of: &'_ Bands| -> Vec<Option<f64>> {
-            let places = of.plain.error_of_median.blocks::<3>().map(|(at, _)| at);
-            places.map(|at| Some(100.0 * figure(of, at)?)).collect()
-        };
-        Column::new(name.into(), bands.iter().flat_map(of_measure).collect::<Vec<_>>())
-    };
-    let there = usize::from(has_some) + 2 * usize::from(is_repaired);
-    figures.into_iter().take(there).map(column).collect()
-}
-
-/// A column, and its figure at `[site, poe, size]`.
-type JointFigure = (&'static str, fn(&Bands, [usize; 3]) -> Option<f64>);

@@ -97,15 +97,15 @@ pub fn efficiency(
         if let Some(from) = measured(own.measure) {
             let reaching = FactorsToReach::new(&stored, own, from)?;
             for found in &mut measures {
-                if let Some(to) = measured(found.measure) {
-                    found.reaching = reaching.scatter(to);
+                if let Some(to) = measured(found.own.measure) {
+                    found.own.reaching = reaching.scatter(to);
                 }
             }
             up_to_m = reaching.up_to_m;
         }
     }
     write_efficiency(&locked, (&stored, &file.efficiency()?), &covariates, &measures)?;
-    Ok(EfficiencyReport::new(&stored, &covariates, &measures, up_to_m))
+    Ok(EfficiencyReport::new(stored, &covariates, &measures, up_to_m))
 }
 
 /// Those of the measures `wanted` that can be had, of each record.

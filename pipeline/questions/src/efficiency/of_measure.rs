@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 use uplift_fragility::{Dispersion, mean_residuals, standard_deviation, uplift_levels};
-use uplift_motion::IntensityMeasure;
 use uplift_regression::{Line, fit_line};
 use uplift_result::{StoredEfficiency, StoredRecords, StoredTrend};
 use uplift_uniform_risk::{StoredMeasure, StoredStripes};
@@ -21,51 +20,37 @@ pub struct Covariate {
     pub values: Vec<f64>,
 }
 
-/// Efficiency and sufficiency of one measure; arrays run over `[strength]` unless said otherwise.
+/// Efficiency and sufficiency of one measure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasureEfficiency {
-    /// The measure.
-    pub measure: IntensityMeasure,
-    /// The measure that the records of the runs were scaled to: another one where the runs are told by `measure`.
-    pub scaled_to: IntensityMeasure,
+    /// What a result has of it.
+    pub own: StoredEfficiency,
     /// Levels of the measure, `[level]`.
     pub levels: Vec<f64>,
-    /// Scatter of the level at which the records bring the structure to a displacement: the standard deviation of its
-    /// logarithm (of its root's, for the Arias intensity), median over the displacements from uplift to the largest
-    /// that all reach in the runs of the first measure; NaN where that is not known.
-    pub reaching: Vec<f64>,
     /// Scatter of the demand over `[strength, level]`.
     pub dispersions: Vec<Dispersion>,
-    /// Median over the stripes that rock of the dispersion by percentiles; NaN where no stripe has one.
-    pub rocking: Vec<f64>,
-    /// Share of the stripes that rock whose dispersion does not exist, for too much overturning.
-    pub undefined: Vec<f64>,
-    /// Standard deviation of the logarithm of the level (of its root, for the Arias intensity) at which a record first
-    /// lifts the structure.
-    pub initiation: Vec<f64>,
-    /// Records that have such a level.
-    pub initiation_records: Vec<u32>,
     /// The line of the mean residuals over each covariate, `[covariate][strength]`; none where there are too few
     /// records or stripes.
     pub lines: Vec<Vec<Option<Line>>>,
 }
 
-impl MeasureEfficiency {
-    /// The same as a result has it, with the trends over `covariates`.
-    pub(super) fn stored(&self, covariates: &[Covariate]) -> StoredEfficiency {
-        let trend = |(covariate, lines): (&Covariate, &Vec<_>)| StoredTrend::new(covariate.key, lines);
-        StoredEfficiency {
-            measure: self.measure,
-            scaled_to: self.scaled_to,
-            reaching: self.reaching.clone(),
-            rocking: self.rocking.clone(),
-            undefined: self.undefined.clone(),
-            initiation: self.initiation.clone(),
-            initiation_records: self.initiation_records.clone(),
-            trends: covariates.iter().zip(&self.lines).map(trend).collect(),
-        }
-    }
-}
+/// Numbers over the strengths: their name, their heading of the workbook, and where they are.
+pub type Figure<T = StoredEfficiency> = (&'static str, &'static str, fn(&T) -> &[f64]);
+
+/// The dispersion of the stripes that rock.
+pub const ROCKING: Figure = ("dispersion_rocking", "dispersion, rocking", |of| &of.rocking);
+/// The dispersion of the level at first uplift.
+pub const INITIATION: Figure = ("dispersion_initiation", "dispersion, first uplift", |of| &of.initiation);
+/// How efficient a measure is.
+pub const FIGURES: [Figure; 4] = [
+    ("dispersion_level", "dispersion of the level", |of| &of.reaching),
+    ROCKING,
+    ("undefined_share", "share undefined", |of| &of.undefined),
+    INITIATION,
+];
+/// Its trend with a covariate.
+pub const TRENDS: [Figure<StoredTrend>; 2] =
+    [("slope", "slope over", |of| &of.slope), ("p_value", "p value of", |of| &of.p_value)];
 
 /// One strength: scatter of each level, levels at first uplift, a line for each covariate.
 type OfStrength = (Vec<Dispersion>, Vec<f64>, Vec<Option<Line>>);
@@ -89,8 +74,9 @@ pub(super) fn efficiency_restated(
     restated: &Restated,
     covariates: &[Covariate],
 ) -> Result<MeasureEfficiency, QuestionsError> {
-    let found = efficiency_of(stored, &restated.stripes, Some(&restated.uplift_levels), covariates)?;
-    Ok(MeasureEfficiency { scaled_to: own.measure, ..found })
+    let mut found = efficiency_of(stored, &restated.stripes, Some(&restated.uplift_levels), covariates)?;
+    found.own.scaled_to = own.measure;
+    Ok(found)
 }
 
 /// Efficiency and sufficiency of stripes, whose levels at first uplift are found unless they are given,
@@ -131,18 +117,21 @@ fn efficiency_of(
         initiation.push(standard_deviation(&amplitudes.collect::<Vec<_>>()));
         initiation_records.push(u32::try_from(uplift.len()).unwrap_or(u32::MAX));
     }
+    let of_covariate = |covariate: usize| by_strength.iter().map(|(.., lines)| lines[covariate]).collect();
+    let lines: Vec<Vec<Option<Line>>> = (0..covariates.len()).map(of_covariate).collect();
     Ok(MeasureEfficiency {
-        measure: measure.measure,
-        scaled_to: measure.measure,
+        own: StoredEfficiency {
+            measure: measure.measure,
+            scaled_to: measure.measure,
+            reaching: vec![f64::NAN; stored.strengths.len()],
+            rocking,
+            undefined,
+            initiation,
+            initiation_records,
+            trends: covariates.iter().zip(&lines).map(|(of, lines)| StoredTrend::new(of.key, lines)).collect(),
+        },
         levels: measure.levels.clone(),
-        reaching: vec![f64::NAN; stored.strengths.len()],
-        rocking,
-        undefined,
-        initiation,
-        initiation_records,
-        lines: (0..covariates.len())
-            .map(|covariate| by_strength.iter().map(|(.., lines)| lines[covariate]).collect())
-            .collect(),
+        lines,
         dispersions: by_strength.into_iter().flat_map(|(dispersions, ..)| dispersions).collect(),
     })
 }

@@ -4,35 +4,27 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::Serialize;
+use uplift_result::StoredEfficiency;
 use uplift_uniform_risk::StoredStripes;
 
 use super::of_measure::{Covariate, MeasureEfficiency};
 use super::write::efficiency_path;
 
 /// The report on efficiency and sufficiency.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 #[serde(transparent)]
 pub struct EfficiencyReport {
     /// One a measure and strength, in this order.
     pub rows: Vec<EfficiencyRow>,
-    /// Uplift strengths.
+    /// The result, whose file holds all of it now.
     #[serde(skip)]
-    pub strengths: Vec<f64>,
+    pub stored: StoredStripes,
     /// What is known of the records, in order: the keys of [`EfficiencyRow::trends`].
     #[serde(skip)]
     pub covariates: Vec<&'static str>,
     /// The largest displacement at which measures are compared, m, of each strength; none where there is none.
     #[serde(skip)]
     pub up_to_m: Vec<Option<f64>>,
-    /// Records.
-    #[serde(skip)]
-    pub records: usize,
-    /// Whether the records are synthetic.
-    #[serde(skip)]
-    pub synthetic: bool,
-    /// The result file, which holds all of it now.
-    #[serde(skip)]
-    pub result: PathBuf,
     /// The table beside it.
     #[serde(skip)]
     pub table: PathBuf,
@@ -82,20 +74,20 @@ pub struct Trend {
 
 /// The place of the scatter `of` a measure among those of all at the strength `index`, the smallest first; none where
 /// there is no such number.
-pub(super) fn rank(measures: &[MeasureEfficiency], of: &MeasureEfficiency, index: usize) -> Option<u32> {
-    let smaller = |other: &&MeasureEfficiency| other.reaching[index] < of.reaching[index];
+pub(super) fn rank(measures: &[MeasureEfficiency], of: &StoredEfficiency, index: usize) -> Option<u32> {
+    let smaller = |other: &&MeasureEfficiency| other.own.reaching[index] < of.reaching[index];
     let place = || u32::try_from(1 + measures.iter().filter(smaller).count()).unwrap_or(u32::MAX);
     of.reaching[index].is_finite().then(place)
 }
 
 impl EfficiencyReport {
     pub(super) fn new(
-        stored: &StoredStripes,
+        stored: StoredStripes,
         covariates: &[Covariate],
         measures: &[MeasureEfficiency],
         up_to_m: Vec<Option<f64>>,
     ) -> Self {
-        let row = |of: &MeasureEfficiency, index: usize| EfficiencyRow {
+        let row = |MeasureEfficiency { own: of, lines, .. }: &MeasureEfficiency, index: usize| EfficiencyRow {
             im: of.measure.label(),
             scaled_to: of.scaled_to.label(),
             strength: stored.strengths[index],
@@ -106,7 +98,7 @@ impl EfficiencyReport {
             dispersion_initiation: of.initiation[index],
             trends: covariates
                 .iter()
-                .zip(&of.lines)
+                .zip(lines)
                 .map(|(covariate, lines)| {
                     let line = lines[index].as_ref();
                     let trend = Trend {
@@ -119,14 +111,14 @@ impl EfficiencyReport {
                 .collect(),
         };
         Self {
-            rows: measures.iter().flat_map(|of| (0..stored.strengths.len()).map(move |index| row(of, index))).collect(),
-            strengths: stored.strengths.clone(),
+            rows: measures
+                .iter()
+                .flat_map(|of| (0..stored.strengths.len()).map(|index| row(of, index)).collect::<Vec<_>>())
+                .collect(),
             covariates: covariates.iter().map(|covariate| covariate.key).collect(),
             up_to_m,
-            records: stored.records.len(),
-            synthetic: stored.synthetic,
-            result: stored.path.clone(),
             table: efficiency_path(&stored.path),
+            stored,
         }
     }
 }

@@ -12,7 +12,7 @@ use uplift_result::layout::axis;
 use uplift_result::{EFFICIENCY, EFFICIENCY_OF_STRIPES, LockedResult, REACHING, StoredEfficiency, TRENDS, sign};
 use uplift_uniform_risk::StoredStripes;
 
-use super::of_measure::{Covariate, MeasureEfficiency};
+use super::of_measure::{Covariate, FIGURES, Figure, MeasureEfficiency};
 use super::report::rank;
 use crate::error::QuestionsError;
 
@@ -54,20 +54,20 @@ fn add(
     sign(writer, EFFICIENCY.root())?;
     sign(writer, TRENDS.root())?;
     for found in measures {
-        let measure = found.measure;
-        let levels = if found.scaled_to == measure { axis::level(measure) } else { axis::common_level(measure) };
-        if found.scaled_to != measure {
+        let MeasureEfficiency { own, .. } = found;
+        let measure = own.measure;
+        let levels = if own.scaled_to == measure { axis::level(measure) } else { axis::common_level(measure) };
+        if own.scaled_to != measure {
             let long_name = format!("level of {} that every record is brought to", measure.long_name());
             writer.axis_f64(&levels, &found.levels, measure.unit(), &long_name)?;
         }
-        let stored = found.stored(covariates);
         let names = [("<im>", measure.key()), ("<levels>", &levels)];
-        let lengths = [(axis::STRENGTH, stored.rocking.len()), (&levels, found.levels.len())];
+        let lengths = [(axis::STRENGTH, own.rocking.len()), (&levels, found.levels.len())];
         EFFICIENCY_OF_STRIPES.write(writer, &names, &lengths, &found.dispersions)?;
-        writer.attribute(&EFFICIENCY.of_measure(measure), "scaled_to", found.scaled_to.key())?;
-        REACHING.write(writer, &names, &lengths, &stored)?;
-        EFFICIENCY.write(writer, &names, &lengths, &stored)?;
-        for (covariate, trend) in covariates.iter().zip(&stored.trends) {
+        writer.attribute(&EFFICIENCY.of_measure(measure), "scaled_to", own.scaled_to.key())?;
+        REACHING.write(writer, &names, &lengths, own)?;
+        EFFICIENCY.write(writer, &names, &lengths, own)?;
+        for (covariate, trend) in covariates.iter().zip(&own.trends) {
             let names = [names[0], ("<covariate>", covariate.key), ("<with>", covariate.long_name)];
             TRENDS.write(writer, &names, &lengths, trend)?;
         }
@@ -77,15 +77,17 @@ fn add(
 
 fn efficiency_table(stored: &StoredStripes, covariates: &[Covariate], measures: &[MeasureEfficiency]) -> Vec<Column> {
     let rows = measures.iter().flat_map(|of| stored.strengths.iter().enumerate().map(move |at| (of, at)));
+    let with_figure = |columns: ColumnsOf<_>, (name, _, values): Figure| {
+        columns.with(name, move |(of, (at, _)): (&MeasureEfficiency, (usize, &f64))| finite(values(&of.own)[at]))
+    };
+    let [level, others @ ..] = FIGURES;
     let columns = ColumnsOf::new(rows)
-        .with("im", |(of, _)| of.measure.label())
-        .with("scaled_to", |(of, _)| of.scaled_to.label())
+        .with("im", |(of, _)| of.own.measure.label())
+        .with("scaled_to", |(of, _)| of.own.scaled_to.label())
         .with("strength", |(_, (_, &strength))| strength)
-        .with("dispersion_level", |(of, (at, _))| finite(of.reaching[at]))
-        .with("rank", |(of, (at, _))| rank(measures, of, at))
-        .with("dispersion_rocking", |(of, (at, _))| finite(of.rocking[at]))
-        .with("undefined_share", |(of, (at, _))| finite(of.undefined[at]))
-        .with("dispersion_initiation", |(of, (at, _))| finite(of.initiation[at]));
+        .each([level], with_figure)
+        .with("rank", |(of, (at, _))| rank(measures, &of.own, at))
+        .each(others, with_figure);
     let with_trend = |columns: ColumnsOf<_>, (index, covariate): (usize, &Covariate)| {
         let of_line = |value: fn(&Line) -> f64| {
             move |(of, (at, _)): (&MeasureEfficiency, (usize, &f64))| of.lines[index][at].as_ref().map(value)

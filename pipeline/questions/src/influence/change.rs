@@ -39,6 +39,16 @@ pub struct RecordInfluence {
     pub strength: f64,
 }
 
+/// A number on a record: its name, its heading of the workbook, and where it is.
+pub type Change = (&'static str, &'static str, fn(&RecordInfluence) -> f64);
+
+/// How a record changes a spectrum, as tables have it.
+pub const CHANGES: [Change; 3] = [
+    ("mean_change_pct", "mean change, %", |of| 100.0 * of.mean_change),
+    ("largest_change_pct", "largest change, %", |of| 100.0 * of.largest_change),
+    ("at_strength", "at strength, -", |of| of.strength),
+];
+
 /// One strength: ordinates without each record `[site][record, poe]`, shares `[site, poe, bin]`.
 type OfStrength = (Vec<Vec<f64>>, Vec<f64>);
 

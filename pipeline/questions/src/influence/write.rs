@@ -12,7 +12,7 @@ use uplift_result::layout::axis;
 use uplift_result::{DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, LockedResult, sign};
 use uplift_uniform_risk::StoredStripes;
 
-use super::change::{Influence, RecordInfluence};
+use super::change::{CHANGES, Influence, RecordInfluence};
 use crate::error::QuestionsError;
 
 /// The groups that a new look replaces.
@@ -85,8 +85,6 @@ fn ranking_table(
         .with("poe", |(_, [_, poe], _)| stored.poes[poe])
         .with("years", |_| stored.years)
         .with("record", |(.., entry)| stored.units.name(entry.record))
-        .with("mean_change_pct", |(.., entry)| 100.0 * entry.mean_change)
-        .with("largest_change_pct", |(.., entry)| 100.0 * entry.largest_change)
-        .with("at_strength", |(.., entry)| entry.strength)
+        .each(CHANGES, |columns, (name, _, value)| columns.with(name, |(.., entry)| value(entry)))
         .build()
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
+use uplift_job::Array;
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_result::DesignRow;
@@ -63,67 +64,41 @@ fn spectra_table(outcome: &DisplacementOutcome<'_>) -> Vec<Column> {
     };
     let lines = lines(&study.structures);
     let (abscissa, percentiles) = (study.structures.abscissa(), &study.percentiles);
-    let (mut record_set, mut scaling, mut scaled_by) = (Vec::new(), Vec::new(), Vec::new());
-    let mut of_line: Vec<Vec<f64>> = vec![Vec::new(); line_names.len()];
-    let (mut at, mut overturned) = (Vec::new(), Vec::new());
-    let mut u_m: Vec<Vec<f64>> = vec![Vec::new(); percentiles.len()];
+    let (to, by) = (&study.scaling.to, &study.scaling.by);
+    let is_scaled = |place: usize| to[place] != ScaledTo::Unscaled;
+    // motions that are not scaled stand there once
+    let places = Array::from_fn([outcome.sets.len(), to.len(), by.len(), lines.len(), abscissa.len()], |at| at);
+    let rows = places.values().iter().copied().filter(|[_, to, by, ..]| is_scaled(*to) || *by == 0);
+    let line_of = |[_, to, whose, line, _]: [usize; 5]| (to * by.len() + whose) * lines.len() + line;
+    let ordinates_of = |row, percentile| line_of(row) * percentiles.len() + percentile;
     // what rounding makes of those that a run prints; nothing is known of the others
     let repeated = printed(abscissa);
-    let mut rounding: Vec<[Vec<Option<f64>>; 2]> = vec![[Vec::new(), Vec::new()]; percentiles.len()];
-    for ((set, spectra), moved) in outcome.sets.iter().zip(outcome.spectra).zip(outcome.rounding) {
-        for (to, target) in study.scaling.to.iter().enumerate() {
-            for (by, whose) in study.scaling.by.iter().enumerate() {
-                // motions that are not scaled stand there once
-                let unscaled = *target == ScaledTo::Unscaled;
-                if unscaled && by > 0 {
-                    continue;
-                }
-                for (line, numbers) in lines.iter().enumerate() {
-                    let row = (to * study.scaling.by.len() + by) * lines.len() + line;
-                    for (position, &x) in abscissa.iter().enumerate() {
-                        record_set.push(set.name());
-                        scaling.push(target.to_string());
-                        scaled_by.push((!unscaled).then(|| whose.key()));
-                        for (column, number) in of_line.iter_mut().zip(numbers) {
-                            column.push(*number);
-                        }
-                        at.push(x);
-                        for (percentile, column) in u_m.iter_mut().enumerate() {
-                            let place = (row * percentiles.len() + percentile) * abscissa.len() + position;
-                            column.push(spectra.percentile_m[place]);
-                            let ordinate = repeated
-                                .iter()
-                                .position(|&at| at == position)
-                                .map(|at| moved[(row * percentiles.len() + percentile) * repeated.len() + at]);
-                            let [lowest, highest] = &mut rounding[percentile];
-                            lowest.push(ordinate.map(|noisy| noisy.lowest));
-                            highest.push(ordinate.map(|noisy| noisy.highest));
-                        }
-                        overturned.push(spectra.overturned[row * abscissa.len() + position]);
-                    }
-                }
-            }
-        }
-    }
-    let mut columns = vec![
-        Column::new("record_set".into(), record_set),
-        Column::new("scaling".into(), scaling),
-        Column::new("scaled_by".into(), scaled_by),
-    ];
-    columns.extend(line_names.iter().zip(of_line).map(|(name, values)| Column::new((*name).into(), values)));
-    columns.push(Column::new(abscissa_name.into(), at));
-    columns.extend(
-        percentiles.iter().zip(u_m).map(|(percent, values)| Column::new(percentile_name(*percent).into(), values)),
-    );
-    columns.push(Column::new("overturned".into(), overturned));
-    for (percent, ends) in percentiles.iter().zip(rounding) {
-        let name = percentile_name(*percent);
-        let name = name.trim_end_matches("_m");
-        for (end, values) in ["lowest", "highest"].into_iter().zip(ends) {
-            columns.push(Column::new(format!("{name}_rounding_{end}_m").into(), values));
-        }
-    }
-    columns
+    let noisy = |row @ [set, .., position]: [usize; 5], percentile| {
+        let at = repeated.iter().position(|&at| at == position)?;
+        Some(outcome.rounding[set][ordinates_of(row, percentile) * repeated.len() + at])
+    };
+    ColumnsOf::new(rows)
+        .with("record_set", |[set, ..]| outcome.sets[set].name())
+        .with("scaling", |[_, place, ..]| to[place].to_string())
+        .with("scaled_by", |[_, place, whose, ..]| is_scaled(place).then(|| by[whose].key()))
+        .each(line_names.iter().enumerate(), |columns, (of, name)| columns.with(*name, |[.., line, _]| lines[line][of]))
+        .with(abscissa_name, |[.., position]| abscissa[position])
+        .each(percentiles.iter().enumerate(), |columns, (percentile, percent)| {
+            columns.with(percentile_name(*percent), |row @ [set, .., position]| {
+                outcome.spectra[set].percentile_m[ordinates_of(row, percentile) * abscissa.len() + position]
+            })
+        })
+        .with("overturned", |row @ [set, .., position]| {
+            outcome.spectra[set].overturned[line_of(row) * abscissa.len() + position]
+        })
+        .each(percentiles.iter().enumerate(), |columns, (percentile, percent)| {
+            let name = percentile_name(*percent);
+            let name = name.trim_end_matches("_m");
+            columns
+                .with(format!("{name}_rounding_lowest_m"), |row| noisy(row, percentile).map(|of| of.lowest))
+                .with(format!("{name}_rounding_highest_m"), |row| noisy(row, percentile).map(|of| of.highest))
+        })
+        .build()
 }
 
 fn design_table(rows: &[DesignRow]) -> Vec<Column> {

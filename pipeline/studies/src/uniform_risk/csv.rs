@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_job::outputs::{Output, OutputKind, beside};
-use uplift_job::table::write_table;
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_result::declared::{Field, Place, Quantity};
 use uplift_result::{Fits, ResultFile, StoredSpectra, flag_word, regression, urs};
 use uplift_study::UniformRiskStudy;
@@ -91,19 +91,12 @@ fn regression_table(spectra: &StoredSpectra) -> Vec<Column> {
 
 /// The columns that say what a spectrum is of, each `times` over.
 fn of_columns(spectra: &StoredSpectra, times: usize) -> Vec<Column> {
-    let (mut site, mut im, mut poe) = (Vec::new(), Vec::new(), Vec::new());
-    for row in spectra.rows() {
-        site.extend(repeat_n(row.site, times));
-        im.extend(repeat_n(row.measure.label(), times));
-        poe.extend(repeat_n(row.poe, times));
-    }
-    let years = vec![spectra.years; site.len()];
-    vec![
-        Column::new("site".into(), site),
-        Column::new("im".into(), im),
-        Column::new("poe".into(), poe),
-        Column::new("years".into(), years),
-    ]
+    ColumnsOf::new(spectra.rows().flat_map(|row| repeat_n(row, times)))
+        .with("site", |row| row.site)
+        .with("im", |row| row.measure.label())
+        .with("poe", |row| row.poe)
+        .with("years", |_| spectra.years)
+        .build()
 }
 
 /// A stored array as a column of a table; cells are empty where `is_there` says so.
@@ -113,7 +106,7 @@ fn column<'a, T: 'a>(
     is_there: impl Fn(&T, usize) -> bool,
 ) -> Column {
     fn cells<'a, T: 'a, V: 'a, C>(
-        place: Place<T, V>,
+        place: &Place<T, V>,
         places: impl Iterator<Item = (&'a T, usize)>,
         is_there: impl Fn(&T, usize) -> bool,
         cell: impl Fn(&'a V) -> C,
@@ -121,7 +114,7 @@ fn column<'a, T: 'a>(
         places.map(|(of, at)| is_there(of, at).then(|| cell((place.get)(of, at)))).collect()
     }
     let name = quantity.name.into();
-    match quantity.field {
+    match &quantity.field {
         // zero has no sign in a table
         Field::F64(place) => Column::new(name, cells(place, places, is_there, |value| value + 0.0)),
         Field::Made(number) => {

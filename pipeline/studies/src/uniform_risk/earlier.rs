@@ -26,20 +26,11 @@ impl EarlierStripes {
     }
 
     /// Puts into `cells` what the file knows of the stripes that `study` asks for with `measure`: cells of the same
-    /// motion, intensity, oscillator, strength and level, by the same version of the solver. A file that is damaged, or
-    /// of another layout, knows nothing.
+    /// motion, intensity, oscillator, strength and level, by the same version of the solver.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another layout: it knows nothing.
     pub fn fill(
-        &self,
-        study: &UniformRiskStudy,
-        measure: &MeasurePlan,
-        set: &RecordSet,
-        motions: &[String],
-        cells: &mut Cells,
-    ) {
-        let _ = self.try_fill(study, measure, set, motions, cells);
-    }
-
-    fn try_fill(
         &self,
         study: &UniformRiskStudy,
         measure: &MeasurePlan,

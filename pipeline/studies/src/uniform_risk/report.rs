@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use uplift_job::study_run::RunHead;
-use uplift_result::{ResultFile, Spectrum, SpreadOver, StoredSpread};
+use uplift_result::{Fit, ResultFile, Spectrum, SpreadOver, StoredSpread};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::{Answer, ConsistencyReport};
 use uplift_uniform_risk::{
@@ -54,17 +54,19 @@ pub struct MeasureReport {
     pub analyses_per_second: u64,
 }
 
-/// One fit; the numbers are none where there is none.
+/// The fit of one spectrum.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs, reason = "the symbols of Eq. 4.11")]
 pub struct CoefficientsReport {
+    /// The site.
     pub site: String,
+    /// `PGV` or `PGA`.
     pub im: &'static str,
+    /// The probability of exceedance.
     pub poe: f64,
-    pub c0: Option<f64>,
-    pub c1: Option<f64>,
-    pub c2: Option<f64>,
-    pub rmse: Option<f64>,
+    /// Its coefficients.
+    #[serde(flatten)]
+    pub fit: Fit,
+    /// Whether c2 is held at 0; none where there is no fit.
     pub bound_active: Option<bool>,
 }
 
@@ -151,15 +153,11 @@ fn recomputed(file: &ResultFile, study: &UniformRiskStudy) -> Result<(Answer, Ve
 impl CoefficientsReport {
     fn new(spectrum: &Spectrum<'_>) -> Self {
         let fit = spectrum.fit;
-        let number = |of: f64| fit.curve().map(|_| of);
         Self {
             site: spectrum.site.to_owned(),
             im: spectrum.measure.label(),
             poe: spectrum.poe,
-            c0: number(fit.c0_m),
-            c1: number(fit.c1),
-            c2: number(fit.c2_m),
-            rmse: number(fit.rmse_m),
+            fit,
             bound_active: fit.curve().map(|_| fit.bound_active),
         }
     }

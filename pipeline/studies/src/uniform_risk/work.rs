@@ -47,7 +47,7 @@ impl Inputs {
                 let mut cells = Cells::unknown(&plan);
                 for earlier in &earlier {
                     if cells.count() < plan.analyses() {
-                        earlier.fill(study, measure, &self.records, &self.motions, &mut cells);
+                        let _ = earlier.fill(study, measure, &self.records, &self.motions, &mut cells);
                     }
                 }
                 cells

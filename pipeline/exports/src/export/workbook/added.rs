@@ -1,6 +1,8 @@
 //! The sheets of what `uplift influence` and `uplift measures` added to a result.
 
 use rust_xlsxwriter::XlsxError;
+use uplift_questions::efficiency::{FIGURES, TRENDS};
+use uplift_questions::influence::CHANGES;
 
 use super::sheet::{Sheet, Shown};
 use super::spectra::{head_of, over_strengths};
@@ -11,16 +13,19 @@ use crate::export::added::SHARES;
 impl Export {
     /// The records of every spectrum, the most influential first: how it changes without them.
     pub(super) fn influence_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
-        of_headings(sheet, &["record left out", "mean change, %", "largest change, %", "at strength, -"])?;
+        let headings = CHANGES.iter().map(|(_, heading, _)| *heading);
+        of_headings(sheet, &std::iter::once("record left out").chain(headings).collect::<Vec<_>>())?;
+        // a record without which the structure overturns has no largest change
+        let shown = [(Shown::OneDecimal, ""), (Shown::OneDecimal, "overturns"), (Shown::FourDecimals, "")];
         let mut line = 1;
         for row in self.rows() {
             let Some(influence) = self.influence_on(&row) else { continue };
             for found in &influence.ranking[row.at] {
                 self.line_of(sheet, line, &row)?;
                 sheet.text((line, OF), &self.added.records[found.record])?;
-                sheet.number((line, OF + 1), 100.0 * found.mean_change, Shown::OneDecimal, "")?;
-                sheet.number((line, OF + 2), 100.0 * found.largest_change, Shown::OneDecimal, "overturns")?;
-                sheet.number((line, OF + 3), found.strength, Shown::FourDecimals, "")?;
+                for (place, ((.., value), (shown, infinite))) in CHANGES.iter().zip(shown).enumerate() {
+                    sheet.number((line, OF + 1 + place), value(found), shown, infinite)?;
+                }
                 line += 1;
             }
         }
@@ -53,17 +58,11 @@ impl Export {
         over_strengths(sheet, (2, 0), &self.spectra.strengths)?;
         let mut column = 1;
         for of in &self.added.efficiency {
-            let mut columns = vec![
-                ("dispersion of the level".to_owned(), &of.reaching),
-                ("dispersion, rocking".to_owned(), &of.rocking),
-                ("share undefined".to_owned(), &of.undefined),
-                ("dispersion, first uplift".to_owned(), &of.initiation),
-            ];
-            for trend in &of.trends {
-                columns.push((format!("slope over {}", trend.covariate), &trend.slope));
-                columns.push((format!("p value of {}", trend.covariate), &trend.p_value));
-            }
-            for (name, values) in columns {
+            let figures = FIGURES.iter().map(|(_, heading, values)| ((*heading).to_owned(), values(of)));
+            let trends = of.trends.iter().flat_map(|trend| {
+                TRENDS.map(|(_, heading, values)| (format!("{heading} {}", trend.covariate), values(trend)))
+            });
+            for (name, values) in figures.chain(trends) {
                 sheet.heading((0, column), of.measure.label(), false)?;
                 sheet.heading((1, column), &name, true)?;
                 over_strengths(sheet, (2, column), values)?;

@@ -1,7 +1,7 @@
 //! The sheets of spectra and of bands: strengths down, spectra across.
 
 use rust_xlsxwriter::XlsxError;
-use uplift_result::flag_word;
+use uplift_result::{BandKind, flag_word};
 
 use super::sheet::{Sheet, Shown};
 use crate::export::Export;
@@ -57,7 +57,7 @@ impl Export {
     /// The bands of all sizes.
     pub(super) fn bands_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
         // plain bands alone need no line that says so
-        let has_others = self.has_repaired_bands() || self.has_joint_bands()[0];
+        let has_others = BandKind::ALL[1..].iter().any(|&kind| self.has_bands(kind));
         let weights = has_others.then_some("weights");
         let headings: Vec<&str> = weights.into_iter().chain(["records in a sample", "limit"]).collect();
         let below = self.heads(sheet, &headings)?;
@@ -66,12 +66,12 @@ impl Export {
         let beyond = ["truth, lower", "truth, upper", "another set, lower", "another set, upper"];
         let mut column = 1;
         for row in self.rows() {
-            for (weights, band) in self.all_bands_of(&row) {
+            for (kind, band) in self.all_bands_of(&row) {
                 let inferred = beyond.iter().zip(band.inferred_m.into_iter().flatten());
                 for (name, values) in names.iter().zip(band.limits_m).chain(inferred) {
                     head_of(sheet, column, &row)?;
                     if has_others {
-                        sheet.heading((below - 4, column), weights, false)?;
+                        sheet.heading((below - 4, column), kind.weights, false)?;
                     }
                     sheet.number((below - 3, column), f64::from(band.records), Shown::WholeHeading, "")?;
                     sheet.heading((below - 2, column), name, false)?;

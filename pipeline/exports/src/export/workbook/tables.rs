@@ -1,7 +1,7 @@
 //! The sheets with a line each spectrum, and that of the hazard curves.
 
 use rust_xlsxwriter::XlsxError;
-use uplift_result::Fit;
+use uplift_result::{BAND_FIGURES, Fit};
 
 use super::sheet::{Sheet, Shown};
 use crate::export::Export;
@@ -37,16 +37,18 @@ impl Export {
 
     /// How wide the bands are (Table 4.1).
     pub(super) fn band_figures(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
-        let headings = ["records in a sample", "error of the median, %", "range of the interval, %", "weights"];
+        let [(_, error), (_, range)] = BAND_FIGURES;
+        let headings = ["records in a sample", error, range, "weights"];
         of_headings(sheet, &headings)?;
         let mut line = 1;
         for row in self.rows() {
-            for (weights, band) in self.all_bands_of(&row) {
+            for (kind, band) in self.all_bands_of(&row) {
                 self.line_of(sheet, line, &row)?;
                 sheet.number((line, OF), f64::from(band.records), Shown::Whole, "")?;
-                sheet.number((line, OF + 1), band.error_of_median_pct, Shown::OneDecimal, "")?;
-                sheet.number((line, OF + 2), band.range_of_interval_pct, Shown::OneDecimal, "")?;
-                sheet.text((line, OF + 3), weights)?;
+                for (place, figure) in band.figures.into_iter().enumerate() {
+                    sheet.number((line, OF + 1 + place), figure, Shown::OneDecimal, "")?;
+                }
+                sheet.text((line, OF + 3), kind.weights)?;
                 line += 1;
             }
         }
