@@ -227,8 +227,8 @@ mod tests {
             lasting_s in prop_oneof![Just(None), (1.0_f64..9.0).prop_map(Some)],
             scales in prop::collection::vec(0.1_f64..4.0, 1..20),
         ) {
-            let (shape, model) =
-                if wobbles { (ColumnShape::Cylinder, Model::Wobbling) } else { (ColumnShape::Rectangle, Model::Planar) };
+            let model = if wobbles { Model::Wobbling } else { Model::Planar };
+            let shape = if wobbles { ColumnShape::Cylinder } else { ColumnShape::Rectangle };
             let frame = frame(shape, restrainer);
             let until = lasting_s.map_or(Until::FirstFreePeak, Until::Time);
             let options = Options { until, restitution, ..Options::default() };
