@@ -274,7 +274,10 @@ fn limits_of_size() {
         assert!(shown.contains(words), "{words}: {shown}");
     }
     let shown = study.uplift(&[&tiny[..], &["--details"]].concat()).ok().stdout;
-    assert!(shown.contains("a force that falls after uplift can make them twice as wide as the spectrum's"), "{shown}");
+    assert!(
+        shown.contains("A force that falls after uplift can make these bands twice as wide as the spectrum's."),
+        "{shown}"
+    );
     for words in ["overturns more often than the target", "(Eq. 3.14)"] {
         assert!(shown.contains(words), "{words}: {shown}");
     }

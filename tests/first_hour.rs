@@ -69,7 +69,7 @@ fn the_curve_of_the_readme_says_what_it_is() {
     study.write("unsaid.csv", "iml,maf\n1,0.4\n10,0.01\n");
     study
         .uplift(&["hazard", "show", "unsaid.csv"])
-        .fails(4, &["unsaid.csv", "pgv_cm_s", "or give the measure (--measure)"]);
+        .fails(4, &["unsaid.csv", "pgv_cm_s", "or give the measure (--measure"]);
 }
 
 #[test]

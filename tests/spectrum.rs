@@ -139,7 +139,9 @@ fn a_folder_is_its_only_result() {
     let study = study();
     let own = ask(&study, &["-q"]).ok().stdout;
     std::fs::create_dir(study.path().join("results")).unwrap();
-    study.uplift(&["spectrum", "results"]).fails(2, &["a folder without a result", "uplift run results/study.toml"]);
+    study
+        .uplift(&["spectrum", "results"])
+        .fails(2, &["results is a folder without a result: give a result, or a study to run"]);
     assert_eq!(study.uplift(&["spectrum", ".", "-q"]).ok().stdout, own);
     std::fs::copy(study.path().join("r.h5"), study.path().join("results/b.h5")).unwrap();
     assert_eq!(study.uplift(&["spectrum", "results", "-q"]).ok().stdout, own);

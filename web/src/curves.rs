@@ -101,8 +101,11 @@ impl Found {
         if let Some(choice) = choice {
             return table(choice).map(Self::Curves).map_err(refused);
         }
-        let declared = Declared::completed(text, name, None, None).ok();
-        let known = declared.as_ref().map(|known| (&known.measure[..], &known.unit[..]));
+        let declared = Declared::in_table(text);
+        let known = match &declared {
+            (Some(measure), Some(unit)) => Some((&measure[..], &unit[..])),
+            _ => None,
+        };
         let quantities = known.map_or_else(|| QUANTITIES.to_vec(), |known| vec![known]);
         let plain = Choice::new(quantities[0], None);
         let refusal = match table(&plain) {

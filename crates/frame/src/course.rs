@@ -35,7 +35,7 @@ pub(crate) struct Course<'a, O> {
 pub(crate) enum Next {
     /// With a step.
     Step(Asked),
-    /// No more; what ended it, if not time.
+    /// The motion is over: the event that ended it, or none where time ran out.
     End(Option<Ending>),
 }
 

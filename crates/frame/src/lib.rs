@@ -52,7 +52,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-// what is not inlined is not compiled for the instructions of what it is called by
+// a function that is not inlined is not compiled for its caller's instructions
 #![allow(clippy::inline_always)]
 
 mod branch;

@@ -164,7 +164,7 @@ pub fn respond(
     model: Model,
     options: &Options,
 ) -> Result<FrameResponse, FrameError> {
-    run(frame, ground, model, options, Unobserved::<true>, Instructions::chosen()).map(|(response, _)| response)
+    run(frame, ground, model, options, Unobserved::<true>).map(|(response, _)| response)
 }
 
 /// What a fragility needs of a response.
@@ -194,7 +194,7 @@ pub fn respond_with_history(
     model: Model,
     options: &Options,
 ) -> Result<(FrameResponse, History), FrameError> {
-    run(frame, ground, model, options, History::default(), Instructions::chosen())
+    run(frame, ground, model, options, History::default())
 }
 
 fn run<O: Observer>(
@@ -203,10 +203,9 @@ fn run<O: Observer>(
     model: Model,
     options: &Options,
     observer: O,
-    instructions: Instructions,
 ) -> Result<(FrameResponse, O), FrameError> {
     let mut course = course(frame, ground, model, options, observer)?;
-    let ending = course.run(&mut Expansion::new(instructions))?;
+    let ending = course.run(&mut Expansion::new(Instructions::chosen()))?;
     Ok(report(frame, course.motion, ending))
 }
 

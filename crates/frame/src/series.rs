@@ -110,6 +110,8 @@ pub(crate) struct Step {
     turning: Coefficients,
     sin_direction: Coefficients,
     cos_direction: Coefficients,
+    /// Whether the lean turned: in a plane momentum and turning are zero.
+    wobbled: bool,
 }
 
 /// What a step is expanded in, kept from step to step: to clear and to move it would cost as much as to fill it.
@@ -170,8 +172,12 @@ impl Expansion {
         if let Some(turning) = turning {
             (step.direction[0], step.momentum[0]) = (turning.direction, turning.momentum);
             (step.sin_direction[0], step.cos_direction[0]) = turning.direction.sin_cos();
+            step.wobbled = true;
             instructions.run(Expanding::<true> { expansion: self, constants, shaken, multiples, balanced });
         } else {
+            if std::mem::take(&mut step.wobbled) {
+                (step.momentum, step.turning) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+            }
             instructions.run(Expanding::<false> { expansion: self, constants, shaken, multiples, balanced });
         }
     }
@@ -305,6 +311,7 @@ impl Step {
         turning: [0.0; DEGREE + 1],
         sin_direction: [0.0; DEGREE + 1],
         cos_direction: [0.0; DEGREE + 1],
+        wobbled: false,
     };
 
     /// The largest of the last two terms of velocity, momentum and turning.

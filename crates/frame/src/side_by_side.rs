@@ -54,6 +54,12 @@ struct Following<'a, const WOBBLES: bool> {
     options: &'a Options,
 }
 
+#[cfg(test)]
+thread_local! {
+    /// Steps that were expanded together.
+    static TOGETHER: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
+}
+
 type Demand = Result<FrameDemand, FrameError>;
 
 /// A course under the ground motion of an index.
@@ -143,7 +149,11 @@ impl Going<'_> {
     fn step(&mut self, frame: &RockingFrame, alone: &mut Expansion, expanded: Option<&Step>) {
         let Some((asked, _)) = self.waits.take() else { return };
         let taken = match expanded {
-            Some(step) => self.course.take(step, asked.step_s),
+            Some(step) => {
+                #[cfg(test)]
+                TOGETHER.set(TOGETHER.get() + 1);
+                self.course.take(step, asked.step_s)
+            }
             None => self.course.step_alone(alone, asked),
         };
         self.see(frame, taken);
@@ -212,6 +222,17 @@ mod tests {
         demand.as_ref().map(|demand| (demand.displacement_m.to_bits(), demand.impacts)).map_err(ToString::to_string)
     }
 
+    #[test]
+    fn steps_of_a_free_frame_are_expanded_together() {
+        for (shape, model) in [(ColumnShape::Rectangle, Model::Planar), (ColumnShape::Cylinder, Model::Wobbling)] {
+            let (x, y) = (record(300, 0.01, 1, 2.0), record(300, 0.01, 2, 2.0));
+            let before = TOGETHER.get();
+            let found = demands(&frame(shape, 0), &[GroundMotion::pair(&x, &y); 5], model, &Options::default());
+            assert!(found.iter().all(|demand| demand.as_ref().unwrap().displacement_m > 0.0), "{found:?}");
+            assert!(TOGETHER.get() - before > 500, "{model:?}: {}", TOGETHER.get() - before);
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(60))]
 
@@ -225,7 +246,7 @@ mod tests {
             shaken in (any::<bool>(), any::<bool>()),
             restitution in prop_oneof![Just(None), (0.3_f64..=1.0).prop_map(Some)],
             lasting_s in prop_oneof![Just(None), (1.0_f64..9.0).prop_map(Some)],
-            scales in prop::collection::vec(0.1_f64..4.0, 1..20),
+            scales in prop::collection::vec(0.1_f64..4.0, 1..40),
         ) {
             let model = if wobbles { Model::Wobbling } else { Model::Planar };
             let shape = if wobbles { ColumnShape::Cylinder } else { ColumnShape::Rectangle };
@@ -236,15 +257,20 @@ mod tests {
             let across = if seed % 4 == 0 { samples.1 } else { samples.0 };
             let records: Vec<[Accelerogram; 3]> = scales
                 .iter()
-                .map(|scale| {
-                    [(samples.0, seed, *scale), (across, seed + 1, *scale), (across, seed + 2, 0.2 * scale)]
+                .enumerate()
+                .map(|(at, scale)| {
+                    // some end earlier than others
+                    let [along, across] = [samples.0, across].map(|samples| if at % 5 == 4 { 12 } else { samples });
+                    [(along, seed, *scale), (across, seed + 1, *scale), (across, seed + 2, 0.2 * scale)]
                         .map(|(samples, seed, scale)| record(samples, dt_s, seed, scale))
                 })
                 .collect();
             let grounds: Vec<GroundMotion<'_>> = records
                 .iter()
-                .map(|[x, y, z]| GroundMotion {
-                    y: shaken.0.then_some(crate::Shaking::Record(y)),
+                .enumerate()
+                .map(|(at, [x, y, z])| GroundMotion {
+                    // of some sets a few keep their plane
+                    y: (shaken.0 && (seed % 3 > 0 || at % 3 > 0)).then_some(crate::Shaking::Record(y)),
                     z: shaken.1.then_some(crate::Shaking::Record(z)),
                     ..GroundMotion::along_x(x)
                 })

@@ -39,13 +39,16 @@ impl Declared {
         let measure = measure.map(str::to_owned).or(said_measure).ok_or_else(|| {
             let reason = "the table does not say its measure: name its columns, for example pgv_cm_s,maf or \
                           pga_g,return_period, add a first line such as \"# IM: PGV [cm/s]\", or give the measure \
-                          (--measure)";
+                          (--measure; in Python measure=)";
             fail(reason.to_owned())
         })?;
         let of_field = || Some(Dimension::from_measure(&measure)?.field_unit().symbol().to_owned());
         let unit = unit.map(str::to_owned).or(said_unit).or_else(of_field);
         let unit = unit.ok_or_else(|| {
-            fail(format!("unknown intensity measure {}: give the unit of its levels (--unit)", excerpt(&measure)))
+            fail(format!(
+                "unknown intensity measure {}: give the unit of its levels (--unit; in Python unit=)",
+                excerpt(&measure)
+            ))
         })?;
         Ok(Self { measure, unit })
     }

@@ -18,7 +18,7 @@ use crate::watch::Watch;
 
 /// Carry out `plan` on the threads of the current rayon pool.
 ///
-/// Memory: 13 bytes an analysis, and a row's worth of scratch a thread.
+/// Memory: 13 bytes an analysis, and a row's worth of scratch a thread; of frames up to 32 scaled copies of a motion.
 ///
 /// # Errors
 /// [`IdaError::Cancelled`] if `watch` says so; [`IdaError::Block`] and [`IdaError::Motion`] for what is not computed,
@@ -35,8 +35,8 @@ pub fn analyse(plan: &Plan<'_>, watch: &dyn Watch) -> Result<Peaks, IdaError> {
 /// undisturbed [`analyse`], to the bit. A row of which everything is known is not handed over again.
 ///
 /// Rows are shared out among the threads; the scale factors of a system that is not [swept](System::is_swept) as well,
-/// so that a few long rows keep all threads busy too. `watch` is asked before every row, and before every 32 runs of a
-/// system that is not swept.
+/// so that a few long rows keep all threads busy too. `watch` is asked before every row, and before every 8 to 32 runs
+/// of a system that is not swept.
 ///
 /// # Errors
 /// As [`analyse`]; what `keep` was given is finished all the same.
@@ -49,6 +49,7 @@ pub fn complete(
 ) -> Result<Cells, IdaError> {
     let axes = plan.axes();
     let ground_motions = ground_motions(plan, &cells, shard)?;
+    let together = scales_together(axes.rows() * axes.scales);
     let displacement_m = cells.peaks.displacement_m.par_chunks_mut(axes.scales);
     let impacts = cells.peaks.impacts.par_chunks_mut(axes.scales);
     displacement_m.zip(impacts).zip(cells.known.par_chunks_mut(axes.scales)).enumerate().try_for_each(
@@ -74,17 +75,17 @@ pub fn complete(
                     let from = |ground| swept(oscillator, ground, plan.with_free_peak(), &scales);
                     of_azimuths.iter().map(from).collect()
                 }
-                (one_by_one, _) => {
+                (other, _) => {
                     let run = |ground: &Ground<'_>, scales: &[f64]| {
                         if watch.cancelled() {
                             return Err(IdaError::Cancelled);
                         }
-                        let peaks = several(one_by_one, ground, scales, plan.with_free_peak())?;
+                        let peaks = several(other, ground, scales, plan.with_free_peak())?;
                         watch.finished(scales.len() as u64);
                         Ok(peaks)
                     };
                     let from = |ground| {
-                        let parts = scales.par_chunks(SCALES_TOGETHER).map(|scales| run(ground, scales));
+                        let parts = scales.par_chunks(together).map(|scales| run(ground, scales));
                         Ok(parts.collect::<Result<Vec<_>, _>>()?.concat())
                     };
                     grounds.par_iter().map(from).collect::<Result<_, _>>()?
@@ -104,7 +105,7 @@ pub fn complete(
             }
             known.fill(true);
             keep(&AnalysisRow { motion, system, displacement_m, impacts });
-            // what is run one by one is reported one by one
+            // what is not swept was reported on the way
             let told = if shaken.is_swept() { 0 } else { missing.len() * grounds.len() };
             watch.finished((plan.histories_of(motion) - told) as u64);
             Ok(())
@@ -114,8 +115,11 @@ pub fn complete(
 }
 
 /// Scale factors at which a thread follows a system that is not swept before it looks for other work, or is told to
-/// stop.
-const SCALES_TOGETHER: usize = 32;
+/// stop: as many as go side by side at least, and not so many that a thread of the pool would wait for others.
+fn scales_together(analyses: usize) -> usize {
+    let share = analyses / (4 * rayon::current_num_threads());
+    share.next_multiple_of(8).clamp(8, 32)
+}
 
 /// The smallest of `peaks`, one an azimuth, that `percentile` per cent of them do not exceed; what overturned is the
 /// largest.

@@ -17,7 +17,7 @@ pub struct Estimate {
     pub rows_timed: usize,
 }
 
-/// Rows timed at least, however small the budget.
+/// Rows timed at least, however small the budget; one of a system that is not swept counts for four.
 const LEAST_ROWS: usize = 16;
 /// Scale factors that stand for all of a row of a system that is not swept: a row of an expensive one would take the
 /// budget many times over.
@@ -30,8 +30,8 @@ pub fn estimate(plan: &Plan<'_>, budget: Duration) -> Estimate {
     let axes = plan.axes();
     let start = Instant::now();
     let mut spent = Duration::ZERO;
-    let mut timed = 0;
-    while timed < axes.rows() && (timed < LEAST_ROWS || start.elapsed() < budget) {
+    let (mut timed, mut seen) = (0, 0);
+    while timed < axes.rows() && (seen < LEAST_ROWS || start.elapsed() < budget) {
         let (motion, system) = axes.of_row(spread(timed, axes.rows()));
         // one azimuth stands for all
         let Some(ground) = plan.grounds_of(motion).next() else { break };
@@ -54,9 +54,11 @@ pub fn estimate(plan: &Plan<'_>, budget: Duration) -> Estimate {
                 }
                 let share = some.len().max(1) as f64 / scales.len().max(1) as f64;
                 spent += begin.elapsed().div_f64(share) * azimuths;
+                seen += 3;
             }
         }
         timed += 1;
+        seen += 1;
     }
     let per_row = spent.as_secs_f64() / timed.max(1) as f64;
     Estimate { seconds_one_thread: per_row * axes.rows() as f64, rows_timed: timed }

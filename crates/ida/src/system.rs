@@ -9,8 +9,8 @@ use uplift_oscillator::{Oscillator, PostUplift};
 /// A system of any kind.
 ///
 /// Another kind is a variant here, with its numbers in [`identity`](Self::identity), its peak at one scale factor
-/// beside the block's in [`analysis`](crate::analysis), and `false` from [`is_swept`](Self::is_swept) where its runs
-/// are followed one by one.
+/// beside the block's in [`analysis`](crate::analysis), and `false` from [`is_swept`](Self::is_swept) where not all are
+/// followed together.
 #[derive(Debug, Clone, PartialEq)]
 pub enum System {
     /// An uplifting oscillator (Eq. 3.1–3.3).
@@ -68,8 +68,8 @@ impl System {
         }
     }
 
-    /// Whether all scale factors of a motion are followed together, at a fraction of their cost one by one. What is not
-    /// swept may be stopped between scale factors, and shares them out among the threads.
+    /// Whether all scale factors of a motion are followed together, at a fraction of their cost one by one. Those of
+    /// what is not swept are shared out among the threads, some at a time.
     pub fn is_swept(&self) -> bool {
         match self {
             Self::Oscillator(_) => true,

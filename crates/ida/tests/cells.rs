@@ -269,8 +269,11 @@ fn systems_of_one_identity_are_the_same() {
 #[test]
 fn the_time_of_any_plan_can_be_estimated() {
     let case = Case::of_both_kinds();
-    let found = estimate(&case.plan(), std::time::Duration::ZERO);
+    let found = estimate(&case.plan(), std::time::Duration::from_secs(600));
     assert!(found.rows_timed == 12 && found.seconds_one_thread > 0.0, "{found:?}");
+    // without a budget a few of the expensive ones will do
+    let found = estimate(&case.plan(), std::time::Duration::ZERO);
+    assert!((4..12).contains(&found.rows_timed) && found.seconds_one_thread > 0.0, "{found:?}");
 }
 
 // Whoever changes these bits raises NUMERICS: results kept by an earlier version are then not mixed with new ones.

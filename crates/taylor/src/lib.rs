@@ -8,7 +8,7 @@
 //!
 //! A step is a power series in `s = time/step` from 0 to 1, of degree [`DEGREE`] at most.
 
-// what is not inlined is not compiled for the instructions of what it is called by
+// a function that is not inlined is not compiled for its caller's instructions
 #![allow(clippy::inline_always)]
 
 pub mod forcing;

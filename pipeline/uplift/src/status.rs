@@ -206,9 +206,7 @@ impl UnfinishedStatus {
             title: head.title.clone(),
             shard: head.shard,
             shards: head.shards,
-            // those of another study may be among them, and those of design examples, which nobody counts before
-            // they are found
-            done: finding.rows.analyses().min(head.analyses),
+            done: finding.analyses(),
             analyses: head.analyses,
             damaged_bytes: finding.damaged_bytes,
         }

@@ -381,9 +381,6 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
 /// How sure demand and risks are, a sentence each.
 fn print_bands(out: &mut impl Write, exact: &ExactDemand, bands: &DemandBands) -> Result<(), CommandError> {
     writeln!(out, "\nWith 90 % confidence, by all records like these {} (docs/method.md, section 9):", bands.records)?;
-    if exact.capacity_less_demand_m.is_some() {
-        writeln!(out, "  a force that falls after uplift can make them twice as wide as the spectrum's")?;
-    }
     let limits = |[lower, upper]: [f64; 2], shown: fn(f64) -> String| format!("{} to {}", shown(lower), shown(upper));
     let of = |what: &str, of: Option<Bands>, shown: fn(f64) -> String, unit: &str| {
         let [own, by_event, with_hazard] = of?.each();
@@ -405,6 +402,9 @@ fn print_bands(out: &mut impl Write, exact: &ExactDemand, bands: &DemandBands) -
     ];
     for line in told.into_iter().flatten() {
         writeln!(out, "{line}")?;
+    }
+    if exact.capacity_less_demand_m.is_some() {
+        writeln!(out, "A force that falls after uplift can make these bands twice as wide as the spectrum's.")?;
     }
     Ok(())
 }

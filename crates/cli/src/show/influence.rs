@@ -56,7 +56,7 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, terminal: &Term
     let rows = shown(of_poe.collect(), |row| (row.im, row.repaired), |row| &row.site, (|_| 0, terminal));
     writeln!(
         out,
-        "Change of the displacement without the record that matters most, per cent, by strength, {}",
+        "Change of the displacement without the record that matters most, per cent, {}",
         risk_in_words(report.poe, report.years)
     )?;
     let mut above = None;
@@ -66,7 +66,9 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, terminal: &Term
         .right("record", |row| &row.record)
         .right("average", |row| format!("{:+.1}", row.mean_change_pct))
         .each(report.records.first(), |table, first| {
-            table.right(format!("at {:.3}", first.strength), |row| format!("{:+.1}", row.change_pct))
+            table.right(format!("at {:.3}", first.strength), |row| {
+                if row.change_pct.is_finite() { format!("{:+.1}", row.change_pct) } else { "none".to_owned() }
+            })
         })
         .right("at most (strength)", |row| format!("{:+.0} ({:.3})", row.largest_change_pct, row.at_strength));
     if table.is_empty() {

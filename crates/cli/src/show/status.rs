@@ -84,7 +84,7 @@ fn print_unfinished(out: &mut impl Write, unfinished: &UnfinishedStatus) -> Resu
     let share = 100.0 * *done as f64 / (*analyses).max(1) as f64;
     writeln!(out, "{}: {what}, {done} of {analyses} analyses ({share:.0} %) {}", file.display(), one_line(title))?;
     if *damaged_bytes > 0 {
-        writeln!(out, "  those that were cut off or damaged ({damaged_bytes} bytes) will be computed again")?;
+        writeln!(out, "  analyses that were cut off or damaged ({damaged_bytes} bytes) will be computed again")?;
     }
     Ok(())
 }

@@ -1,12 +1,12 @@
 //! The series of several motions, side by side in vectors.
 
-use uplift_taylor::{Forcing, LEAST_ORDER};
+use uplift_taylor::{Forcing, LEAST_ORDER, ORDER};
 
 mod lanes;
 mod turn;
 
 pub(crate) use lanes::LANES;
-use lanes::{Convergence, Lanes, MOST, Series, ZERO, lanes, line, products};
+use lanes::{Convergence, Lanes, Series, ZERO, lanes, line, products};
 use turn::Turn;
 
 use super::{Constants, Shaken, Step, Turning};
@@ -125,14 +125,14 @@ pub(crate) struct SeriesOfAll<const WOBBLES: bool> {
 
 impl<const WOBBLES: bool> SeriesOfAll<WOBBLES> {
     pub(crate) const NONE: Self = Self {
-        x: [ZERO; MOST + 1],
-        v: [ZERO; MOST + 1],
-        sine: [ZERO; MOST + 1],
-        versine: [ZERO; MOST + 1],
-        half_sine: [ZERO; MOST + 1],
-        half_cosine: [ZERO; MOST + 1],
-        sin_psi: [ZERO; MOST + 1],
-        cos_psi: [ZERO; MOST + 1],
+        x: [ZERO; ORDER + 1],
+        v: [ZERO; ORDER + 1],
+        sine: [ZERO; ORDER + 1],
+        versine: [ZERO; ORDER + 1],
+        half_sine: [ZERO; ORDER + 1],
+        half_cosine: [ZERO; ORDER + 1],
+        sin_psi: [ZERO; ORDER + 1],
+        cos_psi: [ZERO; ORDER + 1],
         turn: Turn::NONE,
         order: ZERO,
     };
@@ -154,7 +154,7 @@ impl<const WOBBLES: bool> SeriesOfAll<WOBBLES> {
         let bears_half_angle = begins.pull[1].iter().any(|of_half_cosine| *of_half_cosine != 0.0);
         let mut open = begins.waits;
         *order = ZERO;
-        for k in 0..MOST {
+        for k in 0..ORDER {
             let factor: Lanes = lanes(|i| begins.length_s[i] / (k + 1) as f64);
             let [sine_v, versine_v] = products([(&*sine, &*v), (&*versine, &*v)], k);
             let one = f64::from(u8::from(k == 0));
@@ -202,7 +202,8 @@ impl<const WOBBLES: bool> SeriesOfAll<WOBBLES> {
         }
     }
 
-    /// Writes what a motion followed without its accelerations needs of a lane; not of one whose series goes on.
+    /// Writes the series of a lane into `step`, without the terms that only accelerations need; false if it has not
+    /// converged.
     pub(crate) fn write(&self, lane: usize, begins: &Begins, step: &mut Step) -> bool {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a small whole number
         let n = self.order[lane] as usize;

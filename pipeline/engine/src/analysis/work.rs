@@ -64,7 +64,9 @@ impl<'a> Work<'a> {
             hash.update(key.0);
         }
         let place = [shard.index + 1, shard.count];
-        RowFileHead::new(hexadecimal(&hash.finalize()), &self.title, place, self.analyses_of(shard))
+        let a_peak = self.plans.iter().map(|labelled| labelled.plan.histories_per_peak()).max().unwrap_or(1);
+        let analyses = [self.analyses_of(shard), a_peak as u64];
+        RowFileHead::new(hexadecimal(&hash.finalize()), &self.title, place, analyses)
     }
 
     /// Analyses of one shard.

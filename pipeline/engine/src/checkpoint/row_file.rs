@@ -43,15 +43,18 @@ pub struct RowFileHead {
     pub shard: u64,
     /// Of how many.
     pub shards: u64,
-    /// Analyses of this shard.
+    /// Analyses of this shard, and how many of them make a peak.
     #[serde(default)]
     pub analyses: u64,
+    #[serde(default)]
+    analyses_a_peak: u64,
 }
 
 impl RowFileHead {
     /// The head of the file of one shard of a work.
-    pub fn new(work: String, title: &str, [shard, shards]: [u64; 2], analyses: u64) -> Self {
-        Self { format: FORMAT.to_owned(), work, title: title.to_owned(), shard, shards, analyses }
+    pub fn new(work: String, title: &str, [shard, shards]: [u64; 2], [analyses, a_peak]: [u64; 2]) -> Self {
+        let (format, title) = (FORMAT.to_owned(), title.to_owned());
+        Self { format, work, title, shard, shards, analyses, analyses_a_peak: a_peak }
     }
 }
 
@@ -86,9 +89,10 @@ impl FinishedRows {
         self.rows.len()
     }
 
-    /// Number of analyses in them.
-    pub fn analyses(&self) -> u64 {
-        self.rows.values().map(|(displacement_m, _)| displacement_m.len() as u64).sum()
+    /// Number of peaks in them.
+    fn peaks(&self) -> u64 {
+        let of_row = |(displacement_m, _): &Row| displacement_m.iter().filter(|peak_m| !peak_m.is_nan()).count() as u64;
+        self.rows.values().map(of_row).sum()
     }
 
     /// Whether there is none.
@@ -111,6 +115,14 @@ pub struct Finding {
     pub rows: FinishedRows,
     /// Bytes of blocks that were cut off or damaged.
     pub damaged_bytes: u64,
+}
+
+impl Finding {
+    /// Number of analyses that are finished. Rows of another study may be among those found, and rows of design
+    /// examples, which nobody counts before they are found.
+    pub fn analyses(&self) -> u64 {
+        (self.rows.peaks() * self.head.analyses_a_peak).min(self.head.analyses)
+    }
 }
 
 /// A file to which finished rows are appended.

@@ -153,10 +153,12 @@ fn bands_table(file: &BandsFile<'_>) -> Vec<Column> {
     let names = limit_names(file.settings.confidence);
     for (kind, of) in kinds(file) {
         let Some(first) = of.iter().flatten().next() else { continue };
-        for (place, (name, limits)) in first.limits(&names).enumerate() {
+        for (name, limits) in first.limits(&names) {
             // a site without weighted hazard curves has empty cells
             let cell = |u_m: &f64| if kind.is_joint { known(*u_m) } else { Some(*u_m) };
-            let of_measure = |of: &Option<BandsOfKind<'_>>| match of.and_then(|of| of.limits(&names).nth(place)) {
+            let of_measure = |of: &Option<BandsOfKind<'_>>| match of
+                .and_then(|of| of.limits(&names).find(|(own, _)| *own == name))
+            {
                 Some((_, limits)) => limits.values().iter().map(cell).collect(),
                 None => vec![None; limits.values().len()],
             };

@@ -115,7 +115,9 @@ impl InfluenceReport {
                         record: stored.units.name(entry.record).to_owned(),
                         mean_change_pct: 100.0 * entry.mean_change,
                         strength: stored.strengths[middle],
-                        change_pct: without_m.map_or(f64::NAN, |without_m| 100.0 * (without_m / full_m - 1.0)),
+                        change_pct: without_m
+                            .filter(|without_m| full_m > stored.uplift_displacement_m && without_m.is_finite())
+                            .map_or(f64::NAN, |without_m| 100.0 * (without_m / full_m - 1.0)),
                         largest_change_pct: 100.0 * entry.largest_change,
                         at_strength: entry.strength,
                     });

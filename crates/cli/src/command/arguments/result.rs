@@ -84,7 +84,10 @@ fn only_result(folder: &Path) -> Result<PathBuf, CommandError> {
     let name = folder.display();
     let reason = match &mut results[..] {
         [only] => return Ok(std::mem::take(only)),
-        [] => format!("{name} is a folder without a result: run its study: uplift run {name}/study.toml"),
+        [] if folder.join("study.toml").is_file() => {
+            format!("{name} is a folder without a result: run its study: uplift run {name}/study.toml")
+        }
+        [] => format!("{name} is a folder without a result: give a result, or a study to run"),
         several => {
             let several: Vec<String> = several.iter().map(|file| file.display().to_string()).collect();
             format!("{name} is a folder with several results: give one of {}", several.join(", "))

@@ -1,17 +1,14 @@
 //! Numbers and series of several motions.
 
-use uplift_taylor::TRUNCATION;
+use uplift_taylor::{ORDER, TRUNCATION};
 
 /// Motions side by side.
 pub(crate) const LANES: usize = 8;
 
-/// Highest order of a velocity that is waited for: 6 to 12 suffice for the sample intervals of a record.
-pub(super) const MOST: usize = 24;
-
 pub(super) type Lanes = [f64; LANES];
 
 /// Coefficients of each motion.
-pub(super) type Series = [Lanes; MOST + 1];
+pub(super) type Series = [Lanes; ORDER + 1];
 
 pub(super) const ZERO: Lanes = [0.0; LANES];
 

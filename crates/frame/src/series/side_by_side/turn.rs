@@ -1,7 +1,9 @@
 //! What the turning of the lean adds to the series of several motions, as [`super::super::wobble`] to that of one.
 
+use uplift_taylor::ORDER;
+
 use super::Begins;
-use super::lanes::{Lanes, MOST, Series, ZERO, inner_products, lanes, line, product, products, sign};
+use super::lanes::{Lanes, Series, ZERO, inner_products, lanes, line, product, products, sign};
 use crate::series::Constants;
 
 /// Series of the turning, and of what it needs.
@@ -32,17 +34,17 @@ pub(super) struct Turn {
 
 impl Turn {
     pub(super) const NONE: Self = Self {
-        direction: [ZERO; MOST + 1],
-        momentum: [ZERO; MOST + 1],
-        turning: [ZERO; MOST + 1],
-        sin_direction: [ZERO; MOST + 1],
-        cos_direction: [ZERO; MOST + 1],
-        inertia: [ZERO; MOST + 1],
-        slope: [ZERO; MOST + 1],
-        squared: [ZERO; MOST + 1],
-        travel: [ZERO; MOST + 1],
-        along: [ZERO; MOST + 1],
-        across: [ZERO; MOST + 1],
+        direction: [ZERO; ORDER + 1],
+        momentum: [ZERO; ORDER + 1],
+        turning: [ZERO; ORDER + 1],
+        sin_direction: [ZERO; ORDER + 1],
+        cos_direction: [ZERO; ORDER + 1],
+        inertia: [ZERO; ORDER + 1],
+        slope: [ZERO; ORDER + 1],
+        squared: [ZERO; ORDER + 1],
+        travel: [ZERO; ORDER + 1],
+        along: [ZERO; ORDER + 1],
+        across: [ZERO; ORDER + 1],
         by_inertia: ZERO,
         sense: ZERO,
     };

@@ -4,7 +4,7 @@
 use super::*;
 
 fn head() -> RowFileHead {
-    RowFileHead::new("work".into(), "a title", [1, 1], 3)
+    RowFileHead::new("work".into(), "a title", [1, 1], [3, 1])
 }
 
 fn with_three(path: &Path) -> Vec<u8> {
@@ -93,7 +93,7 @@ fn rows_of_other_work_are_carried_over() {
     let found = RowFile::read(&path).unwrap().unwrap();
     assert_eq!((found.head, found.rows.len()), (other, 3));
     // but no shard is taken for one of other work
-    let shard = RowFileHead::new("third".into(), "", [1, 2], 3);
+    let shard = RowFileHead::new("third".into(), "", [1, 2], [3, 1]);
     assert!(RowFile::open(&path, &shard).unwrap_err().to_string().contains("other work"));
 }
 
@@ -115,6 +115,6 @@ fn a_file_of_the_version_before_is_no_mistake() {
     assert!(found.rows.is_empty() && found.damaged_bytes == 0);
     assert_eq!(RowFile::read(&path).unwrap().unwrap().head, head());
     write(2);
-    let refused = RowFile::open(&path, &RowFileHead::new("ab".into(), "old", [1, 2], 9)).unwrap_err();
+    let refused = RowFile::open(&path, &RowFileHead::new("ab".into(), "old", [1, 2], [9, 1])).unwrap_err();
     assert!(refused.to_string().contains("shard 1 of 2 of other work"), "{refused}");
 }
