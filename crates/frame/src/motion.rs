@@ -84,7 +84,7 @@ pub(crate) struct Asked {
 }
 
 /// A result of a step, or the end of the motion.
-pub(crate) type Flow<T> = Result<ControlFlow<Ending, T>, FrameError>;
+type Flow<T> = Result<ControlFlow<Ending, T>, FrameError>;
 
 /// State of a frame in motion.
 #[derive(Debug)]

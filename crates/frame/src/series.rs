@@ -19,7 +19,7 @@
 //! E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, Section I.8 (recursive Taylor
 //! coefficients).
 
-use uplift_instructions::{Instructions, Work};
+use uplift_instructions::{Instructions, Work, larger};
 use uplift_statics::RestrainedColumns;
 use uplift_taylor::{
     DEGREE, Factors, Forcing, LEAST_ORDER, ORDER, TRUNCATION, first_zero, leading_sign, product, stretch, value,
@@ -287,8 +287,7 @@ impl<const N: usize> Convergence<N> {
         let mut is_converged = true;
         for (i, term) in terms.into_iter().enumerate() {
             let term = term.abs();
-            // not `max`, which would look for what is no number
-            self.largest[i] = if term > self.largest[i] { term } else { self.largest[i] };
+            self.largest[i] = larger(term, self.largest[i]);
             // infinite ones are told by `Step::is_finite`
             let negligible = TRUNCATION * self.largest[i];
             is_converged &= term <= negligible && self.last[i] <= negligible;

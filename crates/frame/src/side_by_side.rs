@@ -93,17 +93,11 @@ impl<const WOBBLES: bool> Work for Following<'_, WOBBLES> {
             for own in going.iter_mut().filter(|own| own.waits.is_none()) {
                 own.go_on::<WOBBLES>(frame, &mut alone);
             }
-            let ended = going.len();
             going.retain_mut(|own| own.demand.take().map(|demand| demands[own.index] = Some(demand)).is_none());
-            let Some(first) = going.first() else {
-                if pending.len() == 0 {
-                    return demands.into_iter().flatten().collect();
-                }
-                continue;
-            };
-            if going.len() < ended && pending.len() > 0 {
+            if going.len() < POOL && pending.len() > 0 {
                 continue;
             }
+            let Some(first) = going.first() else { return demands.into_iter().flatten().collect() };
             // those of which there are more: a vector is as long as its longest series
             let is_long = |own: &Going<'_>| own.waits.is_some_and(|(asked, _)| asked.is_long);
             let are_long = 2 * going.iter().filter(|own| is_long(own)).count() > going.len();

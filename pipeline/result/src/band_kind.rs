@@ -36,6 +36,14 @@ pub struct BandsOfKind<'a> {
     pub failed: Option<&'a Array<2>>,
 }
 
+/// A name with a suffix before its unit, its last part: `u05_joint_m` of `u05_m`; at the end of a single word.
+pub fn before_unit(name: &str, suffix: &str) -> String {
+    match name.rsplit_once('_') {
+        Some((stem, unit)) => format!("{stem}{suffix}_{unit}"),
+        None => format!("{name}{suffix}"),
+    }
+}
+
 impl BandKind {
     /// Those of spectra of records that count alike.
     pub const PLAIN: Self = Self { weights: "alike", suffix: "", is_repaired: false, is_joint: false };
@@ -56,8 +64,7 @@ impl BandKind {
 
     /// The name of a column of a table, whose unit stays at the end: `u05_joint_m` of `u05_m`.
     pub fn column(self, name: &str) -> String {
-        let (stem, unit) = name.rsplit_once('_').unwrap_or((name, ""));
-        format!("{stem}{}_{unit}", self.suffix)
+        before_unit(name, self.suffix)
     }
 
     /// The bands of this kind of a measure.

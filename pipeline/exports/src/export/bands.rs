@@ -1,6 +1,6 @@
 //! The bands of a result, as every format takes them.
 
-use uplift_result::{BandKind, StoredBands};
+use uplift_result::{BandKind, StoredBands, before_unit};
 
 use super::Export;
 use super::source::Row;
@@ -13,10 +13,7 @@ pub(super) const BY_SPECTRUM: [BandKind; 4] =
 pub(super) fn name_with(kind: BandKind, name: &str, key: &str) -> String {
     let joint = if kind.is_joint { "_joint" } else { "" };
     let repaired = if kind.is_repaired { "_consistent" } else { "" };
-    match name.rsplit_once('_') {
-        Some((stem, unit)) => format!("{stem}{joint}{repaired}_{key}_{unit}"),
-        None => format!("{name}{joint}{repaired}_{key}"),
-    }
+    before_unit(name, &format!("{joint}{repaired}_{key}"))
 }
 
 /// The band of a spectrum for one size of the sample.

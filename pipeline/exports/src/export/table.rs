@@ -3,7 +3,7 @@
 use polars::prelude::Column;
 use uplift_job::text::finite;
 use uplift_questions::efficiency;
-use uplift_result::{BandKind, INFERRED_BANDS, StoredSpread, urs};
+use uplift_result::{BandKind, INFERRED_BANDS, StoredSpread, before_unit, urs};
 use uplift_studies::uniform_risk::spectra_table;
 
 use super::Export;
@@ -65,7 +65,7 @@ impl Export {
         let of_size = |(size, records): (usize, &u32)| {
             let of_limit = |(limit, name): (usize, &String)| {
                 let limit_m = move |row: &Row<'_>| Some(all(self.bands_of(row, kind).get(size)?.limits_m[limit]));
-                Cells::new(format!("{}{}_n{records}_m", name.trim_end_matches("_m"), kind.suffix), limit_m)
+                Cells::new(before_unit(name, &format!("{}_n{records}", kind.suffix)), limit_m)
             };
             names.iter().enumerate().map(of_limit).collect::<Vec<_>>()
         };

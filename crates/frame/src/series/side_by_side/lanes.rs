@@ -1,5 +1,6 @@
 //! Numbers and series of several motions.
 
+use uplift_instructions::larger;
 use uplift_taylor::{ORDER, TRUNCATION};
 
 /// Motions side by side.
@@ -38,7 +39,7 @@ impl Convergence {
     #[inline(always)]
     pub(super) fn take(&mut self, terms: &Lanes) -> Lanes {
         let terms = lanes(|i| terms[i].abs());
-        self.largest = lanes(|i| if terms[i] > self.largest[i] { terms[i] } else { self.largest[i] });
+        self.largest = lanes(|i| larger(terms[i], self.largest[i]));
         let negligible: Lanes = lanes(|i| {
             let least = TRUNCATION * self.largest[i];
             if terms[i] <= least && self.last[i] <= least { 1.0 } else { 0.0 }
