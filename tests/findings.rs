@@ -79,6 +79,30 @@ fn a_question_has_one_answer() {
     ask(&study, "verify r.h5");
 }
 
+/// What neighbouring strengths make of a design costs most of it, and the answer without details does not show it.
+#[test]
+fn a_design_analyses_neighbours_where_they_are_shown() {
+    let study = study();
+    let plain = ask(&study, "design block.toml --urs r.h5 --site There");
+    let [place] = &kept(&study, "design")[..] else { panic!() };
+    let document = || -> Value {
+        let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
+        serde_json::from_str(&reader.attribute_text(place, "document").unwrap()).unwrap()
+    };
+    let without = document();
+    let shown = ask(&study, "design block.toml --urs r.h5 --site There --details").stdout;
+    assert!(shown.starts_with(plain.stdout.split("\nDetails").next().unwrap().split("\nWarnings").next().unwrap()));
+    assert!(shown.contains("within 1 % of the strength"), "{shown}");
+    let mut with = document();
+    let exact = with["exact"].as_object_mut().unwrap();
+    assert!(exact.remove("rounding").is_some() && exact.remove("within_one_percent_of_strength").is_some());
+    // ten strengths beside its own with two oscillators each, and eight roundings of all three
+    let analyses = |of: &Value| of["exact"]["analyses"].as_u64().unwrap();
+    assert_eq!(analyses(&with), analyses(&without) / 3 * 47);
+    with["exact"]["analyses"] = without["exact"]["analyses"].clone();
+    assert_eq!(with, without);
+}
+
 #[test]
 fn a_changed_structure_is_reported() {
     let study = study();

@@ -44,6 +44,7 @@ use crate::error::DesignError;
 use analysis::{DesignAnalysis, OwnAnalysis, Question};
 
 /// What is asked of a design.
+#[expect(clippy::struct_excessive_bools, reason = "each is an option")]
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct DesignOptions {
     /// Manifest of the records, where it is no longer where the study says.
@@ -76,7 +77,11 @@ pub struct DesignOptions {
     /// Judge the proxy alone, without the wobbling frame
     #[arg(long)]
     pub proxy: bool,
-    /// Every shard of the structure's own analysis, as [`design_shard`] wrote them; none to compute it here.
+    /// Say what a small change of the strength and rounding make of the numbers, at three times the cost.
+    #[arg(skip)]
+    pub sensitivity: bool,
+    /// Every shard of the structure's own analysis, as [`design_shard`] wrote them with the same `sensitivity`; none to
+    /// compute it here.
     #[arg(skip)]
     pub shards: Vec<PathBuf>,
 }
@@ -93,6 +98,7 @@ impl Default for DesignOptions {
             safety_factor: 2.5,
             spectrum_only: false,
             proxy: false,
+            sensitivity: false,
             shards: Vec::new(),
         }
     }

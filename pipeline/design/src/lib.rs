@@ -18,6 +18,7 @@ mod own_frame;
 mod report;
 mod risk;
 mod rules;
+mod sensitivity;
 mod spectrum;
 mod sweep;
 mod tables;
@@ -26,7 +27,7 @@ mod uncertain;
 mod weights;
 
 pub use certainty::{Bands, DemandBands};
-pub use demand::{DemandNoise, DemandRounding, ExactDemand, RuleRanges};
+pub use demand::ExactDemand;
 pub use design::{DesignOptions, DesignReport, design, design_shard};
 pub use error::DesignError;
 pub use finding::keep;
@@ -41,6 +42,7 @@ pub use overturning::{
 pub use own_frame::{FrameCheck, FrameModel, FrameReport};
 pub use report::{ReportSource, StructureReport};
 pub use rules::{MeasureVerdict, RuleCheck, RuleOutcome, verdict_word};
+pub use sensitivity::{DemandNoise, DemandRounding, RuleRanges, Sensitivity};
 pub use spectrum::SpectrumDemand;
 pub use target::{
     Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrame, TargetFrameModel,

@@ -21,38 +21,67 @@ pub(super) const ZERO_STIFFNESS: usize = 1;
 /// Position of the structure's own oscillator.
 pub(super) const OWN: usize = 2;
 
-/// The oscillators of a structure and of its neighbours.
+/// The three oscillators of a structure, and those of its neighbours.
 #[derive(Debug, Clone)]
 pub(super) struct Sweep {
     /// All of them.
     pub(super) oscillators: Vec<Oscillator>,
-    /// Positions of the ZSBE oscillator and of the own one at each strength, ascending.
+    /// Where its neighbours are; none where they are not asked for.
+    pub(super) neighbours: Option<Neighbours>,
+}
+
+/// Positions of the oscillators of neighbours.
+#[derive(Debug, Clone)]
+pub(super) struct Neighbours {
+    /// Of the ZSBE oscillator and of the own one at each strength, ascending.
     pub(super) pairs: Vec<[usize; 2]>,
-    /// Positions of the first three of all once more, a few roundings weaker or stronger.
+    /// Of the first three of all once more, a few roundings weaker or stronger.
     pub(super) rounded: Vec<[usize; 3]>,
 }
 
 impl Sweep {
     /// Of `structure`, for a spectrum of `study`.
-    pub(super) fn from_structure(structure: &Structure, study: &UniformRiskStudy) -> Result<Self, DesignError> {
-        Self::from_system(&structure.system, study, restitution(structure, study))
-            .map_err(|error| uplift_job::in_file(error, &structure.file))
+    pub(super) fn from_structure(
+        structure: &Structure,
+        study: &UniformRiskStudy,
+        with_neighbours: bool,
+    ) -> Result<Self, DesignError> {
+        let of_system = || {
+            let mut oscillators = own_oscillators(&structure.system, study, restitution(structure, study))?;
+            let neighbours = with_neighbours.then(|| Neighbours::add_to(&mut oscillators)).transpose()?;
+            Ok(Self { oscillators, neighbours })
+        };
+        of_system().map_err(|error: DesignError| uplift_job::in_file(error, &structure.file))
     }
 
-    fn from_system(system: &EquivalentSystem, study: &UniformRiskStudy, restitution: f64) -> Result<Self, DesignError> {
-        let of_study = Oscillator::new(
-            system.spectral_strength_at(study.gravity_m_s2),
-            study.gravity_m_s2,
-            study.oscillator.uplift_displacement_m,
-            study.oscillator.restitution,
-            PostUplift::Zero,
-        );
-        let uplift_m = system.conditions().uplift_displacement_m();
-        let zero_stiffness = system.with_static_analysis(system.uplift_force_n(), uplift_m, f64::INFINITY)?;
-        let mut oscillators =
-            [of_study, zero_stiffness.spectral_oscillator(restitution), system.spectral_oscillator(restitution)]
-                .into_iter()
-                .collect::<Result<Vec<_>, _>>()?;
+    /// All of them, to be shaken.
+    pub(super) fn systems(&self) -> Vec<System> {
+        self.oscillators.iter().cloned().map(System::Oscillator).collect()
+    }
+}
+
+/// The first three.
+fn own_oscillators(
+    system: &EquivalentSystem,
+    study: &UniformRiskStudy,
+    restitution: f64,
+) -> Result<Vec<Oscillator>, DesignError> {
+    let of_study = Oscillator::new(
+        system.spectral_strength_at(study.gravity_m_s2),
+        study.gravity_m_s2,
+        study.oscillator.uplift_displacement_m,
+        study.oscillator.restitution,
+        PostUplift::Zero,
+    );
+    let uplift_m = system.conditions().uplift_displacement_m();
+    let zero_stiffness = system.with_static_analysis(system.uplift_force_n(), uplift_m, f64::INFINITY)?;
+    let own = [zero_stiffness.spectral_oscillator(restitution), system.spectral_oscillator(restitution)];
+    Ok([of_study].into_iter().chain(own).collect::<Result<_, _>>()?)
+}
+
+impl Neighbours {
+    /// Puts those of the first three `oscillators` behind them.
+    fn add_to(oscillators: &mut Vec<Oscillator>) -> Result<Self, DesignError> {
         let sweep = NoiseSweep::new(NOISE_RELATIVE, NOISE_POINTS)?;
         // the middle of the sweep is the structure itself
         let mut pairs = Vec::new();
@@ -63,24 +92,17 @@ impl Sweep {
             }
             pairs.push([oscillators.len(), oscillators.len() + 1]);
             for own in [ZERO_STIFFNESS, OWN] {
-                let stronger = strengthened(&oscillators[own], change)?;
-                oscillators.push(stronger);
+                oscillators.push(strengthened(&oscillators[own], change)?);
             }
         }
         let mut rounded = Vec::new();
         for nudge in nudges() {
             rounded.push([OF_STUDY, ZERO_STIFFNESS, OWN].map(|own| oscillators.len() + own));
             for own in [OF_STUDY, ZERO_STIFFNESS, OWN] {
-                let nudged = strengthened(&oscillators[own], nudge)?;
-                oscillators.push(nudged);
+                oscillators.push(strengthened(&oscillators[own], nudge)?);
             }
         }
-        Ok(Self { oscillators, pairs, rounded })
-    }
-
-    /// All of them, to be shaken.
-    pub(super) fn systems(&self) -> Vec<System> {
-        self.oscillators.iter().cloned().map(System::Oscillator).collect()
+        Ok(Self { pairs, rounded })
     }
 }
 

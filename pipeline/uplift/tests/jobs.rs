@@ -283,8 +283,14 @@ fn a_design_starts_from_the_spectrum_in_the_file() {
     let check = report.rules[0].check().unwrap();
     assert_eq!(check.required_capacity_m, 2.5 * spectrum.zero_stiffness_demand_m);
     let exact = report.exact.unwrap();
-    assert_eq!(exact.analyses, 4 * 5 * 47);
-    assert_eq!((events.phases(), events.steps()), (vec![("PGV".to_owned(), "analyses", 4 * 5 * 47)], 4 * 5 * 47));
+    // the study's oscillator and two of the structure's
+    assert_eq!((exact.analyses, exact.sensitivity), (4 * 5 * 3, None));
+    assert_eq!((events.phases(), events.steps()), (vec![("PGV".to_owned(), "analyses", 4 * 5 * 3)], 4 * 5 * 3));
+    // ten strengths more of two oscillators, and eight roundings of three
+    let options = DesignOptions { sensitivity: true, ..options };
+    let of_neighbours = design(&folder.block(), &folder.result(), &options, &Silent).unwrap().exact.unwrap();
+    assert_eq!(of_neighbours.analyses, 4 * 5 * 47);
+    assert_eq!(of_neighbours.sensitivity.unwrap().rounding.demand_m.value, exact.demand_m);
     // programs get null for what is infinite
     let json = serde_json::to_value(&report).unwrap();
     assert_eq!(json["exact"]["demand_m"].is_null(), exact.overturns);

@@ -5,7 +5,7 @@ use std::io::Write;
 use uplift::alarms::Severity;
 use uplift::structure::{
     Bands, DemandBands, DemandRounding, DesignReport, EventRisk, ExactDemand, FrameReport, RuleCheck, RuleOutcome,
-    StructureReport, verdict_word,
+    Sensitivity, StructureReport, verdict_word,
 };
 use uplift::text::{self, Table, cell_with_band, metres_with_band, risk_in_words, short};
 use uplift_spectra::Noisy;
@@ -222,8 +222,10 @@ fn print_details(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     print_rules(out, report)?;
     if let Some(exact) = &report.exact {
         print_risk(out, report, exact)?;
-        print_noise(out, &report.rules, exact)?;
-        print_rounding(out, &report.rules, &exact.rounding)?;
+        if let Some(sensitivity) = &exact.sensitivity {
+            print_noise(out, &report.rules, sensitivity)?;
+            print_rounding(out, &report.rules, &sensitivity.rounding)?;
+        }
     }
     if let Some(uncertainty) = &report.uncertainty {
         print_uncertainty(out, uncertainty)?;
@@ -247,13 +249,14 @@ fn print_demands(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     }
     if let Some(exact) = &report.exact {
         let (of_spectrum_m, own_m) = (exact.zero_stiffness_demand_of_spectrum_m, exact.zero_stiffness_demand_m);
-        let rounding = &exact.rounding;
-        row("zero stiffness, exact".to_owned(), of_spectrum_m, Some(&rounding.zero_stiffness_demand_of_spectrum_m));
+        let rounding = exact.sensitivity.as_ref().map(|of| &of.rounding);
+        let of_spectrum = rounding.map(|of| &of.zero_stiffness_demand_of_spectrum_m);
+        row("zero stiffness, exact".to_owned(), of_spectrum_m, of_spectrum);
         if own_m.to_bits() != of_spectrum_m.to_bits() {
             let what = "zero stiffness, exact, uplift and impacts of the structure".to_owned();
-            row(what, own_m, Some(&rounding.zero_stiffness_demand_m));
+            row(what, own_m, rounding.map(|of| &of.zero_stiffness_demand_m));
         }
-        row("the structure itself, exact".to_owned(), exact.demand_m, Some(&rounding.demand_m));
+        row("the structure itself, exact".to_owned(), exact.demand_m, rounding.map(|of| &of.demand_m));
     }
     if rows.is_empty() {
         writeln!(out, "\nThere is no demand to show.")?;
@@ -273,7 +276,7 @@ fn print_rules(out: &mut impl Write, report: &DesignReport) -> Result<(), Comman
         )?;
         return Ok(());
     }
-    if let Some(ExactDemand { rounding, .. }) = &report.exact {
+    if let Some(Sensitivity { rounding, .. }) = report.exact.as_ref().and_then(|exact| exact.sensitivity.as_ref()) {
         let dash = || "-".to_owned();
         let exact_demand = |of: &RuleOutcome, check: &RuleCheck| match rounding.rule_demands_m {
             Some(demands) => demands.of(of.rule).marked(metres),
@@ -348,6 +351,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
 
 fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) -> Result<(), CommandError> {
     let Some(capacity_m) = report.structure.capacity_m else { return Ok(()) };
+    let rounding = exact.sensitivity.as_ref().map(|of| &of.rounding);
     let mut rows = Vec::new();
     let mut row = |what: String, risk, rounding: Option<&Noisy>| {
         let mut cells = vec![what];
@@ -358,9 +362,10 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
         rows.push(cells);
     };
     if let Some(risk) = &exact.beyond_capacity {
-        row(format!("u > {capacity_m:.4} m, the capacity"), risk, exact.rounding.beyond_capacity_per_year.as_ref());
+        let rounding = rounding.and_then(|of| of.beyond_capacity_per_year.as_ref());
+        row(format!("u > {capacity_m:.4} m, the capacity"), risk, rounding);
     }
-    row("overturning".to_owned(), &exact.overturning, Some(&exact.rounding.overturning_per_year));
+    row("overturning".to_owned(), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
     let in_years = format!("in {} years", report.years);
     let header = ["the structure itself", "per year", &in_years, "return period, years"];
     writeln!(out, "\n{}", Table::new(header, rows))?;
@@ -410,8 +415,8 @@ fn print_bands(out: &mut impl Write, exact: &ExactDemand, bands: &DemandBands) -
 }
 
 /// What of these numbers is noise.
-fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], exact: &ExactDemand) -> Result<(), CommandError> {
-    let ExactDemand { noise, rounding, .. } = exact;
+fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], sensitivity: &Sensitivity) -> Result<(), CommandError> {
+    let Sensitivity { noise, rounding } = sensitivity;
     let mut rows = Vec::new();
     let mut row = |what: String, [noisy, rounding]: [Noisy; 2], shown: &dyn Fn(f64) -> String| {
         rows.push(vec![what, rounding.marked(shown), shown(noisy.lowest), shown(noisy.highest)]);

@@ -1,7 +1,9 @@
 //! The numbers of a design sheet: in sentences, as facts of the structure, in tables.
 
 use serde::Serialize;
-use uplift::structure::{DesignReport, EventRisk, ExactDemand, RuleCheck, RuleOutcome, StructureReport, verdict_word};
+use uplift::structure::{
+    DemandRounding, DesignReport, EventRisk, RuleCheck, RuleOutcome, Sensitivity, StructureReport, verdict_word,
+};
 use uplift::study::Structure;
 use uplift::text::{Table, per_cent, risk_in_words, share, two_digits};
 use uplift_spectra::Noisy;
@@ -20,6 +22,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     let mut sentences = Vec::new();
     let mut say = |text: String, class: Option<&'static str>| sentences.push(Sentence { text, class });
     let (site, years) = (&report.site, report.years);
+    let rounding = rounding(report);
     let of = format!("At {site}, for {}", risk_in_words(report.poe, years));
     let capacity =
         report.structure.capacity_m.map(|capacity_m| format!("; the capacity is {} m", two_digits(capacity_m)));
@@ -29,7 +32,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
             say(format!("{of}, no displacement meets the target: the structure overturns more often."), Some("no"));
         }
         (Some(exact), _) => {
-            let demand = exact.rounding.demand_m.marked(two_digits);
+            let demand = marked(exact.demand_m, rounding.map(|of| &of.demand_m), two_digits);
             let band = exact.bands.as_ref().map_or_else(String::new, |bands| {
                 let [lower_m, upper_m] = bands.demand_m.quoted().map(two_digits);
                 format!(" (90 % band{} {lower_m} to {upper_m} m)", bands.demand_m.of_whom())
@@ -89,7 +92,8 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         say(format!("The frame itself is left out: {reason}."), None);
     }
     if let Some(exact) = &report.exact {
-        let overturns = in_words("It overturns", &exact.overturning, &exact.rounding.overturning_per_year, years);
+        let rounding = rounding.map(|of| &of.overturning_per_year);
+        let overturns = in_words("It overturns", &exact.overturning, rounding, years);
         let band = exact.bands.and_then(|bands| bands.overturning_per_year).map_or_else(String::new, |bands| {
             let [lower, upper] = bands.quoted();
             let shown = |per_year: f64| if per_year > 0.0 { power(per_year, 1) } else { "0".to_owned() };
@@ -103,12 +107,22 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     sentences
 }
 
+/// What rounding makes of the numbers; none where it was not asked.
+fn rounding(report: &DesignReport) -> Option<&DemandRounding> {
+    Some(&report.exact.as_ref()?.sensitivity.as_ref()?.rounding)
+}
+
+/// The value as `shown`, with an asterisk where rounding shows it otherwise.
+fn marked(value: f64, rounding: Option<&Noisy>, shown: impl Fn(f64) -> String) -> String {
+    rounding.map_or_else(|| shown(value), |rounding| rounding.marked(&shown))
+}
+
 /// That more than counted happens, beside a rate.
 fn lower_bound(risk: &EventRisk) -> &'static str {
     if risk.is_lower_bound() { ", a lower bound" } else { "" }
 }
 
-fn in_words(what: &str, risk: &EventRisk, rounding: &Noisy, years: f64) -> String {
+fn in_words(what: &str, risk: &EventRisk, rounding: Option<&Noisy>, years: f64) -> String {
     if risk.per_year == 0.0 {
         // a neighbour that overturns is in the note
         return risk.at_most_per_year.map_or_else(
@@ -120,7 +134,7 @@ fn in_words(what: &str, risk: &EventRisk, rounding: &Noisy, years: f64) -> Strin
     format!(
         "{what} once in {} years on average ({} a year{}): {} in {years} years.",
         if between < 1e7 { two_digits(between) } else { power(between, 1) },
-        rounding.marked(|per_year| power(per_year, 1)),
+        marked(risk.per_year, rounding, |per_year| power(per_year, 1)),
         lower_bound(risk),
         chance(risk.probability)
     )
@@ -128,7 +142,7 @@ fn in_words(what: &str, risk: &EventRisk, rounding: &Noisy, years: f64) -> Strin
 
 /// Which numbers hang on rounding, and from where to where; none where none does.
 pub(super) fn rounding_words(report: &DesignReport) -> Option<String> {
-    let rounding = &report.exact.as_ref()?.rounding;
+    let rounding = rounding(report)?;
     let mut moved = Vec::new();
     let mut tell = |what: &str, of: &Noisy, shown: fn(f64) -> String, unit: &str| {
         if of.shows_otherwise(shown) {
@@ -208,11 +222,16 @@ fn demands(report: &DesignReport) -> Option<TitledTable> {
     if let Some(spectrum) = &report.spectrum {
         row("without stiffness after uplift, from the spectrum", metres(spectrum.zero_stiffness_demand_m));
     }
-    if let Some(ExactDemand { rounding, .. }) = &report.exact {
-        let marked = |demand_m: &Noisy| demand_m.marked(metres);
-        row("without stiffness after uplift, exact", marked(&rounding.zero_stiffness_demand_of_spectrum_m));
-        row("the same with the uplift and impacts of the structure", marked(&rounding.zero_stiffness_demand_m));
-        row("the structure itself, exact", marked(&rounding.demand_m));
+    if let Some(exact) = &report.exact {
+        let rounding = rounding(report);
+        let (of_spectrum_m, zero_stiffness_m) =
+            (exact.zero_stiffness_demand_of_spectrum_m, exact.zero_stiffness_demand_m);
+        let of_spectrum = rounding.map(|of| &of.zero_stiffness_demand_of_spectrum_m);
+        row("without stiffness after uplift, exact", marked(of_spectrum_m, of_spectrum, metres));
+        let zero_stiffness = rounding.map(|of| &of.zero_stiffness_demand_m);
+        let what = "the same with the uplift and impacts of the structure";
+        row(what, marked(zero_stiffness_m, zero_stiffness, metres));
+        row("the structure itself, exact", marked(exact.demand_m, rounding.map(|of| &of.demand_m), metres));
     }
     let note = format!(
         "{} by {}, {}: {} a year. Exact: from these records and levels.",
@@ -255,7 +274,7 @@ fn frame(report: &DesignReport) -> Option<TitledTable> {
 }
 
 fn rules(report: &DesignReport) -> Option<TitledTable> {
-    let rounding = report.exact.as_ref().map(|exact| exact.rounding);
+    let rounding = rounding(report);
     let marked = |outcome: &RuleOutcome, error: f64| {
         let range = rounding.and_then(|rounding| match &outcome.from_spectrum {
             Some(check) => Some(rounding.error_of(check.demand_m)),
@@ -287,8 +306,8 @@ fn rules(report: &DesignReport) -> Option<TitledTable> {
 
 fn risk(report: &DesignReport) -> Option<TitledTable> {
     let exact = report.exact.as_ref()?;
-    let row = |what: String, risk: &EventRisk, rounding: &Noisy| {
-        let mark = if rounding.shows_otherwise(scientific) { "*" } else { "" };
+    let row = |what: String, risk: &EventRisk, rounding: Option<&Noisy>| {
+        let mark = if rounding.is_some_and(|rounding| rounding.shows_otherwise(scientific)) { "*" } else { "" };
         let outside = share(risk.lower_tail_share + risk.upper_tail_share);
         if risk.per_year == 0.0 {
             // none of the runs does it: a bound, never never
@@ -298,13 +317,15 @@ fn risk(report: &DesignReport) -> Option<TitledTable> {
             return vec![what, most, "–".to_owned(), "–".to_owned(), "–".to_owned()];
         }
         let probability = chance(risk.probability);
-        vec![what, rounding.marked(scientific) + lower_bound(risk), probability, return_period(risk), outside]
+        let per_year = marked(risk.per_year, rounding, scientific);
+        vec![what, per_year + lower_bound(risk), probability, return_period(risk), outside]
     };
     let capacity_m = report.structure.capacity_m.unwrap_or(f64::NAN);
-    let rounding = &exact.rounding;
-    let beyond = exact.beyond_capacity.iter().zip(&rounding.beyond_capacity_per_year);
-    let beyond = beyond.map(|(risk, of)| row(format!("beyond its capacity, {} m", metres(capacity_m)), risk, of));
-    let overturning = row("overturning".to_owned(), &exact.overturning, &rounding.overturning_per_year);
+    let rounding = rounding(report);
+    let of_beyond = rounding.and_then(|of| of.beyond_capacity_per_year.as_ref());
+    let what = format!("beyond its capacity, {} m", metres(capacity_m));
+    let beyond = exact.beyond_capacity.iter().map(|risk| row(what.clone(), risk, of_beyond));
+    let overturning = row("overturning".to_owned(), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
     let years = format!("in {} years", report.years);
     let header = ["the structure itself", "per year", &years, "return period, years", "from outside the levels"];
     let note = "Counted over all records and levels, weighted by the hazard of the site (Eq. 4.4).";
@@ -312,7 +333,7 @@ fn risk(report: &DesignReport) -> Option<TitledTable> {
 }
 
 fn noise(report: &DesignReport) -> Option<TitledTable> {
-    let ExactDemand { noise, rounding, .. } = report.exact.as_ref()?;
+    let Sensitivity { noise, rounding } = report.exact.as_ref()?.sensitivity.as_ref()?;
     let mut rows = Vec::new();
     let mut range = |what: &str, [of, rounding]: [&Noisy; 2], shown: fn(f64) -> String| {
         rows.push(vec![what.to_owned(), rounding.marked(shown), shown(of.lowest), shown(of.highest)]);

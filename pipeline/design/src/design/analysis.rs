@@ -11,7 +11,7 @@ use uplift_uniform_risk::{Stripes, StudyOfResult, plan_stripes};
 
 use super::DesignOptions;
 use crate::certainty::Scatter;
-use crate::demand::{ExactDemand, exact_demand};
+use crate::demand::{ExactDemand, Shaken, exact_demand};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::{Place, ShakenRecords, job_name, restitution};
@@ -63,9 +63,10 @@ impl OwnAnalysis {
         let of_frame = analysis.frame.as_ref().map(|_| [analysed.next(), analysed.next()]);
         let of_uncertain = analysed.next().map(|analysed| Stripes::new(&measure.plan, set, analysed));
         let scatter = Scatter::from_file(file)?;
-        let rate = (target_per_year, source.study.risk.years);
+        let years = source.study.risk.years;
         let hazard = Hazard::from_file(file, (place.name, place.site), (measure, &source.study))?;
-        let exact = exact_demand((&own, weights, &hazard), (&structure.system, &analysis.sweep), rate, &scatter)?;
+        let shaken = Shaken { stripes: &own, weights, system: &structure.system, target_per_year, years };
+        let exact = exact_demand(&shaken, &analysis.sweep, (&hazard, &scatter))?;
         let uncertainty = match (&analysis.uncertain, of_uncertain) {
             (Some(uncertain), Some(stripes)) => {
                 let asked = asked_of_uncertain(&exact, target_per_year);
@@ -84,7 +85,7 @@ impl OwnAnalysis {
                     hazard: &hazard,
                     scatter: &scatter,
                     target_per_year,
-                    years: source.study.risk.years,
+                    years,
                     capacity_m: structure.system.capacity_m(),
                     safety_factor: options.safety_factor,
                 };
@@ -116,7 +117,7 @@ impl<'a> DesignAnalysis<'a> {
         (place, target_per_year): (Place<'_>, f64),
         ((records, pairs), options): ((ShakenRecords, Option<Pairs>), &DesignOptions),
     ) -> Result<Self, DesignError> {
-        let sweep = Sweep::from_structure(structure, &source.study)?;
+        let sweep = Sweep::from_structure(structure, &source.study, options.sensitivity)?;
         let is_asked = !options.repaired && source.study.records.at_level.is_none();
         let restitution = restitution(structure, &source.study);
         let uncertain =

@@ -59,7 +59,7 @@ impl FrameAnalysis {
             (Some(Model::Planar), _) | (None, ColumnShape::Rectangle) => vec![],
             (None | Some(Model::Wobbling), ColumnShape::Cylinder) => vec![own_frame::wobbling(&frame, structure)],
         };
-        let sweep = Sweep::from_structure(structure, &source.study)?;
+        let sweep = Sweep::from_structure(structure, &source.study, false)?;
         let oscillators =
             [OF_STUDY, OWN].map(|place| System::Oscillator(sweep.oscillators[place].clone())).into_iter().collect();
         let both = |pair: &RecordPair| [&pair.h1, &pair.h2].map(motion_key);
