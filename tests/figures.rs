@@ -22,6 +22,7 @@ mod influence;
 mod level_grids;
 mod marks;
 mod newmark;
+mod published_criteria;
 mod record_sets;
 mod rounding_of_ordinates;
 mod shake_table;

@@ -9,7 +9,7 @@ const BEGIN: &str = "<!-- figure: ";
 const END: &str = "<!-- end -->";
 
 /// The sources, by which names begin; those that `make test` leaves out are slow.
-const SOURCES: [&str; 31] = [
+const SOURCES: [&str; 32] = [
     "base-widths",
     "conditioning",
     "consistency",
@@ -27,6 +27,7 @@ const SOURCES: [&str; 31] = [
     "newmark",
     "own-oscillator",
     "own-oscillator-embedded",
+    "published",
     "real",
     "rounding",
     "rounding-missed",
