@@ -357,6 +357,13 @@ fn differences_from_the_study_are_reported() {
     let said = study.uplift(&["design", "other.toml", "--urs", "r.h5", "--spectrum-only"]).ok().stdout;
     assert!(said.contains("the spectrum was computed for an uplift displacement of 0.5 mm; this structure needs"));
     let needed_mm = needed_mm("this structure needs ");
+    let settings = found["own_oscillator"].as_str().unwrap();
+    assert!(said.contains(&format!("\n          for its own spectrum run the study with {settings}\n")), "{said}");
+    let run = ["run", "study.toml", "-o", "own.h5", "-q"].into_iter().chain(settings.split(' '));
+    study.uplift(&run.collect::<Vec<_>>()).ok();
+    let own = ["design", "other.toml", "--urs", "own.h5", "--spectrum-only", "--json"];
+    let own: Value = serde_json::from_str(&study.uplift(&own).ok().stdout).unwrap();
+    assert!(own["own_oscillator"].is_null() && own["other_oscillator"] == false, "{own}");
     for (factor, is_other) in [(1.004, false), (1.02, true)] {
         let own_mm = 4.0 * 0.5 / needed_mm * factor;
         study.write("near.toml", &format!("{BLOCK}uplift_displacement_m = {}\n", 1e-3 * own_mm));

@@ -16,6 +16,9 @@ pub const STRENGTH: Range = range(0.0, 100.0, "", "uplift force over weight, mos
 /// Displacement at uplift. Below a micrometre is no structure, but a stiffness that no motion resolves.
 pub const UPLIFT_DISPLACEMENT: Range = range(1e-6, 10.0, "m", "the dissertation has 0.0005 m; in m, not in mm");
 
+/// Period of a structure before it uplifts.
+pub const PERIOD: Range = range(0.01, 10.0, "s", "of the structure with closed joints: piers have 0.2 to 2 s");
+
 /// Velocity after an impact divided by the one before.
 pub const RESTITUTION: Range = range(0.0, 1.0, "", "velocity after an impact over the one before; 95 % is 0.95");
 
@@ -154,6 +157,7 @@ mod tests {
             (GRAVITY, &[1.62, 981.0][..]),
             (STRENGTH, &[0.0, 0.005, 5.0]),
             (UPLIFT_DISPLACEMENT, &[1e-5, 0.05]),
+            (PERIOD, &[0.02, 5.0]),
             (CAPACITY, &[0.01, 1000.0]),
             (LENGTH, &[0.02, 1000.0]),
             (MASS, &[0.01, 4e8]),

@@ -10,7 +10,7 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::json;
-use uplift_plausible::{CONCRETE_STRENGTH, UPLIFT_DISPLACEMENT};
+use uplift_plausible::{CONCRETE_STRENGTH, PERIOD, UPLIFT_DISPLACEMENT};
 use uplift_statics::{Parts, RestrainedColumns, Restrainer, StaticsError, TendonPath};
 use uplift_structure::{
     Allowed, Anchorage, EquivalentSystem, Kind, Reference, RotatingBlock, StructureDescription, StructureError,
@@ -56,6 +56,7 @@ pub(crate) const KEYS: [SectionKeys; 6] = [
             &CURVATURE_RADIUS_M,
             &EXTENDED_WIDTH_M,
             &UPLIFT_DISPLACEMENT_M,
+            &PERIOD_S,
             &GRAVITY_M_S2,
             &RESTITUTION,
             &COLUMN_SHAPE,
@@ -116,6 +117,9 @@ const EXTENDED_WIDTH_M: Key<Judged> =
 const UPLIFT_DISPLACEMENT_M: Key<Number> = number("uplift_displacement_m", "m", Rule::Within(UPLIFT_DISPLACEMENT))
     .without_default("0.0005")
     .meaning("displacement at uplift u_up, m");
+const PERIOD_S: Key<Number> = number("period_s", "s", Rule::Within(PERIOD))
+    .without_default("")
+    .meaning("period T with closed joints, in place of `uplift_displacement_m`, s");
 const GRAVITY_M_S2: Key<Judged> =
     judged("gravity_m_s2", "m/s2").without_default("9.80665").meaning("acceleration of gravity, m/s²");
 const RESTITUTION: Key<Judged> = judged("restitution", "")
@@ -294,6 +298,8 @@ impl Mistake {
 /// Everything that a file says, before it is judged.
 struct ReadStructure {
     description: StructureDescription,
+    /// In place of the displacement at uplift.
+    period_s: Option<f64>,
     restrainer: Option<ReadRestrainer>,
     column_shape: ColumnShape,
     f_cd_pa: Option<f64>,
@@ -328,6 +334,9 @@ impl ReadStructure {
                 Ok(None) => {}
                 Err(mistake) => mistakes.push(Mistake::Restrainer(mistake)),
             }
+        }
+        if let (Some(period_s), Ok(system)) = (self.period_s, self.description.resolve()) {
+            self.description.uplift_displacement_m = Some(system.uplift_displacement_of_period_m(period_s));
         }
         let system = self.description.resolve();
         let block = self.description.rotating_block();
@@ -446,6 +455,11 @@ fn read(mut root: Section<'_>) -> Option<ReadStructure> {
         displacement_of: root.optional(&DISPLACEMENT_OF).flatten(),
         tendon_anchorage: root.optional(&TENDON_ANCHORAGE).flatten(),
     };
+    let period = root.given(&PERIOD_S);
+    if let Some(period) = period.as_ref().filter(|_| description.uplift_displacement_m.is_some()) {
+        period.mistake("the displacement at uplift is given twice", "leave out period_s or uplift_displacement_m");
+    }
+    let period_s = period.and_then(|period| PERIOD_S.read(&period));
     let restrainer = restrainer::read(&mut root, &description);
     let column_shape = root.read(&COLUMN_SHAPE).unwrap_or_default();
     let f_cd_pa = root.optional(&F_CD_PA).flatten();
@@ -456,6 +470,7 @@ fn read(mut root: Section<'_>) -> Option<ReadStructure> {
     root.finish();
     kind.map(|_| ReadStructure {
         description,
+        period_s,
         restrainer,
         column_shape,
         f_cd_pa,

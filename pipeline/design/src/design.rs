@@ -155,6 +155,9 @@ pub struct DesignReport {
     /// Whether the spectrum is of another oscillator than the structure's: another uplift displacement, restitution or
     /// gravity, or uncertain; the notes say which.
     pub other_oscillator: bool,
+    /// Options of `uplift run` with which the study has the structure's oscillator; none where it has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub own_oscillator: Option<String>,
     /// What the structure's file leaves out and an answer hangs on, with what is taken for it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assumed: Vec<String>,
@@ -240,7 +243,7 @@ pub fn design(
     let repaired_weights = options.repaired.then(|| RepairedWeights::from_file(&file)).transpose()?;
     let weights = site_weights(repaired_weights.as_ref(), place, &source)?;
     let restitution = restitution(structure, &source.study);
-    let mut notes = differences(structure, &source, restitution);
+    let (mut notes, own_oscillator) = differences(structure, &source, restitution);
     let other_oscillator = !notes.is_empty();
 
     let plain = spectrum_demand(structure, &source, source.spectrum(measure, site, poe));
@@ -304,14 +307,13 @@ pub fn design(
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove();
     }
-    let risk = &source.study.risk;
     Ok(DesignReport {
         structure: told,
         site: place.name.to_owned(),
         im: measure.measure().label(),
         repaired: options.repaired,
-        poe: risk.poe[poe],
-        years: risk.years,
+        poe: source.study.risk.poe[poe],
+        years: source.study.risk.years,
         source: ReportSource::read(&file, &source)?,
         target_per_year,
         required_safety_factor: safety_factor,
@@ -324,6 +326,7 @@ pub fn design(
         rules,
         by_other_measures,
         other_oscillator,
+        own_oscillator,
         unread,
         assumed: assumed(structure, restitution),
         notes,
@@ -504,11 +507,11 @@ fn assumed(structure: &Structure, restitution: f64) -> Vec<String> {
     uplift.into_iter().chain(restitution).collect()
 }
 
-/// What the structure and the study's oscillator do not have in common.
-fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) -> Vec<String> {
+/// What the structure and the study's oscillator do not have in common, and the options with which they would.
+fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) -> (Vec<String>, Option<String>) {
     let (system, oscillator) = (&structure.system, &source.study.oscillator);
     let apart = |a: f64, b: f64| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
-    let mut notes = Vec::new();
+    let (mut notes, mut settings) = (Vec::new(), Vec::new());
     if source.study.uncertainty.is_some() {
         notes.push(
             "the spectrum is of uncertain oscillators ([uncertainty] of its study); the structure is compared with \
@@ -524,12 +527,15 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
             rounded(1e3 * system.spectral_uplift_displacement_m(), 3),
             rounded(1e3 * system.conditions().uplift_displacement_m(), 4)
         ));
+        let own_m = rounded(system.spectral_uplift_displacement_m(), 4);
+        settings.push(format!("--set oscillator.uplift_displacement_m={own_m}"));
     }
     if apart(restitution, oscillator.restitution) {
         notes.push(format!(
             "the spectrum was computed for a restitution of {}; this structure has {restitution}",
             oscillator.restitution
         ));
+        settings.push(format!("--set oscillator.restitution={restitution}"));
     }
     let gravity_m_s2 = system.conditions().gravity_m_s2();
     if apart(gravity_m_s2, source.study.gravity_m_s2) {
@@ -537,8 +543,9 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
             "the spectrum is of a gravity of {} m/s2, the structure's is {gravity_m_s2} m/s2",
             source.study.gravity_m_s2
         ));
+        settings.push(format!("--set gravity_m_s2={gravity_m_s2}"));
     }
-    notes
+    (notes, (!settings.is_empty()).then(|| settings.join(" ")))
 }
 
 /// What may come from outside the stripes: the demand, exceeding the capacity, overturning.

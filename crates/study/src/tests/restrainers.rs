@@ -48,6 +48,26 @@ fn the_specimens() {
     }
 }
 
+/// The period of a frame with tendons, and of one without, says how far it moves before it uplifts.
+#[test]
+fn a_period_in_place_of_the_displacement_at_uplift() {
+    let free = FRAME.replace("restrained-frame", "frame");
+    for frame in [free.clone(), format!("{FRAME}tendon_stiffness_n_m = 1e4\ntendon_anchorage = \"column\"\n")] {
+        let found = load(&format!("{frame}period_s = 0.5\n")).unwrap();
+        // (½ N m + m_b) g α/(⅓ N m + m_b) (T/2π)²
+        let force_n = (200.0 + 9000.0) * 9.806_65 * 0.125_f64.atan();
+        let expected_m = force_n / (400.0 / 3.0 + 9000.0) * (0.5 / std::f64::consts::TAU).powi(2);
+        let found_m = found.system.conditions().uplift_displacement_m();
+        assert!((found_m / expected_m - 1.0).abs() < 1e-12, "{found_m} {expected_m}");
+        let written = load(&format!("{frame}uplift_displacement_m = {found_m:?}\n")).unwrap();
+        assert_eq!((&written.system, written.description), (&found.system, found.description));
+    }
+    let both = mistakes(&format!("{free}period_s = 0.5\nuplift_displacement_m = 0.006\n"));
+    assert_eq!(both, ["period_s: the displacement at uplift is given twice"]);
+    let milliseconds = mistakes(&format!("{free}period_s = 500\n"));
+    assert!(milliseconds.len() == 1 && milliseconds[0].contains("period_s"), "{milliseconds:?}");
+}
+
 /// A linear restrainer says the same by two keys and by the table.
 #[test]
 fn two_ways_to_write_a_linear_restrainer() {
