@@ -78,7 +78,6 @@ wheel: build
 
 # What a release page holds, in dist: wheel, source distribution, archive of the program, bill of materials, sums.
 # PORTABLE=2.17 on Linux: program and wheel need that glibc and no newer one, since zig links them against its own copy.
-# Not yet tried to the end.
 HOST := $(shell rustc -vV | sed -n 's/^host: //p')
 PORTABLE ?=
 

@@ -520,7 +520,7 @@ fn numbers_in_other_units_are_accepted_and_reported() {
     let starts = [
         "its curve of PGA is 22.2 times too high for its curve of PGV and these records",
         "height_m is 220 m",
-        "mass_kg over the square of the width and the height is",
+        "mass_kg over width² × height is",
         "--safety-factor is 40",
     ];
     assert_eq!(mistakes.len(), starts.len(), "{mistakes:?}");

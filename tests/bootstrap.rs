@@ -419,7 +419,7 @@ fn influence_is_that_of_a_set_without_the_record() {
     assert!(whole > 20);
     let text = study.uplift(&["influence", "all.h5"]).ok().stdout;
     assert!(
-        text.starts_with("Change of the displacement without the record that matters most")
+        text.starts_with("Change of the displacement if the most influential record is left out")
             && text.contains("SYN")
             // where structures are, and not only where the change is largest
             && text.contains("average  at 0.200")
@@ -497,7 +497,7 @@ fn trends_of_table_4_1_appear_with_real_records() {
     println!("{text}");
     assert!(
         text.split_whitespace().collect::<Vec<_>>().join(" ").contains("| 3.9 63")
-            && text.contains("\nThe widest band of all sites and strengths, ")
+            && text.contains("\nWidest band above: ")
             && !text.contains("Rocking initiation"),
         "the reference stands beside ours"
     );

@@ -53,7 +53,7 @@ fn asked_in_every_run_and_repaired_beside_the_plain_spectra() {
     let study = study(BOTH, "pgv pga", "");
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let warnings = study.uplift(&["warnings", "r.h5"]).ok().stdout;
-    assert!(warnings.contains("Montreux by PGA: records have "), "{warnings}");
+    assert!(warnings.contains("Montreux by PGA: scaled records have "), "{warnings}");
     assert!(
         warnings.contains(" times the site's PGV.\n          Repair: uplift consistency r.h5 --repair"),
         "{warnings}"

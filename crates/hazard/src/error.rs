@@ -232,8 +232,8 @@ pub enum HazardError {
     },
     /// A table of probabilities without the period they belong to.
     #[error(
-        "{place}: probabilities of exceedance need the period they refer to; give years (the engine's investigation \
-         time, often 1 or 50)"
+        "{place}: probabilities of exceedance need their period, often 50 or 1 year: years = 50 beside the curve in a \
+         study, --years 50 of a command"
     )]
     YearsMissing {
         /// File and line.

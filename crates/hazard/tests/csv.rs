@@ -50,8 +50,8 @@ fn probabilities_need_their_period() {
     let text = "iml,poe\n1,0.5\n2,0.02\n";
     assert_eq!(
         message(text),
-        "site.csv, line 2: probabilities of exceedance need the period they refer to; give years (the engine's \
-         investigation time, often 1 or 50)"
+        "site.csv, line 2: probabilities of exceedance need their period, often 50 or 1 year: years = 50 beside the \
+         curve in a study, --years 50 of a command"
     );
     let options = CsvOptions { years: Some(50.0), ..CsvOptions::new("PGV", "cm/s") };
     let curve = read_csv(text, "site.csv", &options).unwrap().curve;

@@ -58,9 +58,11 @@ impl Range {
 }
 
 impl Unlikely {
-    /// `correct gravity_m_s2, or leave it if it is meant`; of `the largest of strengths.values` the key alone.
+    /// `correct gravity_m_s2, or leave it if it is meant`; of `the largest of strengths.values` and of `mass_kg over a
+    /// volume` the key alone.
     pub fn what_to_do(&self) -> String {
         let key = self.name.rsplit(" of ").next().unwrap_or(self.name);
+        let key = key.split(" over ").next().unwrap_or(key);
         format!("correct {key}, or leave it if it is meant")
     }
 }
@@ -85,7 +87,9 @@ impl std::error::Error for Implausible {}
 impl fmt::Display for Unlikely {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, value, usual } = self;
-        write!(formatter, "{name} is {}{}; usual is {usual}", short_number(*value), spaced(usual.unit))
+        // one that is computed has more digits than anyone reads
+        let value = format!("{value:.5e}").parse().unwrap_or(*value);
+        write!(formatter, "{name} is {}{}; usual is {usual}", short_number(value), spaced(usual.unit))
     }
 }
 

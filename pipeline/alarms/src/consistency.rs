@@ -119,7 +119,7 @@ fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) ->
         severity: if is_repaired { Severity::Note } else { Severity::Caution },
         badness: times.ln().abs(),
         subject: format!("{name} by {scaled_to}"),
-        what: format!("records have {times:.1} times the site's {other}"),
+        what: format!("scaled records have {times:.1} times the site's {other}"),
         what_to_do: match u_m {
             Some(_) if is_repaired => {
                 let key = consistency.scaled_to.key();

@@ -45,8 +45,8 @@ pub use rules::{MeasureVerdict, RuleCheck, RuleOutcome, verdict_word};
 pub use sensitivity::{DemandNoise, DemandRounding, RuleRanges, Sensitivity};
 pub use spectrum::SpectrumDemand;
 pub use target::{
-    Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetEvent, TargetFrame, TargetFrameModel,
-    TargetFrequency, TargetOptions, TargetReport, TargetUncertainty, TriedFrame, TriedValue, target,
+    Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetByMeasure, TargetEvent, TargetFrame,
+    TargetFrameModel, TargetFrequency, TargetOptions, TargetReport, TargetUncertainty, TriedFrame, TriedValue, target,
 };
 pub use uncertain::{
     AleatoryResult, EpistemicResult, QuantityReport, Spread, UncertainFinding, UncertainResult, UncertaintyReport,

@@ -47,8 +47,8 @@ use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_result::ResultFile;
-use uplift_uniform_risk::EventRisk;
-use words::{Words, assumptions, with_mistakes};
+use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult};
+use words::{Words, assumptions, kept, with_mistakes};
 
 /// Values tried before the search narrows, over the range.
 const VALUES: usize = 13;
@@ -110,6 +110,11 @@ pub struct TargetReport {
     pub least_met: f64,
     /// The risk at the value; of a structure that is not known exactly the mean of those that it may be.
     pub risk: EventRisk,
+    /// The same at the safe value, or at the best estimate where there is none, by the other measures of the result.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub by_other_measures: Vec<TargetByMeasure>,
+    /// What every value keeps of the structure: its displacement at uplift and restitution, in words.
+    pub kept: String,
     /// The structure at the value.
     pub found: FoundSystem,
     /// The frequency within one per cent of the value, 1/yr: the noise of a chaotic system.
@@ -151,6 +156,18 @@ pub struct FoundSystem {
     pub capacity_m: Option<f64>,
     /// Stiffness after uplift, N/m.
     pub post_uplift_stiffness_n_m: f64,
+}
+
+/// How often it happens by another measure than that of the search.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TargetByMeasure {
+    /// `PGV`, `PGA`, …
+    pub im: &'static str,
+    /// The risk.
+    #[serde(flatten)]
+    pub risk: EventRisk,
+    /// Whether it meets the target.
+    pub is_met: bool,
 }
 
 /// How often it happens given the level of a return period.
@@ -254,6 +271,7 @@ pub fn target(
     let target_per_year = options.frequency.per_year(years)?;
     let (range, own_value) = range(structure, options)?;
     let hazard = Hazard::from_file(&file, (place.name, site), (measure, &source.study))?;
+    let others = other_measures(&file, &source, place)?;
     let scatter = Scatter::from_file(&file)?;
     let wobbles = OwnFrame::is_described(structure);
     let without_frame = why_left_out(structure, options);
@@ -316,6 +334,8 @@ pub fn target(
         missed_at: tried[at - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
         risk: found.risk,
+        by_other_measures: Vec::new(),
+        kept: kept(structure, trials.restitution()),
         found: FoundSystem::from_system(&found.candidate.system),
         per_year_within_one_percent: noise,
         bands,
@@ -329,12 +349,38 @@ pub fn target(
         files: Vec::new(),
         source: ReportSource::read(&file, &source)?,
     };
+    report.by_other_measures = judged_by(&others, &mut trials, &report)?;
     if let Some(path) = &options.table {
         table::write(path, &report)?;
         report.files = vec![path.clone()];
     }
     trials.finish();
     Ok(report)
+}
+
+/// Every measure but that of `place`, with its hazard there.
+fn other_measures<'a>(
+    file: &ResultFile,
+    source: &'a StudyOfResult,
+    Place { name, site, measure }: Place<'_>,
+) -> Result<Vec<(&'a SpectraOfResult, Hazard<'a>)>, DesignError> {
+    let others = source.measures.iter().filter(|other| other.measure() != measure.measure());
+    others.map(|other| Ok((other, Hazard::from_file(file, (name, site), (other, &source.study))?))).collect()
+}
+
+/// What other measures say of the safe value, or of the best estimate where there is none.
+fn judged_by<'a>(
+    others: &'a [(&'a SpectraOfResult, Hazard<'a>)],
+    trials: &mut Trials<'a>,
+    report: &TargetReport,
+) -> Result<Vec<TargetByMeasure>, DesignError> {
+    let value = if report.safe_value.is_finite() { report.safe_value } else { report.value };
+    let judged = |(measure, hazard): &'a (&'a SpectraOfResult, Hazard<'a>)| {
+        let attempt = trials.attempt_by(value, (*measure, hazard))?;
+        let is_met = attempt.meets(report.target_per_year);
+        Ok(TargetByMeasure { im: measure.measure().label(), risk: attempt.risk, is_met })
+    };
+    others.iter().map(judged).collect()
 }
 
 /// What is to be raised of curves, records, structure and request.

@@ -2,11 +2,11 @@
 
 use std::io::Write;
 
-use uplift::bootstrap::{BootstrapReport, BootstrapRow, Initiation, MANY_FAILED, ReferenceRow};
+use uplift::bootstrap::{BootstrapReport, Initiation, MANY_FAILED, ReferenceRow};
 use uplift::result::{MeasureBands, StoredJointBands};
 use uplift::text::{Table, per_cent, risk_in_words, risk_name};
 
-use uplift::uniform_risk::DisplacementReport;
+use uplift::uniform_risk::{Displacement, DisplacementReport};
 
 use super::alarms::print_synthetic;
 use super::spectrum::print_displacements;
@@ -22,7 +22,7 @@ pub(crate) fn print_bootstrap(
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
     let out = &mut output();
-    print_displacements(out, shown, terminal)?;
+    print_displacements(out, shown)?;
     if terminal.shows_details() {
         print_details(out, report)?;
     } else if !report.reference.is_empty() {
@@ -173,25 +173,33 @@ fn print_inferred(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
 
 /// How wide the band is for each number of records, over all sites.
 fn print_sizes(out: &mut impl Write, report: &BootstrapReport, shown: &DisplacementReport) -> Result<(), CommandError> {
-    let [first, ..] = &shown.displacements[..] else { return Ok(()) };
-    writeln!(out, "\nThe widest band of all sites and strengths, in per cent of its displacement")?;
-    for &size in &report.sizes {
-        writeln!(out, "  {}", known_from(report, (first.im, first.poe), size))?;
+    let width = |own: &Displacement| own.band_m.map_or(0.0, |[lower_m, upper_m]| (upper_m - lower_m) / own.u_m);
+    let banded = shown.displacements.iter().filter(|own| width(own) > 0.0 && width(own).is_finite());
+    let Some(widest) = banded.max_by(|a, b| width(a).total_cmp(&width(b))) else { return Ok(()) };
+    let stored = &report.stored;
+    let at_site = stored.sites.iter().position(|site| *site == widest.site);
+    let at_poe = stored.poes.iter().position(|poe| poe.total_cmp(&widest.poe).is_eq());
+    let at_strength = stored.strengths.iter().position(|strength| strength.total_cmp(&widest.strength).is_eq());
+    let bands = report.bands.iter().find(|bands| bands.measure.label() == widest.im);
+    let inferred = bands.and_then(|bands| bands.inferred.as_ref());
+    let (Some(site), Some(poe), Some(strength), Some(inferred)) = (at_site, at_poe, at_strength, inferred) else {
+        return Ok(());
+    };
+    writeln!(
+        out,
+        "\nWidest band above: {}, strength {}. With so many records it is, in per cent of the displacement,",
+        widest.site, widest.strength
+    )?;
+    for (size, count) in report.sizes.iter().enumerate() {
+        let [lower, upper] = inferred.truth_m.each_ref().map(|limits| limits.block([site, poe, size])[strength]);
+        let [lower, upper] = [lower, upper].map(|limit_m| 100.0 * (limit_m / widest.u_m - 1.0));
+        if upper.is_finite() {
+            writeln!(out, "  {count} records: {lower:+.0} % to {upper:+.0} %")?;
+        } else {
+            writeln!(out, "  {count} records: {lower:+.0} % to overturning")?;
+        }
     }
     Ok(())
-}
-
-/// The limits of the band from so many records, of a measure and probability, relative to the ordinate.
-fn known_from(report: &BootstrapReport, (im, poe): (&str, f64), size: u32) -> String {
-    let is_asked = |row: &&BootstrapRow| row.im == im && row.sample_size == size && row.poe.total_cmp(&poe).is_eq();
-    let found: Vec<[f64; 2]> =
-        report.rows.iter().filter(is_asked).filter_map(|row| Some(row.inferred?.truth)).collect();
-    // the limit that is furthest from the ordinate, of all sites
-    let widest = |limit: usize| found.iter().map(|limits| limits[limit]).max_by(|a, b| a.abs().total_cmp(&b.abs()));
-    match (widest(0), widest(1)) {
-        (Some(lower), Some(upper)) => format!("{size} records: {lower:+.0} % to {upper:+.0} %"),
-        _ => format!("{size} records: none (overturning, or no displacement)"),
-    }
 }
 
 /// Records and hazard together, for the sites with weighted hazard curves; of the plain spectra and of the repaired

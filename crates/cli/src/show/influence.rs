@@ -56,7 +56,7 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, terminal: &Term
     let rows = shown(of_poe.collect(), |row| (row.im, row.repaired), |row| &row.site, (|_| 0, terminal));
     writeln!(
         out,
-        "Change of the displacement without the record that matters most, per cent, {}",
+        "Change of the displacement if the most influential record is left out, per cent, {}",
         risk_in_words(report.poe, report.years)
     )?;
     let mut above = None;

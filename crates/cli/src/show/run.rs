@@ -21,12 +21,12 @@ use crate::terminal::{Terminal, output};
 pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
     match report {
-        RunReport::UniformRisk(report) if terminal.shows_details() => print_details(&mut out, report, terminal)?,
+        RunReport::UniformRisk(report) if terminal.shows_details() => print_details(&mut out, report)?,
         RunReport::UniformRisk(report) => {
             // where no site has a repaired spectrum, a warning says so
             let has_any = |found: &&DisplacementReport| found.displacements.iter().any(|own| !own.u_m.is_nan());
             for found in report.displacements.iter().chain(report.repaired.iter().filter(has_any)) {
-                print_displacements(&mut out, found, terminal)?;
+                print_displacements(&mut out, found)?;
             }
         }
         RunReport::Displacement(report) => displacement::print_spectra(&mut out, report)?,
@@ -51,7 +51,7 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
 }
 
 /// The spectra by every measure and for every risk, and their spread over hazard curves and structures.
-fn print_details(out: &mut impl Write, report: &UniformRiskReport, terminal: &Terminal) -> Result<(), CommandError> {
+fn print_details(out: &mut impl Write, report: &UniformRiskReport) -> Result<(), CommandError> {
     let (Some(path), Some(shown)) = (report.head.files.first(), &report.displacements) else { return Ok(()) };
     let file = ResultFile::open(path)?;
     let axes = file.axes()?;
@@ -61,7 +61,7 @@ fn print_details(out: &mut impl Write, report: &UniformRiskReport, terminal: &Te
             let risk = AskedRisk { poe: axes.poes.clone(), ..AskedRisk::default() };
             let asked =
                 DisplacementOptions { risk, measure: Some(measure), repaired, ..DisplacementOptions::default() };
-            print_displacements(out, &displacements(&file, &asked)?, terminal)?;
+            print_displacements(out, &displacements(&file, &asked)?)?;
         }
     }
     print_oscillator(out, shown)?;

@@ -20,7 +20,7 @@ pub(crate) fn print_spectrum(report: &SpectrumReport, result: &Path, terminal: &
         [first, rest @ ..] if rest.iter().all(|own| own.strength == first.strength) => {
             print_answers(out, &report.found)?;
         }
-        _ => print_displacements(out, &report.found, terminal)?,
+        _ => print_displacements(out, &report.found)?,
     }
     if terminal.shows_details() {
         print_oscillator(out, &report.found)?;
@@ -55,32 +55,26 @@ fn risk(own: &Displacement) -> String {
     risk_in_words(own.poe, own.years).split(" (").next().unwrap_or_default().to_owned()
 }
 
-/// A row a site and risk, a column a strength; a quiet terminal gets the table alone.
-pub(super) fn print_displacements(
-    out: &mut impl Write,
-    report: &DisplacementReport,
-    terminal: &Terminal,
-) -> Result<(), CommandError> {
+/// What they are, then a row a site and risk, a column a strength.
+pub(super) fn print_displacements(out: &mut impl Write, report: &DisplacementReport) -> Result<(), CommandError> {
     let [first, ..] = &report.displacements[..] else { return Ok(()) };
     let of_row = |own: &Displacement| (own.site.clone(), own.poe);
     let rows: Vec<&[Displacement]> = report.displacements.chunk_by(|a, b| of_row(a) == of_row(b)).collect();
     let sites = rows.chunk_by(|a, b| a[0].site == b[0].site).count();
     let risks = rows.len() / sites.max(1);
-    if !terminal.is_quiet() {
-        let record = if report.synthetic { "synthetic record" } else { "record" };
-        let kind = if report.repaired { "Repaired uniform risk spectra" } else { "Uniform risk spectra" };
-        let poes: Vec<f64> = rows.iter().map(|row| row[0].poe).collect();
-        let risk = if risks == 1 { Some(risk(first)) } else { kind_of_risks(&poes, first.years) };
-        let risk = risk.map_or_else(String::new, |risk| format!("{risk}, "));
-        let records = counted(report.records, record);
-        writeln!(out, "\n{kind}, {records}, {risk}by {}", first.im)?;
-        let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
-        let is_banded = report.displacements.iter().any(|own| own.band_m.is_some());
-        // wider than the number of records suggests
-        let of = if report.band_of == BandOf::Earthquakes { " by earthquake" } else { "" };
-        let band = if is_banded { format!(" ({} band{of})", per_cent(CONFIDENCE)) } else { String::new() };
-        writeln!(out, "Displacement, m{band}, at strength{capacity}")?;
-    }
+    let record = if report.synthetic { "synthetic record" } else { "record" };
+    let kind = if report.repaired { "Repaired uniform risk spectra" } else { "Uniform risk spectra" };
+    let poes: Vec<f64> = rows.iter().map(|row| row[0].poe).collect();
+    let risk = if risks == 1 { Some(risk(first)) } else { kind_of_risks(&poes, first.years) };
+    let risk = risk.map_or_else(String::new, |risk| format!("{risk}, "));
+    let records = counted(report.records, record);
+    writeln!(out, "\n{kind}, {records}, {risk}by {}", first.im)?;
+    let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
+    let is_banded = report.displacements.iter().any(|own| own.band_m.is_some());
+    // wider than the number of records suggests
+    let of = if report.band_of == BandOf::Earthquakes { " by earthquake" } else { "" };
+    let band = if is_banded { format!(" ({} band{of})", per_cent(CONFIDENCE)) } else { String::new() };
+    writeln!(out, "Displacement, m{band}, at strength{capacity}")?;
     let name = |row: &&[Displacement]| risk_name(row[0].poe, row[0].years);
     let table = Table::of(&rows)
         .left("site", |row| row[0].site.clone())

@@ -36,9 +36,9 @@ pub(super) fn unlikely(of: &StructureDescription) -> Vec<Unlikely> {
 /// describes, and for columns without mass.
 fn bulk_kg_m3(of: &StructureDescription) -> Option<(&'static str, f64)> {
     let (name, mass_kg) = match of.kind {
-        Kind::Block => ("mass_kg over the square of the width and the height", of.mass_kg?),
+        Kind::Block => ("mass_kg over width² × height", of.mass_kg?),
         Kind::Frame | Kind::RestrainedFrame | Kind::CurvedFrame => {
-            ("column_mass_kg over the square of the width and the height", of.column_mass_kg?)
+            ("column_mass_kg over width² × height", of.column_mass_kg?)
         }
         Kind::PointMass | Kind::Body => return None,
     };

@@ -177,6 +177,22 @@ impl<'a> Trials<'a> {
         candidates.into_iter().enumerate().map(weigh).collect()
     }
 
+    /// The risk of `value` by another measure, whose hazard is this.
+    ///
+    /// # Errors
+    /// As [`attempt`](Self::attempt).
+    pub(super) fn attempt_by(
+        &mut self,
+        value: f64,
+        (measure, hazard): (&'a SpectraOfResult, &'a Hazard<'a>),
+    ) -> Result<Attempt, DesignError> {
+        let (own_measure, own_hazard) = (self.measure, self.hazard);
+        (self.measure, self.hazard, self.weights) = (measure, hazard, SiteWeights::Alike(hazard.mean));
+        let found = self.attempt(&[value]);
+        (self.measure, self.hazard, self.weights) = (own_measure, own_hazard, SiteWeights::Alike(own_hazard.mean));
+        found?.pop().ok_or(JobError::Interrupted.into())
+    }
+
     /// The structures that may be what `value` makes of the structure.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! What is said of a search: why it has no answer, where it crosses the target, what it takes for granted.
 
 use uplift_job::alarm::{Alarm, Severity};
-use uplift_job::text::rate;
+use uplift_job::text::{rate, rounded};
 use uplift_result::ResultFile;
 use uplift_spectra::Noisy;
 use uplift_structure::UncertainQuantity;
@@ -122,6 +122,12 @@ impl Words<'_> {
         };
         format!("{}{more}", words.join(", "))
     }
+}
+
+/// What a structure of every value keeps, in words; its restitution is this.
+pub(super) fn kept(structure: &Structure, restitution: f64) -> String {
+    let uplift_mm = rounded(1e3 * structure.system.conditions().uplift_displacement_m(), 4);
+    format!("uplift displacement {uplift_mm} mm, restitution {restitution}")
 }
 
 /// What is taken for granted of the structure and of the records.
