@@ -111,10 +111,9 @@ lint:
 	cargo fmt --manifest-path web/Cargo.toml --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 
-# Documentation of the code, without warnings; every example in it runs. One example beside the libraries, so that what
-# the lints have checked is not checked again with other features: 47 packages, polars and its like.
+# Documentation of the code, without warnings; every example in it runs.
 docs:
-	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps --lib --example urs
+	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
 	cargo test --locked --workspace --doc
 
 # The documents as one searchable book, target/book/index.html: no warning, no broken link, nothing from other hosts.
