@@ -90,10 +90,20 @@ fn the_other_measure_judges_the_safe_value() {
     let per_year = number(&told["overturning"][0]["sites"][0]["per_year"]);
     assert_eq!((other["im"].as_str(), number(&other["per_year"]).to_bits()), (Some("PGV"), per_year.to_bits()));
     assert_eq!(other["is_met"], per_year <= 2e-3);
+    let row = |found: &Value| number(&found["by_other_measures"][0]["per_year"]);
     let shown = study.uplift(&[&["target", "frame.toml", "--urs", "r.h5"], &ask[..]].concat()).ok().stdout;
     let verdict = if per_year <= 2e-3 { "meets" } else { "MISSES" };
     assert!(shown.contains(&format!(" per year at {safe} m: {verdict} the target\n")), "{shown}");
-    assert!(shown.contains("\nKept      uplift displacement 0.5 mm, restitution 0.9: "), "{shown}");
+    assert!(shown.contains("\nAssumed   uplift displacement 0.5 mm, restitution 0.9 at every width: "), "{shown}");
+    assert!(row(&found) > 0.0);
+    // levels that end far below what overturns the frame cannot tell
+    let low = both.replace("levels_cm_s = [3, 10, 30, 60, 100, 200]", "levels_cm_s = [0.6, 0.8, 1]");
+    study.write("low.toml", &low);
+    study.uplift(&["run", "low.toml", "-o", "low.h5", "-q"]).ok();
+    let ask = [&["target", "frame.toml", "--urs", "low.h5", "--json"], &ask[..]].concat();
+    let low: Value = serde_json::from_str(&study.uplift(&ask).ok().stdout).unwrap();
+    assert!(low["by_other_measures"][0]["is_met"].is_null(), "{low}");
+    assert_eq!(low["safe_value"], found["safe_value"]);
     // and leaves nothing behind
     let left = |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap().file_name().into_string().unwrap();
     let files: Vec<String> = std::fs::read_dir(study.path()).unwrap().map(left).collect();

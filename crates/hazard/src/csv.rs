@@ -136,7 +136,7 @@ pub fn table_text(path: &Path) -> Result<String, HazardError> {
 /// Two columns, separated by comma, semicolon, tab or blanks, with decimal commas too between semicolons or tabs: the
 /// level, in the declared unit, and the annual rate of exceedance (1/yr) or the probability of exceedance in
 /// [`CsvOptions::years`]. A first row of column names, in any order and case, says which is which (`iml`, `im_g`,
-/// `pgv_cm_s`, `PGV [cm/s]`; `maf`, `afe`, `rate`; `poe`; `return_period`); without it
+/// `pgv_cm_s`, `PGV [cm/s]`; `maf`, `afe`, `rate`; `poe`, `PoE in 50 years`; `return_period`); without it
 /// [`CsvOptions::second_column`] decides. Lines
 /// that begin with `#` are kept as the curve's source; where they say `IM: PGV [cm/s]` or `unit: cm/s` they must agree
 /// with the declaration; where they say how the horizontal components are combined (`IM: PGV [cm/s], geometric mean
@@ -152,9 +152,9 @@ pub fn read_csv(text: &str, name: &str, options: &CsvOptions) -> Result<CsvCurve
         let reason = format!("holds a null character, and no text does: {}", input::SAVE_AS_UTF8);
         return Err(HazardError::File { file: name.to_owned(), reason });
     }
-    let Table { rows, content, source, component } = Table::parse(text, name, options)?;
+    let Table { rows, content, years, source, component } = Table::parse(text, name, options)?;
     let place = |line: usize| Place::Line { file: name.to_owned(), line };
-    let AnnualRates { rows, dropped_zeros, dropped_certain } = annual_rates(rows, content, options.years, name, place)?;
+    let AnnualRates { rows, dropped_zeros, dropped_certain } = annual_rates(rows, content, years, name, place)?;
     let Declared { measure, unit } = options.declared.clone();
     let (im, maf) = rows.iter().map(|row| (row.im, row.value)).unzip();
     let curve = HazardCurve::new_at(measure, unit, source, im, maf, |index| place(rows[index].at))?;
@@ -168,6 +168,8 @@ const MISTAKES_NAMED: usize = 5;
 struct Table {
     rows: Vec<Row>,
     content: SecondColumn,
+    /// That probabilities refer to, as the head or the options have it.
+    years: Option<f64>,
     source: String,
     component: Option<ComponentDefinition>,
 }
@@ -183,6 +185,7 @@ impl Table {
         let mut note = |mistake| if mistakes.len() < MISTAKES_NAMED { mistakes.push(mistake) } else { more += 1 };
         // Which column is the level, and what the other holds; known from the first row on.
         let mut columns: Option<(usize, SecondColumn)> = None;
+        let mut years = options.years;
         // `split` and not `lines`: old spreadsheets end lines with a carriage return alone.
         let unified = text.replace("\r\n", "\n").replace('\r', "\n");
         let commas = has_decimal_commas(&unified, name)?;
@@ -212,7 +215,7 @@ impl Table {
             let fields = [&*fields[0], &*fields[1]];
             let header = columns.is_none() && fields.iter().all(|field| field.parse::<f64>().is_err());
             if header {
-                columns = Some(read_header(fields, options, &place)?);
+                columns = Some(read_header(fields, options, &mut years, &place)?);
                 continue;
             }
             let (level, _) = match columns {
@@ -233,7 +236,7 @@ impl Table {
             return Err(HazardError::TooFewPoints { name: name.to_owned(), found: 0 });
         };
         let source = if comments.is_empty() { name.to_owned() } else { comments.join("\n") };
-        Ok(Self { rows, content, source, component })
+        Ok(Self { rows, content, years, source, component })
     }
 }
 
@@ -279,8 +282,13 @@ fn two_fields<'a>(line: &'a str, place: &Place) -> Result<Option<[&'a str; 2]>, 
     }
 }
 
-/// Which of the two columns is the level, and what the other holds.
-fn read_header(fields: [&str; 2], options: &CsvOptions, place: &Place) -> Result<(usize, SecondColumn), HazardError> {
+/// Which of the two columns is the level, and what the other holds; the years that its name says go to `years`.
+fn read_header(
+    fields: [&str; 2],
+    options: &CsvOptions,
+    years: &mut Option<f64>,
+    place: &Place,
+) -> Result<(usize, SecondColumn), HazardError> {
     let fail = |reason: String| Err(HazardError::Row { place: place.clone(), reason });
     let mut level = None;
     let mut content = None;
@@ -291,6 +299,17 @@ fn read_header(fields: [&str; 2], options: &CsvOptions, place: &Place) -> Result
                 level = Some(index);
             }
             Some(Column::Hazard(found)) => content = Some(found),
+            Some(Column::ProbabilityWithin(found)) => {
+                if let Some(declared) = years.replace(found).filter(|declared| declared.total_cmp(&found).is_ne()) {
+                    return Err(HazardError::Contradiction {
+                        place: place.clone(),
+                        what: "period of the probabilities",
+                        found: format!("{found} years"),
+                        declared: format!("{declared} years"),
+                    });
+                }
+                content = Some(SecondColumn::Probability);
+            }
             None => {
                 let field = excerpt(field);
                 return fail(format!(

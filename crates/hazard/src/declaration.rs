@@ -36,10 +36,12 @@ impl SecondColumn {
 }
 
 /// A column recognised by its name.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Column {
     Intensity(Declaration),
     Hazard(SecondColumn),
+    /// Probabilities of exceedance within so many years.
+    ProbabilityWithin(f64),
 }
 
 /// Names of intensity columns that say nothing about the measure.
@@ -68,6 +70,9 @@ pub(crate) fn column(name: &str, declared_measure: Option<&str>) -> Option<Colum
     if is(&RETURN_PERIODS) {
         return unit.is_none_or(is_years).then_some(Column::Hazard(SecondColumn::ReturnPeriod));
     }
+    if let Some(years) = PROBABILITIES.iter().find_map(|name| years_within(key.strip_prefix(name)?)) {
+        return unit.is_none().then_some(Column::ProbabilityWithin(years));
+    }
     let unit = unit.map(str::to_owned);
     if is(&GENERIC) {
         return Some(Column::Intensity(Declaration { unit, ..Declaration::default() }));
@@ -75,6 +80,14 @@ pub(crate) fn column(name: &str, declared_measure: Option<&str>) -> Option<Colum
     let is_declared = declared_measure.is_some_and(|declared| same_measure(plain, declared));
     (is(&MEASURES) || key.starts_with("sa(") || key.starts_with("avgsa(") || is_declared)
         .then(|| Column::Intensity(Declaration { measure: Some(plain.to_owned()), unit, ..Declaration::default() }))
+}
+
+/// The years of `_in_50_years`, `_50yr` and the like; none of other text, and of no positive number.
+fn years_within(text: &str) -> Option<f64> {
+    let text = text.strip_prefix('_')?;
+    let text = text.strip_prefix("in_").or_else(|| text.strip_prefix("within_")).unwrap_or(text);
+    let number = ["years", "year", "yrs", "yr", "y"].iter().find_map(|word| text.strip_suffix(word))?;
+    number.trim_end_matches('_').parse().ok().filter(|years: &f64| years.is_finite() && *years > 0.0)
 }
 
 /// Reads `IM: PGV [cm/s]`, `unit: cm/s` and `component: RotD50` out of a comment, among other text
@@ -219,7 +232,25 @@ mod tests {
         ] {
             assert_eq!(column(name, Some("PGV")), Some(Column::Hazard(what)), "{name}");
         }
-        for name in ["", "lon", "poe-0.1", "_g", "[g]", "sigma", "maf [1/day]", "poe [%]"] {
+        for (name, years) in
+            [("PoE in 50 years", 50.0), ("poe_50yr", 50.0), ("Probability of exceedance in 1 year", 1.0)]
+        {
+            assert_eq!(column(name, Some("PGV")), Some(Column::ProbabilityWithin(years)), "{name}");
+        }
+        for name in [
+            "",
+            "lon",
+            "poe-0.1",
+            "poe in years",
+            "poe in -5 years",
+            "poe in nan years",
+            "poe in 5 days",
+            "_g",
+            "[g]",
+            "sigma",
+            "maf [1/day]",
+            "poe [%]",
+        ] {
             assert_eq!(column(name, Some("PGV")), None, "{name}");
             assert_eq!(column(name, None), None, "{name}");
         }

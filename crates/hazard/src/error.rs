@@ -232,8 +232,8 @@ pub enum HazardError {
     },
     /// A table of probabilities without the period they belong to.
     #[error(
-        "{place}: probabilities of exceedance need their period, often 50 or 1 year: years = 50 beside the curve in a \
-         study, --years 50 of a command"
+        "{place}: probabilities of exceedance need the years that they refer to: \"PoE in 50 years\" as the column's \
+         name, or years = 50 beside the curve in the study"
     )]
     YearsMissing {
         /// File and line.

@@ -50,13 +50,19 @@ fn probabilities_need_their_period() {
     let text = "iml,poe\n1,0.5\n2,0.02\n";
     assert_eq!(
         message(text),
-        "site.csv, line 2: probabilities of exceedance need their period, often 50 or 1 year: years = 50 beside the \
-         curve in a study, --years 50 of a command"
+        "site.csv, line 2: probabilities of exceedance need the years that they refer to: \"PoE in 50 years\" as the \
+         column's name, or years = 50 beside the curve in the study"
     );
     let options = CsvOptions { years: Some(50.0), ..CsvOptions::new("PGV", "cm/s") };
     let curve = read_csv(text, "site.csv", &options).unwrap().curve;
     assert_eq!(curve.maf()[0], std::f64::consts::LN_2 / 50.0);
     assert!((curve.maf()[1] - 0.000_404_05).abs() < 5e-9);
+    // the head may say it, and must not say another one
+    let head = text.replace("iml,poe", "PGV (cm/s),PoE in 50 years");
+    assert_eq!(read_csv(&head, "site.csv", &CsvOptions::new("PGV", "cm/s")).unwrap().curve.maf(), curve.maf());
+    let other = CsvOptions { years: Some(1.0), ..CsvOptions::new("PGV", "cm/s") };
+    let contradiction = read_csv(&head, "site.csv", &other).unwrap_err().to_string();
+    assert!(contradiction.contains("line 1") && contradiction.contains("50 years"), "{contradiction}");
     let options = CsvOptions { years: Some(-1.0), ..CsvOptions::new("PGV", "cm/s") };
     assert!(matches!(read_csv(text, "site.csv", &options), Err(HazardError::Argument { .. })));
 }

@@ -87,9 +87,7 @@ impl std::error::Error for Implausible {}
 impl fmt::Display for Unlikely {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, value, usual } = self;
-        // one that is computed has more digits than anyone reads
-        let value = format!("{value:.5e}").parse().unwrap_or(*value);
-        write!(formatter, "{name} is {}{}; usual is {usual}", short_number(value), spaced(usual.unit))
+        write!(formatter, "{name} is {}{}; usual is {usual}", short_number(*value), spaced(usual.unit))
     }
 }
 

@@ -103,7 +103,7 @@
 //! ```
 
 use serde::Deserialize;
-use uplift_plausible::Unlikely;
+use uplift_plausible::{UPLIFT_DISPLACEMENT, Unlikely};
 
 use crate::block::{Block, Body, PointMass, Reference};
 use crate::curved::CurvedFrame;
@@ -202,6 +202,8 @@ pub struct StructureDescription {
     pub extended_width_m: Option<f64>,
     /// Uplift displacement `u_up`, m; 0.0005 if left out.
     pub uplift_displacement_m: Option<f64>,
+    /// Period with closed joints, s, in place of the uplift displacement: `u_up = f̃_up/m̃ (T/2π)²` (Section 3.5).
+    pub period_s: Option<f64>,
     /// Acceleration of gravity, m/s²; 9.80665 if left out.
     pub gravity_m_s2: Option<f64>,
     /// Velocity after over before an impact; whoever analyses the structure chooses where it is left out.
@@ -227,6 +229,11 @@ impl StructureDescription {
         audit::allowed(key)
     }
 
+    /// Whether neither the uplift displacement is given nor what it follows from.
+    pub fn assumes_uplift_displacement(&self) -> bool {
+        self.uplift_displacement_m.is_none() && self.period_s.is_none()
+    }
+
     /// The numbers that can be but are unlikely, mistakes of unit mostly; of a description that
     /// [`resolve`](Self::resolve) takes.
     pub fn unlikely(&self) -> Vec<Unlikely> {
@@ -235,6 +242,16 @@ impl StructureDescription {
 
     fn equivalent(&self) -> Result<EquivalentSystem, StructureError> {
         let conditions = self.conditions()?;
+        let system = self.equivalent_under(conditions)?;
+        let Some(period_s) = self.period_s else { return Ok(system) };
+        // what it follows from does not hang on it
+        let uplift_m = system.uplift_force_n() / system.mass_kg() * (period_s / std::f64::consts::TAU).powi(2);
+        let uplift_m = UPLIFT_DISPLACEMENT.check("uplift_displacement_m (from period_s)", uplift_m);
+        let uplift_m = uplift_m.map_err(StructureError::Implausible)?;
+        self.equivalent_under(Conditions::new(conditions.gravity_m_s2(), uplift_m)?)
+    }
+
+    fn equivalent_under(&self, conditions: Conditions) -> Result<EquivalentSystem, StructureError> {
         match self.kind {
             Kind::PointMass => self.point_mass()?.equivalent(conditions),
             Kind::Block => self.block()?.equivalent(self.displacement_of.unwrap_or_default(), conditions),

@@ -282,12 +282,6 @@ impl EquivalentSystem {
         self.conditions.uplift_displacement_m / self.participation
     }
 
-    /// Displacement at uplift of a structure whose period with closed joints is `period_s`, in s:
-    /// `f̃_up/m̃ (T/2π)²`, m (Section 3.5).
-    pub fn uplift_displacement_of_period_m(&self, period_s: f64) -> f64 {
-        self.uplift_force_n / self.mass_kg * (period_s / std::f64::consts::TAU).powi(2)
-    }
-
     /// Whether a spectrum of oscillators that uplift at `uplift_displacement_m` \[m\] is of such ones: within 1 %,
     /// which no response tells apart.
     pub fn is_of_uplift_displacement(&self, uplift_displacement_m: f64) -> bool {

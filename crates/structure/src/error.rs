@@ -96,6 +96,9 @@ pub enum StructureError {
         /// Radius of the extensions, m.
         radius_m: f64,
     },
+    /// A period beside the displacement that follows from it.
+    #[error("`period_s` and `uplift_displacement_m` give the displacement at uplift twice: leave one out")]
+    UpliftTwice,
     /// The displacement capacity does not exceed the uplift displacement.
     #[error(
         "the displacement capacity {capacity_m} m is not above `uplift_displacement_m` = {uplift_displacement_m} m: \
@@ -200,13 +203,14 @@ impl StructureError {
             }
             Self::Implausible(Implausible { name, .. }) => std::slice::from_ref(name),
             Self::MissingAnchorage => &["tendon_anchorage"],
+            Self::UpliftTwice => &["period_s"],
             Self::Geometry { .. } => {
                 &["width_m", "height_m", "centre_height_m", "slenderness_rad", "slenderness_deg", "size_m"]
             }
             Self::Massless => &["deck_mass_kg", "column_mass_kg"],
             Self::InertiaBelowPointMass { .. } => &["moment_of_inertia_kg_m2"],
             Self::Extension { .. } => &["extended_width_m", "curvature_radius_m", "width_m"],
-            Self::CapacityBelowUplift { .. } => &["uplift_displacement_m"],
+            Self::CapacityBelowUplift { .. } => &["uplift_displacement_m", "period_s"],
             _ => &[],
         }
     }

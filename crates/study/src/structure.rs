@@ -10,7 +10,7 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::json;
-use uplift_plausible::{CONCRETE_STRENGTH, PERIOD, UPLIFT_DISPLACEMENT};
+use uplift_plausible::{CONCRETE_STRENGTH, UPLIFT_DISPLACEMENT};
 use uplift_statics::{Parts, RestrainedColumns, Restrainer, StaticsError, TendonPath};
 use uplift_structure::{
     Allowed, Anchorage, EquivalentSystem, Kind, Reference, RotatingBlock, StructureDescription, StructureError,
@@ -117,9 +117,8 @@ const EXTENDED_WIDTH_M: Key<Judged> =
 const UPLIFT_DISPLACEMENT_M: Key<Number> = number("uplift_displacement_m", "m", Rule::Within(UPLIFT_DISPLACEMENT))
     .without_default("0.0005")
     .meaning("displacement at uplift u_up, m");
-const PERIOD_S: Key<Number> = number("period_s", "s", Rule::Within(PERIOD))
-    .without_default("")
-    .meaning("period T with closed joints, in place of `uplift_displacement_m`, s");
+const PERIOD_S: Key<Judged> =
+    judged("period_s", "s").meaning("period T with closed joints, in place of `uplift_displacement_m`, s");
 const GRAVITY_M_S2: Key<Judged> =
     judged("gravity_m_s2", "m/s2").without_default("9.80665").meaning("acceleration of gravity, m/s²");
 const RESTITUTION: Key<Judged> = judged("restitution", "")
@@ -285,7 +284,7 @@ impl Mistake {
         if keys.iter().any(told) {
             return None;
         }
-        let place = keys.first().and_then(|key| places.iter().find_map(|(_, within)| within.get(key)));
+        let place = keys.iter().find_map(|key| places.iter().find_map(|(_, within)| within.get(key)));
         let header = matches!(self, Self::Restrainer(_)).then(|| document.get("restrainer")).flatten();
         let origin = place
             .map(|entry| entry.node.origin.clone())
@@ -298,8 +297,6 @@ impl Mistake {
 /// Everything that a file says, before it is judged.
 struct ReadStructure {
     description: StructureDescription,
-    /// In place of the displacement at uplift.
-    period_s: Option<f64>,
     restrainer: Option<ReadRestrainer>,
     column_shape: ColumnShape,
     f_cd_pa: Option<f64>,
@@ -334,9 +331,6 @@ impl ReadStructure {
                 Ok(None) => {}
                 Err(mistake) => mistakes.push(Mistake::Restrainer(mistake)),
             }
-        }
-        if let (Some(period_s), Ok(system)) = (self.period_s, self.description.resolve()) {
-            self.description.uplift_displacement_m = Some(system.uplift_displacement_of_period_m(period_s));
         }
         let system = self.description.resolve();
         let block = self.description.rotating_block();
@@ -445,6 +439,7 @@ fn read(mut root: Section<'_>) -> Option<ReadStructure> {
         tendon_stiffness_n_m: number(&TENDON_STIFFNESS_N_M),
         curvature_radius_m: number(&CURVATURE_RADIUS_M),
         extended_width_m: number(&EXTENDED_WIDTH_M),
+        period_s: number(&PERIOD_S),
         gravity_m_s2: number(&GRAVITY_M_S2),
         restitution: number(&RESTITUTION),
         uplift_displacement_m: root.optional(&UPLIFT_DISPLACEMENT_M).flatten(),
@@ -455,11 +450,6 @@ fn read(mut root: Section<'_>) -> Option<ReadStructure> {
         displacement_of: root.optional(&DISPLACEMENT_OF).flatten(),
         tendon_anchorage: root.optional(&TENDON_ANCHORAGE).flatten(),
     };
-    let period = root.given(&PERIOD_S);
-    if let Some(period) = period.as_ref().filter(|_| description.uplift_displacement_m.is_some()) {
-        period.mistake("the displacement at uplift is given twice", "leave out period_s or uplift_displacement_m");
-    }
-    let period_s = period.and_then(|period| PERIOD_S.read(&period));
     let restrainer = restrainer::read(&mut root, &description);
     let column_shape = root.read(&COLUMN_SHAPE).unwrap_or_default();
     let f_cd_pa = root.optional(&F_CD_PA).flatten();
@@ -470,7 +460,6 @@ fn read(mut root: Section<'_>) -> Option<ReadStructure> {
     root.finish();
     kind.map(|_| ReadStructure {
         description,
-        period_s,
         restrainer,
         column_shape,
         f_cd_pa,
@@ -488,7 +477,7 @@ fn read_uncertainty(
     let described = |quantity: UncertainQuantity| {
         let Some(Ok(structure)) = resolved else { return Described::Mistaken };
         let is_assumed =
-            quantity == UncertainQuantity::UpliftDisplacement && structure.description.uplift_displacement_m.is_none();
+            quantity == UncertainQuantity::UpliftDisplacement && structure.description.assumes_uplift_displacement();
         match quantity.value(&structure.system, structure.description.restitution) {
             Some(value) if is_assumed => Described::Assumed(value),
             Some(value) => Described::As(value),

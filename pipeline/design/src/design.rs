@@ -77,7 +77,7 @@ pub struct DesignOptions {
     /// Judge the proxy alone, without the wobbling frame
     #[arg(long)]
     pub proxy: bool,
-    /// Say what a small change of the strength and rounding make of the numbers, at three times the cost.
+    /// Say what a small change of the strength and rounding make of the numbers, with 16 times the analyses.
     #[arg(skip)]
     pub sensitivity: bool,
     /// Every shard of the structure's own analysis, as [`design_shard`] wrote them with the same `sensitivity`; none to
@@ -502,7 +502,7 @@ fn result_at(path: &Path, risk: OneRisk, events: &dyn Events) -> Result<ResultFi
 fn assumed(structure: &Structure, restitution: f64) -> Vec<String> {
     let description = &structure.description;
     let uplift_mm = rounded(1e3 * structure.system.conditions().uplift_displacement_m(), 4);
-    let uplift = description.uplift_displacement_m.is_none().then(|| format!("uplift displacement {uplift_mm} mm"));
+    let uplift = description.assumes_uplift_displacement().then(|| format!("uplift displacement {uplift_mm} mm"));
     let restitution = description.restitution.is_none().then(|| format!("restitution {restitution}"));
     uplift.into_iter().chain(restitution).collect()
 }

@@ -277,6 +277,10 @@ impl TargetReport {
             Some(bound) => rows.push(there.within([f64::NAN, bound], "at most")),
             None => rows.extend(of_bands(&there, |band| band.per_year)),
         }
+        let at = if self.safe_value.is_finite() { "safe value" } else { "value found" };
+        for other in &self.by_other_measures {
+            rows.extend(rate(&format!("{} at the {at}", self.event), &other.risk, None, [&self.site, other.im]));
+        }
         if let Some(frame) = &self.frame {
             rows.push(of_quantity(format!("safe {quantity}, wobbling frame"), frame.safe_value));
             let what = |model: &str| format!("{} at {quantity} {}, {model}", self.event, frame.value);

@@ -166,8 +166,8 @@ pub struct TargetByMeasure {
     /// The risk.
     #[serde(flatten)]
     pub risk: EventRisk,
-    /// Whether it meets the target.
-    pub is_met: bool,
+    /// Whether it meets the target by the best estimate; none where the records cannot tell.
+    pub is_met: Option<bool>,
 }
 
 /// How often it happens given the level of a return period.
@@ -303,7 +303,7 @@ pub fn target(
     let (frame, falls) = judged.judge(&mut trials, [safe_value, value, range[1]])?;
     notes.extend(frame.as_ref().map(|_| of_frame(structure)));
     let by_proxy = wobbles && frame.is_none();
-    notes.extend(assumptions(structure, &file, (trials.restitution(), by_proxy)));
+    notes.extend(assumptions(&file, by_proxy));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
     let counts = (trials.record_count(), trials.pairs().len());
@@ -313,6 +313,7 @@ pub fn target(
     alarms.extend(own_risk_alarms(&risks));
     let bands = frequencies.bands(value, target_per_year);
     let safe = tried.iter().find(|(tried, _)| tried.total_cmp(&safe_value).is_eq());
+    let by_other_measures = judged_by(&others, &mut trials, ([safe_value, value], target_per_year))?;
     let mut report = TargetReport {
         uncertainty: trials.around().map(|around| TargetUncertainty::from_tried(around, &tried, target_per_year)),
         structure: StructureReport::from_structure(structure, Some(trials.restitution())),
@@ -334,7 +335,7 @@ pub fn target(
         missed_at: tried[at - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
         risk: found.risk,
-        by_other_measures: Vec::new(),
+        by_other_measures,
         kept: kept(structure, trials.restitution()),
         found: FoundSystem::from_system(&found.candidate.system),
         per_year_within_one_percent: noise,
@@ -349,7 +350,6 @@ pub fn target(
         files: Vec::new(),
         source: ReportSource::read(&file, &source)?,
     };
-    report.by_other_measures = judged_by(&others, &mut trials, &report)?;
     if let Some(path) = &options.table {
         table::write(path, &report)?;
         report.files = vec![path.clone()];
@@ -372,12 +372,13 @@ fn other_measures<'a>(
 fn judged_by<'a>(
     others: &'a [(&'a SpectraOfResult, Hazard<'a>)],
     trials: &mut Trials<'a>,
-    report: &TargetReport,
+    ([safe_value, value], target_per_year): ([f64; 2], f64),
 ) -> Result<Vec<TargetByMeasure>, DesignError> {
-    let value = if report.safe_value.is_finite() { report.safe_value } else { report.value };
+    let value = if safe_value.is_finite() { safe_value } else { value };
     let judged = |(measure, hazard): &'a (&'a SpectraOfResult, Hazard<'a>)| {
         let attempt = trials.attempt_by(value, (*measure, hazard))?;
-        let is_met = attempt.meets(report.target_per_year);
+        let is_told = attempt.risk.at_most_per_year.is_none_or(|bound| bound <= target_per_year);
+        let is_met = is_told.then(|| attempt.meets(target_per_year));
         Ok(TargetByMeasure { im: measure.measure().label(), risk: attempt.risk, is_met })
     };
     others.iter().map(judged).collect()

@@ -174,7 +174,7 @@ fn print_inferred(out: &mut impl Write, report: &BootstrapReport) -> Result<(), 
 /// How wide the band is for each number of records, over all sites.
 fn print_sizes(out: &mut impl Write, report: &BootstrapReport, shown: &DisplacementReport) -> Result<(), CommandError> {
     let width = |own: &Displacement| own.band_m.map_or(0.0, |[lower_m, upper_m]| (upper_m - lower_m) / own.u_m);
-    let banded = shown.displacements.iter().filter(|own| width(own) > 0.0 && width(own).is_finite());
+    let banded = shown.displacements.iter().filter(|own| own.u_m.is_finite() && width(own) > 0.0);
     let Some(widest) = banded.max_by(|a, b| width(a).total_cmp(&width(b))) else { return Ok(()) };
     let stored = &report.stored;
     let at_site = stored.sites.iter().position(|site| *site == widest.site);
@@ -185,10 +185,10 @@ fn print_sizes(out: &mut impl Write, report: &BootstrapReport, shown: &Displacem
     let (Some(site), Some(poe), Some(strength), Some(inferred)) = (at_site, at_poe, at_strength, inferred) else {
         return Ok(());
     };
+    let (site_name, at) = (&widest.site, widest.strength);
     writeln!(
         out,
-        "\nWidest band above: {}, strength {}. With so many records it is, in per cent of the displacement,",
-        widest.site, widest.strength
+        "\nWidest band: {site_name}, strength {at}; limits in per cent of the displacement, by the number of records"
     )?;
     for (size, count) in report.sizes.iter().enumerate() {
         let [lower, upper] = inferred.truth_m.each_ref().map(|limits| limits.block([site, poe, size])[strength]);

@@ -165,13 +165,13 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         if !report.assumed.is_empty() {
             writeln!(out, "          assumed: {}", report.assumed.join(", "))?;
         }
-        // the notes begin with what the structure and the spectrum do not have in common
-        if let Some(difference) = report.notes.first().filter(|_| report.other_oscillator) {
-            writeln!(out, "          {difference}")?;
-        }
-        if let Some(settings) = &report.own_oscillator {
-            writeln!(out, "          for its own spectrum run the study with {settings}")?;
-        }
+    }
+    // the notes begin with what the structure and the spectrum do not have in common
+    if let Some(difference) = report.notes.first().filter(|_| report.other_oscillator) {
+        writeln!(out, "          {difference}")?;
+    }
+    if let Some(settings) = &report.own_oscillator {
+        writeln!(out, "          for its own spectrum run the study with {settings}")?;
     }
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();

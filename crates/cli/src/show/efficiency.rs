@@ -169,11 +169,12 @@ impl Shown<'_> {
             .filter(|of| of[0].im != first.im)
             .map(|of| {
                 let strengths: Vec<String> = of.iter().map(|row| rounded(row.strength, 3).to_string()).collect();
-                format!("; {} at strength {}", label(of[0]), strengths.join(", "))
+                format!("{} at strength {}", label(of[0]), strengths.join(", "))
             })
             .collect();
         let key = first.im.parse().map(IntensityMeasure::key).unwrap_or_default();
-        Some((label(first), key.to_owned(), others.concat()))
+        let others = if others.is_empty() { String::new() } else { format!(" ({})", others.join("; ")) };
+        Some((label(first), key.to_owned(), others))
     }
 }
 

@@ -63,12 +63,23 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         report.safe_risk.map_or_else(String::new, |risk| format!(", {} at the safe value", risk_cells(&risk)[0]));
     writeln!(out, "Risk      {per_year} per year at the best estimate{at_safe}")?;
     let at = unit(if report.safe_value.is_finite() { report.safe_value } else { *value }.to_string());
+    let whose = if report.frame.is_some() || report.by_proxy { "its proxy by" } else { "by" };
     for other in &report.by_other_measures {
         let [per_year, ..] = risk_cells(&other.risk);
-        let verdict = if other.is_met { "meets" } else { "MISSES" };
-        writeln!(out, "          by {} {per_year} per year at {at}: {verdict} the target", other.im)?;
+        let verdict = match other.is_met {
+            Some(true) => "meets the target",
+            Some(false) => "MISSES the target",
+            None => "the levels are too low to tell",
+        };
+        writeln!(out, "          {whose} {} {per_year} per year at {at}: {verdict}", other.im)?;
     }
-    writeln!(out, "Kept      {}: give the structure you choose its own, and check it by uplift design", report.kept)?;
+    if !report.kept.is_empty() {
+        writeln!(
+            out,
+            "Assumed   {} at every {quantity}: give the structure that you choose its own, and run uplift overturning",
+            report.kept
+        )?;
+    }
     if let Some(frame) = &report.frame {
         print_frame(out, report, frame)?;
     }

@@ -3,8 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use uplift_plausible::{
-    COLUMNS, CURVATURE_RADIUS, GRAVITY, LENGTH, MASS, MOMENT_OF_INERTIA, RESTITUTION, Range, SIZE, TENDON_STIFFNESS,
-    UPLIFT_DISPLACEMENT,
+    COLUMNS, CURVATURE_RADIUS, GRAVITY, LENGTH, MASS, MOMENT_OF_INERTIA, PERIOD, RESTITUTION, Range, SIZE,
+    TENDON_STIFFNESS, UPLIFT_DISPLACEMENT,
 };
 
 use super::{Kind, StructureDescription};
@@ -85,7 +85,7 @@ const fn from_zero(range: Range) -> Allowed {
 }
 
 /// Every quantity that is a number, in the order of the documentation.
-const QUANTITIES: [Quantity; 17] = [
+const QUANTITIES: [Quantity; 18] = [
     quantity("width_m", "m", Plausible(LENGTH), |of| of.width_m, accepted),
     quantity("height_m", "m", Plausible(LENGTH), |of| of.height_m, |kind| accepted_if(!kind.is_by_centre())),
     quantity(
@@ -131,6 +131,7 @@ const QUANTITIES: [Quantity; 17] = [
     quantity("curvature_radius_m", "m", Plausible(CURVATURE_RADIUS), |of| of.curvature_radius_m, needed_of_curved),
     quantity("extended_width_m", "m", Plausible(LENGTH), |of| of.extended_width_m, needed_of_curved),
     quantity("uplift_displacement_m", "m", from_zero(UPLIFT_DISPLACEMENT), |of| of.uplift_displacement_m, accepted),
+    quantity("period_s", "s", Plausible(PERIOD), |of| of.period_s, accepted),
     quantity("gravity_m_s2", "m/s²", Plausible(GRAVITY), |of| of.gravity_m_s2, accepted),
     quantity("restitution", "", Plausible(RESTITUTION), |of| of.restitution, accepted),
 ];
@@ -171,6 +172,9 @@ pub(super) fn mistakes(of: &StructureDescription) -> Vec<StructureError> {
             mistakes.push(StructureError::Foreign { key: "tendon_anchorage", value: value.to_owned(), unit: "", kind });
         }
         _ => {}
+    }
+    if of.period_s.is_some() && of.uplift_displacement_m.is_some() {
+        mistakes.push(StructureError::UpliftTwice);
     }
     // values are judged above: here only a wrong choice of them counts
     if let Err(mistake @ StructureError::Geometry { .. }) = of.geometry() {

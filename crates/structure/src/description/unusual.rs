@@ -44,7 +44,9 @@ fn bulk_kg_m3(of: &StructureDescription) -> Option<(&'static str, f64)> {
     };
     let geometry = of.geometry().ok()?;
     let volume_m3 = geometry.width_m().powi(2) * geometry.height_m();
-    (mass_kg > 0.0 && volume_m3 > 0.0).then(|| (name, mass_kg / volume_m3))
+    // three digits of what is computed
+    let bulk = || format!("{:.2e}", mass_kg / volume_m3).parse().unwrap_or(mass_kg / volume_m3);
+    (mass_kg > 0.0 && volume_m3 > 0.0).then(|| (name, bulk()))
 }
 
 /// The rotation at which a frame with tendons or curved ends has lost its stability, rad. A body that is held by

@@ -19,7 +19,6 @@ impl Structure {
         };
         let read = ReadStructure {
             description,
-            period_s: None,
             restrainer: None,
             column_shape: self.column_shape,
             f_cd_pa: self.f_cd_pa,

@@ -43,10 +43,23 @@ fn write(finding: &Finding, result: &Path, events: &dyn Events) -> Result<(), De
     }
     let earlier = file.findings()?;
     let (key, group) = (finding.key(), finding.group());
+    if earlier.iter().any(|of| says_more(&of.finding, finding)) {
+        return Ok(());
+    }
     let replaced = [group.clone(), axis::path(&axis::finding(&key))];
     locked.write(&replaced, |writer| add(writer, finding, &group))?;
     tell_of_another_file(finding, &earlier, events);
     Ok(())
+}
+
+/// Whether an answer that is kept has every number of a new one to the same question, and more beside them: a design
+/// with the neighbours of its strength.
+fn says_more(kept: &Finding, new: &Finding) -> bool {
+    let of = |of: &Finding| (of.group(), of.structure_sha256(), of.study_digest.clone());
+    let bits = |of: &Finding| -> Vec<[u64; 3]> {
+        of.rows.iter().map(|row| [row.value, row.limits[0], row.limits[1]].map(f64::to_bits)).collect()
+    };
+    of(kept) == of(new) && bits(kept) == bits(new) && kept.document.len() > new.document.len()
 }
 
 /// Says which answers were of the structure file as it was before.

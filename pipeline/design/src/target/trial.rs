@@ -9,7 +9,7 @@ use uplift_hazard::HazardCurve;
 use uplift_ida::{Peaks, Plan, System};
 use uplift_job::JobError;
 use uplift_job::events::Events;
-use uplift_job::text::{rate, records_in_words, thousands};
+use uplift_job::text::{counted, rate, records_in_words, thousands};
 use uplift_risk::StripeWeights;
 use uplift_structure::Quantity;
 use uplift_study::{Structure, UniformRiskStudy};
@@ -170,7 +170,7 @@ impl<'a> Trials<'a> {
     /// A value that no such structure has; [`JobError::Paused`] where the events say so.
     pub(super) fn attempt(&mut self, values: &[f64]) -> Result<Vec<Attempt>, DesignError> {
         let candidates = values.iter().map(|&value| self.candidate(value)).collect::<Result<Vec<_>, _>>()?;
-        let label = format!("{}, {} values", self.measure.measure().label(), values.len());
+        let label = format!("{}, {}", self.measure.measure().label(), counted(values.len(), "value"));
         let levels = self.measure.plan.levels.to_vec();
         let analysed = self.analyse(&label, &levels, &candidates)?;
         let weigh = |(place, candidate)| self.weigh(&analysed.peaks, place, candidate);

@@ -124,28 +124,21 @@ impl Words<'_> {
     }
 }
 
-/// What a structure of every value keeps, in words; its restitution is this.
+/// What a structure of every value keeps, but for what is drawn, in words; its restitution is this.
 pub(super) fn kept(structure: &Structure, restitution: f64) -> String {
+    let is_drawn = |quantity| structure.uncertainty.as_ref().is_some_and(|of| of.quantities.contains(&quantity));
     let uplift_mm = rounded(1e3 * structure.system.conditions().uplift_displacement_m(), 4);
-    format!("uplift displacement {uplift_mm} mm, restitution {restitution}")
+    let period_s = structure.description.period_s;
+    let uplift = period_s.map_or_else(|| format!("uplift displacement {uplift_mm} mm"), |s| format!("period {s} s"));
+    let uplift = Some(uplift).filter(|_| !is_drawn(UncertainQuantity::UpliftDisplacement));
+    let restitution = Some(restitution).filter(|_| !is_drawn(UncertainQuantity::Restitution));
+    let kept = uplift.into_iter().chain(restitution.map(|restitution| format!("restitution {restitution}")));
+    kept.collect::<Vec<_>>().join(", ")
 }
 
-/// What is taken for granted of the structure and of the records.
-pub(super) fn assumptions(
-    structure: &Structure,
-    file: &ResultFile,
-    (restitution, by_proxy): (f64, bool),
-) -> Vec<String> {
+/// What is taken for granted of the records and of the model.
+pub(super) fn assumptions(file: &ResultFile, by_proxy: bool) -> Vec<String> {
     let mut notes = Vec::new();
-    let is_drawn =
-        structure.uncertainty.as_ref().is_some_and(|of| of.quantities.contains(&UncertainQuantity::Restitution));
-    if structure.description.restitution.is_none() && !is_drawn {
-        notes.push(format!(
-            "every value has the restitution of the study, {restitution}. A more slender structure loses less energy \
-             at an impact, and its risk is larger: write the restitution of the structure found into its file, and \
-             run uplift overturning"
-        ));
-    }
     if file.stored_study().is_ok_and(|study| study.records.vertical) {
         notes.push(
             "every value is found with the equivalent oscillator, which ignores the vertical components of the \

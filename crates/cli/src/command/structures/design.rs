@@ -33,11 +33,11 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
     if let Some(file) = &arguments.report {
         check_design_sheet(file, urs, &arguments.structure.inputs(), arguments.overwriting.force)?;
     }
-    // shards are joined for one question and another
+    // a shard serves every later question
     let is_shared = shard.is_some() || !shards.is_empty();
     let sensitivity = is_shared || arguments.json || arguments.report.is_some() || terminal.shows_details();
-    let shared = (manifest.clone(), shards.clone());
-    let options = DesignOptions { manifest: shared.0, shards: shared.1, sensitivity, ..arguments.options.clone() };
+    let (manifest, shards) = (manifest.clone(), shards.clone());
+    let options = DesignOptions { manifest, shards, sensitivity, ..arguments.options.clone() };
     let structure = arguments.structure.load()?;
     if let Some(shard) = shard {
         return print_shard(&design_shard(&structure, urs, &options, *shard, terminal)?, terminal);
