@@ -78,6 +78,17 @@ impl Declared {
     }
 }
 
+/// The years that the probabilities of a table refer to, where the name of their column says them: `PoE in 50 years`.
+pub fn years_in_table(text: &str) -> Option<f64> {
+    let head = text.trim_start_matches('\u{feff}').lines().take(LONGEST_HEAD);
+    let columns = head.filter(|line| !line.trim().trim_start_matches('"').starts_with('#'));
+    let names = columns.flat_map(|line| line.split([',', ';', '\t']));
+    names.map(|name| declaration::column(name.trim().trim_matches('"'), None)).find_map(|column| match column {
+        Some(Column::ProbabilityWithin(years)) => Some(years),
+        _ => None,
+    })
+}
+
 /// What the second column may be called.
 const HAZARD_NAMES: &str = "maf (rate per year), poe (probability) or return_period (years)";
 

@@ -42,7 +42,9 @@ mod text;
 mod unit;
 
 pub use component::ComponentDefinition;
-pub use csv::{CsvCurve, CsvOptions, Declared, MAX_FILE_BYTES, SecondColumn, read_csv, read_path, table_text};
+pub use csv::{
+    CsvCurve, CsvOptions, Declared, MAX_FILE_BYTES, SecondColumn, read_csv, read_path, table_text, years_in_table,
+};
 pub use curve::{HazardCurve, HazardPoint};
 pub use error::{HazardError, Place};
 pub use import::{

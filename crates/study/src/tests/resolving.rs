@@ -1,3 +1,4 @@
+use std::fs;
 use std::path::Path;
 
 use proptest::prelude::*;
@@ -128,6 +129,24 @@ fn a_study_of_spectral_acceleration_alone() {
     assert_eq!((&again.measures, &again.consistency), (&study.measures, &study.consistency));
     let error = folder.load(&["measures.sa_2s.levels_g=0.1:0.1:1"]).unwrap_err();
     assert_eq!(error.mistakes().len(), 1, "no curve: {error}");
+}
+
+/// A file that says unit and years itself needs neither in the study; what the study says is kept.
+#[test]
+fn a_curve_that_names_its_columns() {
+    for (pgv, kind) in [
+        ("\"pgv.csv\"", CurveKind::Poe { years: 50.0 }),
+        ("{ file = \"pgv.csv\" }", CurveKind::Poe { years: 50.0 }),
+        ("{ file = \"pgv.csv\", kind = \"poe\" }", CurveKind::Poe { years: 50.0 }),
+        ("{ file = \"pgv.csv\", kind = \"poe\", years = 1 }", CurveKind::Poe { years: 1.0 }),
+        ("{ file = \"pgv.csv\", kind = \"maf\" }", CurveKind::Maf),
+    ] {
+        let folder = Folder::new(&format!("[pgv]\n[[sites]]\nname = \"A\"\npgv = {pgv}\n"));
+        fs::write(folder.path("pgv.csv"), "# source\nPGV (m/s),PoE in 50 years\n0.001,0.9\n3,1e-5\n").unwrap();
+        let study = folder.load(&[]).unwrap();
+        let curve = study.sites[0].curve(IntensityMeasure::Pgv).unwrap();
+        assert_eq!((curve.unit, curve.kind), (CurveUnit::MPerS, kind), "{pgv}");
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 use serde_json::json;
-use uplift_hazard::{CurveUnit, Declared, table_text};
+use uplift_hazard::{CurveUnit, Declared, table_text, years_in_table};
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::YEARS;
 
@@ -95,7 +95,8 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
         Value::Text(_) => {
             let file = paths.input(field)?;
             let unit = unit_said(&file, units);
-            return Some(CurveFile { measure, file: Some(file), unit, kind: CurveKind::Maf, branches: Vec::new() });
+            let kind = kind_said(&file);
+            return Some(CurveFile { measure, file: Some(file), unit, kind, branches: Vec::new() });
         }
         Value::Table(_) => {}
         _ => {
@@ -118,11 +119,12 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
         }
     };
     let given = section.given(&UNIT).map(|field| read_unit(&field, units));
-    let kind = kind(&mut section);
+    let of_file = file.iter().flatten().next();
+    let first = of_file.or(branches.iter().flatten().map(|branch| &branch.file).next()).cloned();
+    let kind = kind(&mut section, first.as_deref());
     section.finish();
     let (file, branches) = (file?, branches?);
-    let first = file.as_ref().or(branches.first().map(|branch| &branch.file));
-    let unit = given.unwrap_or_else(|| Some(first.map_or(units[0], |file| unit_said(file, units))));
+    let unit = given.unwrap_or_else(|| Some(first.map_or(units[0], |file| unit_said(&file, units))));
     Some(CurveFile { measure, file, unit: unit?, kind: kind?, branches })
 }
 
@@ -146,12 +148,24 @@ fn read_unit(field: &Field<'_>, units: &[CurveUnit]) -> Option<CurveUnit> {
     unit
 }
 
-fn kind(section: &mut Section<'_>) -> Option<CurveKind> {
-    let is_poe = section.read(&KIND);
+/// Annual rates, unless the file names its column as probabilities within some years.
+fn kind_said(file: &Path) -> CurveKind {
+    let years = table_text(file).ok().and_then(|text| years_in_table(&text)).filter(|years| YEARS.contains(*years));
+    years.map_or(CurveKind::Maf, |years| CurveKind::Poe { years })
+}
+
+fn kind(section: &mut Section<'_>, file: Option<&Path>) -> Option<CurveKind> {
+    let said = || file.map_or(CurveKind::Maf, kind_said);
     let years_field = section.given(&OF_YEARS);
     let years = years_field.as_ref().map(|field| OF_YEARS.read(field));
-    match (is_poe?, years) {
+    let is_poe = match section.given(&KIND) {
+        Some(field) => KIND.read(&field)?,
+        None if years.is_none() => return Some(said()),
+        None => false,
+    };
+    match (is_poe, years) {
         (true, Some(years)) => Some(CurveKind::Poe { years: years? }),
+        (true, None) if said() != CurveKind::Maf => Some(said()),
         (true, None) => {
             section.mistake(
                 "years",
