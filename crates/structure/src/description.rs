@@ -244,7 +244,7 @@ impl StructureDescription {
         let conditions = self.conditions()?;
         let system = self.equivalent_under(conditions)?;
         let Some(period_s) = self.period_s else { return Ok(system) };
-        // what it follows from does not hang on it
+        // force and mass do not depend on it
         let uplift_m = system.uplift_force_n() / system.mass_kg() * (period_s / std::f64::consts::TAU).powi(2);
         let uplift_m = UPLIFT_DISPLACEMENT.check("uplift_displacement_m (from period_s)", uplift_m);
         let uplift_m = uplift_m.map_err(StructureError::Implausible)?;
