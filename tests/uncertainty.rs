@@ -186,11 +186,15 @@ fn a_target_known_by_hand() {
 fn a_target_without_scatter_equals_that_of_a_certain_structure() {
     let study = study();
     let ask = ["--vary", "width", "--overturning", "2e-3", "--tolerance", "0.02"];
-    let known = least(&study, "block.toml", BLOCK, &ask);
+    // what is drawn is not kept
+    let kept = |of: &mut Value| of.as_object_mut().unwrap().remove("kept").unwrap();
+    let mut known = least(&study, "block.toml", BLOCK, &ask);
     assert!(known.get("uncertainty").is_none());
+    assert_eq!(kept(&mut known), "uplift displacement 0.5 mm, restitution 0.95");
     for kind in KINDS {
         let text = format!("{BLOCK}{}", scattering(kind, few(kind), 0.0));
         let mut found = least(&study, "block.toml", &text, &ask);
+        assert_eq!(kept(&mut found), "uplift displacement 0.5 mm", "{kind}");
         let uncertainty = found.as_object_mut().unwrap().remove("uncertainty").unwrap();
         assert_eq!(found, known, "{kind}");
         assert_eq!((&uncertainty["structures"], &uncertainty["by_structure"]), (&json!(1), &Value::Null));
