@@ -56,19 +56,8 @@ impl Declared {
     /// The measure and the unit of the first column of a table, as far as its comment lines and column names say them.
     pub fn in_table(text: &str) -> (Option<String>, Option<String>) {
         let (mut measure, mut unit) = (None, None);
-        for line in text.trim_start_matches('\u{feff}').lines().take(LONGEST_HEAD) {
-            let line = line.trim().trim_start_matches('"');
-            let found = match line.strip_prefix('#') {
-                Some(comment) => vec![declaration::comment(comment)],
-                None => line
-                    .split([',', ';', '\t'])
-                    .filter_map(|field| match declaration::column(field.trim().trim_matches('"'), None) {
-                        Some(Column::Intensity(found)) => Some(found),
-                        _ => None,
-                    })
-                    .collect(),
-            };
-            for found in found {
+        for column in head(text) {
+            if let Column::Intensity(found) = column {
                 measure = measure.or(found.measure);
                 unit = unit.or(found.unit);
             }
@@ -80,12 +69,22 @@ impl Declared {
 
 /// The years that the probabilities of a table refer to, where the name of their column says them: `PoE in 50 years`.
 pub fn years_in_table(text: &str) -> Option<f64> {
-    let head = text.trim_start_matches('\u{feff}').lines().take(LONGEST_HEAD);
-    let columns = head.filter(|line| !line.trim().trim_start_matches('"').starts_with('#'));
-    let names = columns.flat_map(|line| line.split([',', ';', '\t']));
-    names.map(|name| declaration::column(name.trim().trim_matches('"'), None)).find_map(|column| match column {
-        Some(Column::ProbabilityWithin(years)) => Some(years),
+    head(text).find_map(|column| match column {
+        Column::ProbabilityWithin(years) => Some(years),
         _ => None,
+    })
+}
+
+/// What comment lines and column names among the first lines of a table say, in their order.
+fn head(text: &str) -> impl Iterator<Item = Column> {
+    let lines = text.trim_start_matches('\u{feff}').lines().take(LONGEST_HEAD);
+    lines.flat_map(|line| {
+        let line = line.trim().trim_start_matches('"');
+        let Some(comment) = line.strip_prefix('#') else {
+            let names = line.split([',', ';', '\t']).map(|field| field.trim().trim_matches('"'));
+            return names.filter_map(|name| declaration::column(name, None)).collect();
+        };
+        vec![Column::Intensity(declaration::comment(comment))]
     })
 }
 

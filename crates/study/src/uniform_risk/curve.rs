@@ -94,8 +94,7 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
     match field.node.value {
         Value::Text(_) => {
             let file = paths.input(field)?;
-            let unit = unit_said(&file, units);
-            let kind = kind_said(&file);
+            let (unit, kind) = said(Some(&file), units);
             return Some(CurveFile { measure, file: Some(file), unit, kind, branches: Vec::new() });
         }
         Value::Table(_) => {}
@@ -121,17 +120,22 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
     let given = section.given(&UNIT).map(|field| read_unit(&field, units));
     let of_file = file.iter().flatten().next();
     let first = of_file.or(branches.iter().flatten().map(|branch| &branch.file).next()).cloned();
-    let kind = kind(&mut section, first.as_deref());
+    let (unit_said, kind_said) = said(first.as_deref(), units);
+    let kind = kind(&mut section, kind_said);
     section.finish();
     let (file, branches) = (file?, branches?);
-    let unit = given.unwrap_or_else(|| Some(first.map_or(units[0], |file| unit_said(&file, units))));
+    let unit = given.unwrap_or(Some(unit_said));
     Some(CurveFile { measure, file, unit: unit?, kind: kind?, branches })
 }
 
-/// The unit that a file says itself, else that of the measure; what is wrong with the file is said where it is read.
-fn unit_said(file: &Path, units: &[CurveUnit]) -> CurveUnit {
-    let said = table_text(file).ok().and_then(|text| CurveUnit::parse(&Declared::in_table(&text).1?));
-    said.filter(|said| units.contains(said)).unwrap_or(units[0])
+/// Unit and kind that a file says itself, else the unit of the measure and annual rates; what is wrong with the file is
+/// said where it is read.
+fn said(file: Option<&Path>, units: &[CurveUnit]) -> (CurveUnit, CurveKind) {
+    let Some(text) = file.and_then(|file| table_text(file).ok()) else { return (units[0], CurveKind::Maf) };
+    let unit = Declared::in_table(&text).1.and_then(|unit| CurveUnit::parse(&unit));
+    let years = years_in_table(&text).filter(|years| YEARS.contains(*years));
+    let kind = years.map_or(CurveKind::Maf, |years| CurveKind::Poe { years });
+    (unit.filter(|unit| units.contains(unit)).unwrap_or(units[0]), kind)
 }
 
 /// A unit as people write it, gal for cm/s2. What is spelt nearly as one is no suggestion: mm/s is not m/s.
@@ -148,24 +152,18 @@ fn read_unit(field: &Field<'_>, units: &[CurveUnit]) -> Option<CurveUnit> {
     unit
 }
 
-/// Annual rates, unless the file names its column as probabilities within some years.
-fn kind_said(file: &Path) -> CurveKind {
-    let years = table_text(file).ok().and_then(|text| years_in_table(&text)).filter(|years| YEARS.contains(*years));
-    years.map_or(CurveKind::Maf, |years| CurveKind::Poe { years })
-}
-
-fn kind(section: &mut Section<'_>, file: Option<&Path>) -> Option<CurveKind> {
-    let said = || file.map_or(CurveKind::Maf, kind_said);
+/// What the section says, else what the file itself has `said`.
+fn kind(section: &mut Section<'_>, said: CurveKind) -> Option<CurveKind> {
     let years_field = section.given(&OF_YEARS);
     let years = years_field.as_ref().map(|field| OF_YEARS.read(field));
     let is_poe = match section.given(&KIND) {
         Some(field) => KIND.read(&field)?,
-        None if years.is_none() => return Some(said()),
+        None if years.is_none() => return Some(said),
         None => false,
     };
     match (is_poe, years) {
         (true, Some(years)) => Some(CurveKind::Poe { years: years? }),
-        (true, None) if said() != CurveKind::Maf => Some(said()),
+        (true, None) if said != CurveKind::Maf => Some(said),
         (true, None) => {
             section.mistake(
                 "years",
