@@ -2,7 +2,7 @@
 //! from.
 
 use serde::Serialize;
-use uplift_risk::Ordinate;
+use uplift_risk::{Ordinate, PooledDemand};
 use uplift_structure::{EquivalentSystem, Rule, relative_error};
 use uplift_uniform_risk::{EventRisk, Stripes};
 
@@ -49,31 +49,42 @@ pub struct ExactDemand {
 
 /// The oscillators of a structure and of its neighbours under the records and the hazard of a site.
 pub(super) struct Shaken<'a> {
-    /// Over `[record, oscillator, level]`.
-    pub(super) stripes: &'a Stripes,
-    pub(super) weights: &'a SiteWeights<'a>,
-    pub(super) system: &'a EquivalentSystem,
+    weights: &'a SiteWeights<'a>,
+    system: &'a EquivalentSystem,
     /// Rate of the demand, 1/yr.
-    pub(super) target_per_year: f64,
-    pub(super) years: f64,
+    target_per_year: f64,
+    years: f64,
+    /// Of each oscillator.
+    demands: Vec<PooledDemand>,
+    /// The demand on each, in the displacement of the structure.
+    ordinates: Vec<Ordinate>,
 }
 
-impl Shaken<'_> {
-    /// The demand on an oscillator, in the displacement of the structure.
-    fn ordinate(&self, oscillator: usize) -> Result<Ordinate, DesignError> {
-        let demand = demand_of(self.stripes, oscillator)?;
-        let ordinate = self.weights.curve(&demand)?.exact_ordinate(self.target_per_year)?;
-        Ok(Ordinate { displacement_m: self.system.participation() * ordinate.displacement_m, ..ordinate })
+impl<'a> Shaken<'a> {
+    /// Of `system`, so many `oscillators` with the `stripes` over `[record, oscillator, level]`, for a demand of
+    /// `target_per_year` at the site of `weights`.
+    pub(super) fn new(
+        (stripes, oscillators): (&Stripes, usize),
+        (weights, system): (&'a SiteWeights<'a>, &'a EquivalentSystem),
+        (target_per_year, years): (f64, f64),
+    ) -> Result<Self, DesignError> {
+        let demands = (0..oscillators).map(|of| demand_of(stripes, of)).collect::<Result<Vec<_>, _>>()?;
+        let ordinate = |demand: &PooledDemand| -> Result<Ordinate, DesignError> {
+            let ordinate = weights.curve(demand)?.exact_ordinate(target_per_year)?;
+            Ok(Ordinate { displacement_m: system.participation() * ordinate.displacement_m, ..ordinate })
+        };
+        let ordinates = demands.iter().map(ordinate).collect::<Result<_, _>>()?;
+        Ok(Self { weights, system, target_per_year, years, demands, ordinates })
     }
 
-    /// Its displacement, m.
-    pub(super) fn displacement_m(&self, oscillator: usize) -> Result<f64, DesignError> {
-        Ok(self.ordinate(oscillator)?.displacement_m)
+    /// The demand on an oscillator, m.
+    pub(super) fn displacement_m(&self, oscillator: usize) -> f64 {
+        self.ordinates[oscillator].displacement_m
     }
 
     /// How often an oscillator exceeds `threshold_m`.
     fn risk(&self, oscillator: usize, threshold_m: f64) -> Result<EventRisk, DesignError> {
-        risk_of_exceeding(&demand_of(self.stripes, oscillator)?, self.weights, threshold_m, self.years)
+        risk_of_exceeding(&self.demands[oscillator], self.weights, threshold_m, self.years)
     }
 
     /// Its rate, 1/yr.
@@ -84,20 +95,21 @@ impl Shaken<'_> {
     /// The demand by `rule`, m, from that on a ZSBE oscillator, and its error against that on the structure's; NaN
     /// where there is none to refer to.
     pub(super) fn by_rule(&self, rule: Rule, [zero, own]: [usize; 2]) -> Result<[f64; 2], DesignError> {
-        let zero_m = self.displacement_m(zero)?;
+        let zero_m = self.displacement_m(zero);
         let demand_m = self.system.capacity().and_then(|capacity| rule.demand(&capacity, zero_m))?.displacement_m();
-        Ok([demand_m, relative_error(demand_m, self.displacement_m(own)?).unwrap_or(f64::NAN)])
+        Ok([demand_m, relative_error(demand_m, self.displacement_m(own)).unwrap_or(f64::NAN)])
     }
 }
 
-/// The demand on the structure of `shaken`, whose oscillators are `sweep`, exactly as spectra are made; `hazard` is
+/// The demand on the structure of `shaken`, whose oscillators are `sweep`, by so many `analyses`, exactly as spectra are made; `hazard` is
 /// that of the site.
 pub(super) fn exact_demand(
     shaken: &Shaken<'_>,
+    analyses: u64,
     sweep: &Sweep,
     (hazard, scatter): (&Hazard<'_>, &Scatter),
 ) -> Result<ExactDemand, DesignError> {
-    let Shaken { stripes, weights, system, target_per_year, .. } = *shaken;
+    let Shaken { weights, system, target_per_year, .. } = *shaken;
     let factor = system.participation();
     // all of it is scaled by the same factor: the oscillator exceeds capacity/factor where the structure exceeds its
     // capacity
@@ -105,18 +117,17 @@ pub(super) fn exact_demand(
     let may_happen = |risk: EventRisk| bounded(risk, weights, &scatter.pairs);
     let beyond = |capacity_m: f64| shaken.risk(OWN, capacity_m).map(may_happen);
     let overturning = shaken.risk(OWN, OVERTURNING_M)?;
-    let demand = shaken.ordinate(OWN)?;
+    let demand = shaken.ordinates[OWN];
     let repaired = match weights {
         SiteWeights::Alike(_) => None,
         SiteWeights::Repaired(weights) => Some(*weights),
     };
-    let own = demand_of(stripes, OWN)?;
     let sensitivity = sweep.neighbours.as_ref().map(|of| sensitivity(shaken, of, capacity_m)).transpose()?;
     Ok(ExactDemand {
-        bands: demand_bands(&own, (hazard, repaired), scatter, (target_per_year, factor, capacity_m))?,
-        analyses: stripes.analyses,
-        zero_stiffness_demand_of_spectrum_m: shaken.displacement_m(OF_STUDY)?,
-        zero_stiffness_demand_m: shaken.displacement_m(ZERO_STIFFNESS)?,
+        bands: demand_bands(&shaken.demands[OWN], (hazard, repaired), scatter, (target_per_year, factor, capacity_m))?,
+        analyses,
+        zero_stiffness_demand_of_spectrum_m: shaken.displacement_m(OF_STUDY),
+        zero_stiffness_demand_m: shaken.displacement_m(ZERO_STIFFNESS),
         demand_m: demand.displacement_m,
         capacity_less_demand_m: capacity_m.map(|capacity_m| factor * capacity_m - demand.displacement_m),
         overturns: demand.displacement_m.is_infinite(),

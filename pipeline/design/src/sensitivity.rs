@@ -107,7 +107,7 @@ fn noise(shaken: &Shaken<'_>, pairs: &[[usize; 2]], capacity_m: Option<f64>) -> 
     let rates = |threshold_m: f64| of_sweep(own().map(|own| shaken.per_year(own, threshold_m)).collect());
     let errors = |rule: Rule| of_sweep(pairs.iter().map(|&pair| Ok(shaken.by_rule(rule, pair)?[1])).collect());
     Ok(DemandNoise {
-        demand_m: of_sweep(own().map(|own| shaken.displacement_m(own)).collect())?,
+        demand_m: Noisy::from_sweep(&own().map(|own| shaken.displacement_m(own)).collect::<Vec<_>>()),
         rule_errors: capacity_m.map(|_| RuleRanges::from_rules(errors)).transpose()?,
         beyond_capacity_per_year: capacity_m.map(rates).transpose()?,
         overturning_per_year: rates(OVERTURNING_M)?,
@@ -123,7 +123,7 @@ fn rounding(
         let others = rounded.iter().map(|&nudged| value(nudged)).collect::<Result<Vec<_>, _>>()?;
         Ok::<_, DesignError>(Noisy::around(value([OF_STUDY, ZERO_STIFFNESS, OWN])?, others))
     };
-    let displacement_m = |place: usize| around(&|own| shaken.displacement_m(own[place]));
+    let displacement_m = |place: usize| around(&|own| Ok(shaken.displacement_m(own[place])));
     let rate = |threshold_m: f64| around(&|own| shaken.per_year(own[OWN], threshold_m));
     // of a rule: its demand from that on the ZSBE oscillator, or the error of that against the structure's
     let by_rules = |which: usize| {

@@ -65,8 +65,9 @@ impl OwnAnalysis {
         let scatter = Scatter::from_file(file)?;
         let years = source.study.risk.years;
         let hazard = Hazard::from_file(file, (place.name, place.site), (measure, &source.study))?;
-        let shaken = Shaken { stripes: &own, weights, system: &structure.system, target_per_year, years };
-        let exact = exact_demand(&shaken, &analysis.sweep, (&hazard, &scatter))?;
+        let oscillators = (&own, analysis.sweep.oscillators.len());
+        let shaken = Shaken::new(oscillators, (weights, &structure.system), (target_per_year, years))?;
+        let exact = exact_demand(&shaken, own.analyses, &analysis.sweep, (&hazard, &scatter))?;
         let uncertainty = match (&analysis.uncertain, of_uncertain) {
             (Some(uncertain), Some(stripes)) => {
                 let asked = asked_of_uncertain(&exact, target_per_year);
