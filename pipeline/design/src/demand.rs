@@ -101,8 +101,8 @@ impl<'a> Shaken<'a> {
     }
 }
 
-/// The demand on the structure of `shaken`, whose oscillators are `sweep`, by so many `analyses`, exactly as spectra are made; `hazard` is
-/// that of the site.
+/// The demand on the structure of `shaken`, whose oscillators are `sweep`, by so many `analyses`, exactly as spectra
+/// are made; `hazard` is that of the site.
 pub(super) fn exact_demand(
     shaken: &Shaken<'_>,
     analyses: u64,
