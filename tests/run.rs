@@ -316,7 +316,10 @@ fn a_finished_run_is_done_already_and_keeps_what_was_added() {
     assert!(!done(&[]));
     study.uplift(&["bootstrap", "r.h5", "--replicates", "20", "--sizes", "2", "-q"]).ok();
     let before = std::fs::read(study.path().join("r.h5")).unwrap();
-    assert!(done(&[]) && run(&[]).stdout.contains("done already"));
+    // a run that was killed after its last write left its lock
+    let lock = study.path().join(".r.h5.lock");
+    std::fs::write(&lock, "process 1").unwrap();
+    assert!(done(&[]) && run(&[]).stdout.contains("done already") && !lock.exists());
     // a table that is gone, and another title, take nothing away
     std::fs::remove_file(study.path().join("r.urs.csv")).unwrap();
     assert!(run(&[]).stderr.contains("r.urs.csv is missing"));

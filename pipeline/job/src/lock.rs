@@ -75,6 +75,14 @@ impl ResultLock {
         }
     }
 
+    /// Removes the lock file that a run left at `result` when it was killed.
+    pub fn clear(result: &Path) {
+        if lock_path(result).exists() {
+            // where another run holds it, it stays
+            drop(Self::acquire(result));
+        }
+    }
+
     /// As [`ResultLock::acquire`], but waits for another that has it, `longest` at most.
     ///
     /// # Errors
@@ -128,5 +136,17 @@ mod tests {
         assert_eq!(ResultLock::holder(&result), None);
         drop(ResultLock::acquire(&result).unwrap());
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn what_a_killed_run_left_is_removed_and_what_is_held_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let result = folder.path().join("a.h5");
+        std::fs::write(lock_path(&result), "process 1").unwrap();
+        ResultLock::clear(&result);
+        assert!(!lock_path(&result).exists());
+        let _held = ResultLock::acquire(&result).unwrap();
+        ResultLock::clear(&result);
+        assert!(lock_path(&result).exists());
     }
 }

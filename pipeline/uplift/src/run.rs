@@ -61,6 +61,8 @@ pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Resul
     if !options.again
         && let Some(report) = finished(study, options, Instant::now(), events)?
     {
+        // of a run that was killed after its last write
+        ResultLock::clear(options.result_file(&study.output().file));
         return Ok(report);
     }
     run_with(study, options, FinishedRows::default(), events)
