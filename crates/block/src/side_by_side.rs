@@ -8,7 +8,7 @@
 use std::array::from_fn;
 use std::ops::ControlFlow;
 
-use uplift_instructions::{Instructions, Work, larger, smaller};
+use uplift_instructions::{Instructions, Vectors, Work, larger, smaller};
 use uplift_motion::Accelerogram;
 use uplift_taylor::{LEAST_ORDER, TRUNCATION};
 
@@ -113,7 +113,7 @@ impl Work for Following<'_> {
     type Output = Vec<BlockResponse>;
 
     #[inline(always)]
-    fn run(self) -> Self::Output {
+    fn run<V: Vectors>(self, _: V) -> Self::Output {
         follow(self.sweep, self.scales)
     }
 }

@@ -19,7 +19,7 @@
 //! E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, Section I.8 (recursive Taylor
 //! coefficients).
 
-use uplift_instructions::{Instructions, Work, larger};
+use uplift_instructions::{Instructions, Vectors, Work, larger};
 use uplift_statics::RestrainedColumns;
 use uplift_taylor::{
     DEGREE, Factors, Forcing, LEAST_ORDER, ORDER, TRUNCATION, first_zero, leading_sign, product, stretch, value,
@@ -197,7 +197,7 @@ impl<const WOBBLES: bool> Work for Expanding<'_, WOBBLES> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<V: Vectors>(self, _: V) {
         let Self { expansion, constants, shaken, multiples, balanced } = self;
         let Expansion { step, sin_psi, cos_psi, swept, wobble, strands, .. } = expansion;
         let (h, v) = (step.length_s, step.v[0]);

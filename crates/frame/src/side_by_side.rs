@@ -6,7 +6,7 @@
 //! without a straight law, pulses, series of high order, is expanded alone: every demand has the bits of
 //! [`respond`](crate::respond).
 
-use uplift_instructions::{Instructions, Work};
+use uplift_instructions::{Instructions, Vectors, Work};
 
 use crate::course::{Course, Next};
 use crate::error::FrameError;
@@ -75,7 +75,7 @@ impl<const WOBBLES: bool> Work for Following<'_, WOBBLES> {
     type Output = Vec<Demand>;
 
     #[inline(always)]
-    fn run(self) -> Self::Output {
+    fn run<V: Vectors>(self, _: V) -> Self::Output {
         let Self { instructions, frame, grounds, model, options } = self;
         let mut pending = grounds.iter().enumerate();
         let mut demands: Vec<Option<Demand>> = grounds.iter().map(|_| None).collect();

@@ -1,12 +1,14 @@
 //! A run while the system is attached: the scaled elastic response plus a free vibration of constant amplitude.
 
-use crate::ahead::{AHEAD, ahead, larger, largest};
+use uplift_instructions::Vectors;
+
+use crate::ahead::{AHEAD, ahead, intervals_to_look_at, larger};
 use crate::crossings::{State, stays_inside, uplift_within};
 use crate::run::{IntervalState, Phase, Run, Segment};
 
 impl<const STIFFNESS: bool> Run<'_, STIFFNESS> {
     #[inline(always)]
-    pub(crate) fn attached(&self, start: IntervalState) -> Phase {
+    pub(crate) fn attached<V: Vectors>(&self, vectors: V, start: IntervalState) -> Phase {
         let sweep = self.sweep;
         let k = sweep.attached.stiffness_per_s2;
         if start.interval == sweep.ground.intervals() {
@@ -17,12 +19,12 @@ impl<const STIFFNESS: bool> Run<'_, STIFFNESS> {
         let h = sweep.dt_s - start.offset_s;
         let (u, v) = self.end_of_interval(&motion, &start, &sweep.whole_attached);
         let end = State { u, v, w: -k * u - self.ground_end(start.interval) };
-        self.attached_from(&Segment { at: start, motion, h, end })
+        self.attached_from(vectors, &Segment { at: start, motion, h, end })
     }
 
     /// Attached from the start of a segment on.
     #[inline(always)]
-    pub(crate) fn attached_from(&self, segment: &Segment) -> Phase {
+    pub(crate) fn attached_from<V: Vectors>(&self, vectors: V, segment: &Segment) -> Phase {
         let sweep = self.sweep;
         let mut segment = *segment;
         loop {
@@ -40,7 +42,7 @@ impl<const STIFFNESS: bool> Run<'_, STIFFNESS> {
                     force: 0.0,
                 });
             }
-            match self.seek_uplift(segment.at.interval + 1, &segment.end) {
+            match self.seek_uplift(vectors, segment.at.interval + 1, &segment.end) {
                 Ok(further) => segment = further,
                 Err(over) => return over,
             }
@@ -49,7 +51,7 @@ impl<const STIFFNESS: bool> Run<'_, STIFFNESS> {
 
     /// The first interval from the sample `j` on in which the system may uplift, or how the run ends before.
     #[inline(always)]
-    pub(crate) fn seek_uplift(&self, mut j: usize, start: &State) -> Result<Segment, Phase> {
+    pub(crate) fn seek_uplift<V: Vectors>(&self, vectors: V, mut j: usize, start: &State) -> Result<Segment, Phase> {
         let (sweep, scale) = (self.sweep, self.scale);
         let (n, k, boundary) = (sweep.ground.intervals(), sweep.attached.stiffness_per_s2, sweep.boundary_m);
         let (elastic, cos, sin) = (&sweep.elastic, &sweep.rotations.cos, &sweep.rotations.sin);
@@ -63,31 +65,38 @@ impl<const STIFFNESS: bool> Run<'_, STIFFNESS> {
             let count = AHEAD.min(n - j);
             let unit = ahead(&elastic.displacement_m, j + 1);
             let ground = ahead(&sweep.ground.acceleration_m_s2, j + 1);
-            let (mut u, mut w) = ([0.0; AHEAD], [0.0; AHEAD]);
-            for m in 0..AHEAD {
-                u[m] = scale * unit[m] + (cos[m] * free.0 + sin[m] * free.1);
-                w[m] = -k * u[m] - scale * ground[m];
-            }
-            // no event in all of them, or else one by one
-            let highest = larger(largest(u.map(f64::abs)), u0.abs());
-            let largest_w = larger(largest(w.map(f64::abs)), w0.abs());
-            let quiet = highest + sweep.sag_factor * largest_w <= boundary;
-            for m in 0..if quiet { 0 } else { count } {
-                if self.may_uplift((u0, w0), (u[m], w[m])) {
+            let free_motion = vectors.add(
+                vectors.mul(vectors.load(cos), vectors.splat(free.0)),
+                vectors.mul(vectors.load(sin), vectors.splat(free.1)),
+            );
+            let displacement = vectors.add(vectors.mul(vectors.splat(scale), vectors.load(unit)), free_motion);
+            let u = vectors.store(displacement);
+            let acceleration = |m: usize| -k * u[m] - scale * ground[m];
+            // an interval between two samples below that holds no event; the others are looked at one by one
+            let quiet_m =
+                sweep.quiet_factor * (boundary - sweep.sag_factor * (scale.abs() * sweep.ground.largest_ahead(j)));
+            let quiet = vectors.at_most(displacement, vectors.splat(quiet_m))
+                & vectors.at_most(vectors.splat(-quiet_m), displacement);
+            let mut intervals = intervals_to_look_at(quiet, u0.abs() <= quiet_m, count);
+            while intervals != 0 {
+                let m = intervals.trailing_zeros() as usize;
+                intervals &= intervals - 1;
+                let (u0, w0) = if m == 0 { (u0, w0) } else { (u[m - 1], acceleration(m - 1)) };
+                let w = acceleration(m);
+                if self.may_uplift((u0, w0), (u[m], w)) {
                     let interval = j + m;
                     let velocity = |j: usize, free: (f64, f64)| scale * elastic.velocity_m_s[j] + sweep.omega * free.1;
                     let free0 = if m == 0 { free } else { rotated(free, m - 1) };
                     let at =
                         IntervalState { interval, offset_s: 0.0, u: u0, v: velocity(interval, free0), force: k * u0 };
-                    let end = State { u: u[m], v: velocity(interval + 1, rotated(free, m)), w: w[m] };
+                    let end = State { u: u[m], v: velocity(interval + 1, rotated(free, m)), w };
                     let motion = self.motion(&at, k);
                     if !stays_inside(&motion, sweep.dt_s, &end, boundary) {
                         return Ok(Segment { at, motion, h: sweep.dt_s, end });
                     }
                 }
-                (u0, w0) = (u[m], w[m]);
             }
-            (u0, w0, free) = (u[count - 1], w[count - 1], rotated(free, count - 1));
+            (u0, w0, free) = (u[count - 1], acceleration(count - 1), rotated(free, count - 1));
             j += count;
         }
         Err(Phase::RecordEnd(0.0, u0, scale * elastic.velocity_m_s[n] + sweep.omega * free.1))

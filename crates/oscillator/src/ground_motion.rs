@@ -4,7 +4,7 @@
 //! minus the scaled ground displacement. With the integrals of the record its state at any sample follows
 //! from the state at uplift alone.
 
-use crate::ahead::padded;
+use crate::ahead::{AHEAD, larger, padded};
 use crate::excitation::Excitation;
 
 /// A unit-scale record with its integrals. Memory: 3 numbers a sample beside the record.
@@ -16,6 +16,8 @@ pub struct GroundMotion<'a> {
     pub(crate) acceleration_m_s2: Vec<f64>,
     pub(crate) velocity_m_s: Vec<f64>,
     pub(crate) displacement_m: Vec<f64>,
+    /// The largest `abs` of the acceleration over each block of [`AHEAD`] samples and the next one, m/s².
+    largest_m_s2: Vec<f64>,
 }
 
 impl<'a> GroundMotion<'a> {
@@ -32,7 +34,23 @@ impl<'a> GroundMotion<'a> {
             velocity_m_s.push(v);
             displacement_m.push(d);
         }
-        Self { excitation, acceleration_m_s2: padded(a.to_vec()), velocity_m_s, displacement_m: padded(displacement_m) }
+        let largest: Vec<f64> =
+            a.chunks(AHEAD).map(|block| block.iter().fold(0.0, |most, a| larger(a.abs(), most))).collect();
+        let next = largest[1..].iter().chain(&[0.0]);
+        let largest_m_s2 = largest.iter().zip(next).map(|(block, next)| larger(*block, *next)).collect();
+        Self {
+            excitation,
+            acceleration_m_s2: padded(a.to_vec()),
+            velocity_m_s,
+            displacement_m: padded(displacement_m),
+            largest_m_s2,
+        }
+    }
+
+    /// A bound on the `abs` of the acceleration from the sample `j` on to the last of the [`AHEAD`] after it, m/s².
+    #[inline(always)]
+    pub(crate) fn largest_ahead(&self, j: usize) -> f64 {
+        self.largest_m_s2[j / AHEAD]
     }
 
     /// Number of sample intervals.

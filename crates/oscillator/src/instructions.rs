@@ -1,6 +1,6 @@
 //! Runs compiled for the processor's instructions.
 
-use uplift_instructions::{Instructions, Work};
+use uplift_instructions::{Instructions, Vectors, Work};
 
 use crate::side_by_side::{self, PendingRun};
 use crate::sweep::{Peak, Sweep};
@@ -15,8 +15,8 @@ impl<const RUNS: usize, const STIFFNESS: bool> Work for Following<'_, RUNS, STIF
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
-        side_by_side::follow::<RUNS, STIFFNESS>(self.sweep, self.pending, self.peaks);
+    fn run<V: Vectors>(self, vectors: V) {
+        side_by_side::follow::<V, RUNS, STIFFNESS>(vectors, self.sweep, self.pending, self.peaks);
     }
 }
 

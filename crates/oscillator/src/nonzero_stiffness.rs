@@ -1,7 +1,9 @@
 //! The motion of a system that is uplifted with a stiffness: a response to the record times the
 //! scale, plus a free motion.
 
-use crate::ahead::{AHEAD, Lanes, ahead, larger};
+use uplift_instructions::Vectors;
+
+use crate::ahead::{AHEAD, Lanes, ahead, larger, largest, smaller};
 use crate::branch::Branch;
 use crate::crossings::State;
 use crate::ground_motion::GroundMotion;
@@ -108,17 +110,31 @@ impl<'a> NonzeroStiffnessMotion<'a> {
 
 impl UpliftedMotion for NonzeroStiffnessMotion<'_> {
     #[inline(always)]
-    fn ahead(&self, j: usize) -> (Lanes, Lanes) {
+    fn ahead<V: Vectors>(&self, vectors: V, j: usize) -> V::F64s {
         let stiffness = self.stiffness;
         let response = ahead(self.displacement_m, j + 1 - self.base);
+        let free = vectors.sub(
+            vectors.mul(vectors.splat(self.v0), vectors.load(&stiffness.t_c1)),
+            vectors.mul(vectors.splat(self.f0), vectors.load(&stiffness.tt_c2)),
+        );
+        let free = vectors.add(vectors.splat(self.y0), free);
+        vectors.add(vectors.mul(vectors.splat(self.scale), vectors.load(response)), free)
+    }
+
+    #[inline(always)]
+    fn acceleration(&self, j: usize, y: f64) -> f64 {
+        -self.force(y) - self.scale * self.ground.acceleration_m_s2[j]
+    }
+
+    #[inline(always)]
+    fn bounds_ahead(&self, j: usize, w0: f64, y: &Lanes) -> (f64, f64) {
         let acceleration = ahead(&self.ground.acceleration_m_s2, j + 1);
-        let (mut y, mut w) = ([0.0; AHEAD], [0.0; AHEAD]);
+        let mut w = [0.0; AHEAD];
         for m in 0..AHEAD {
-            let free = self.y0 + (self.v0 * stiffness.t_c1[m] - self.f0 * stiffness.tt_c2[m]);
-            y[m] = self.scale * response[m] + free;
             w[m] = -self.force(y[m]) - self.scale * acceleration[m];
         }
-        (y, w)
+        let (least, greatest) = (smaller(-largest(w.map(|w| -w)), w0), larger(largest(w), w0));
+        (self.outward_bound(least, greatest), self.outward_bound(-greatest, -least))
     }
 
     #[inline(always)]

@@ -1,5 +1,7 @@
 //! One run of the fast solver: from phase to phase, over one record at one scale.
 
+use uplift_instructions::Vectors;
+
 use crate::branch::LinearMotion;
 use crate::crossings::{Crossing, State};
 use crate::free_vibration::{FreePeak, first_peak};
@@ -75,11 +77,11 @@ impl<'a, const STIFFNESS: bool> Run<'a, STIFFNESS> {
 
     /// From phase to phase to the end of the run.
     #[inline(always)]
-    pub(crate) fn follow(&mut self, mut phase: Phase) -> Phase {
+    pub(crate) fn follow<V: Vectors>(&mut self, vectors: V, mut phase: Phase) -> Phase {
         while !phase.is_over() {
             phase = match phase {
-                Phase::Attached(at) => self.attached(at),
-                Phase::Uplifted(side, at) => self.uplifted(side, at),
+                Phase::Attached(at) => self.attached(vectors, at),
+                Phase::Uplifted(side, at) => self.uplifted(vectors, side, at),
                 over => over,
             };
         }

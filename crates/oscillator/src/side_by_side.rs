@@ -5,6 +5,8 @@
 //! one does not delay the others, and the [events](crate::events) of all are found together. Each run is computed as
 //! if it were alone: its bits do not depend on the runs beside it.
 
+use uplift_instructions::{Portable, Vectors};
+
 use crate::ahead::larger;
 use crate::events::{Attached, Segments};
 use crate::run::{Phase, Run, Segment};
@@ -31,13 +33,14 @@ struct Lane<'a, const STIFFNESS: bool> {
 /// * `RUNS` — how many are followed side by side
 /// * `STIFFNESS` — whether there is a post-uplift stiffness
 #[inline(always)]
-pub(crate) fn follow<const RUNS: usize, const STIFFNESS: bool>(
+pub(crate) fn follow<V: Vectors, const RUNS: usize, const STIFFNESS: bool>(
+    vectors: V,
     sweep: &Sweep<'_>,
     pending: &[PendingRun],
     peaks: &mut [Peak],
 ) {
     match sweep.terms {
-        Some(terms) => follow_together::<RUNS, STIFFNESS>(sweep, terms, pending, peaks),
+        Some(terms) => follow_together::<V, RUNS, STIFFNESS>(vectors, sweep, terms, pending, peaks),
         None => follow_alone::<STIFFNESS>(sweep, pending, peaks),
     }
 }
@@ -47,13 +50,14 @@ pub(crate) fn follow<const RUNS: usize, const STIFFNESS: bool>(
 fn follow_alone<const STIFFNESS: bool>(sweep: &Sweep<'_>, pending: &[PendingRun], peaks: &mut [Peak]) {
     for &PendingRun { index, scale, interval } in pending {
         let mut run = Run::<STIFFNESS>::new(sweep, scale);
-        let phase = run.follow(run.start(interval));
+        let phase = run.follow(Portable, run.start(interval));
         peaks[index] = run.peak(phase);
     }
 }
 
 #[inline(always)]
-fn follow_together<const RUNS: usize, const STIFFNESS: bool>(
+fn follow_together<V: Vectors, const RUNS: usize, const STIFFNESS: bool>(
+    vectors: V,
     sweep: &Sweep<'_>,
     terms: usize,
     pending: &[PendingRun],
@@ -79,14 +83,15 @@ fn follow_together<const RUNS: usize, const STIFFNESS: bool>(
         if lanes.iter().all(Option::is_none) {
             return;
         }
-        attached(sweep, &branch, &mut lanes);
-        uplifted(sweep, &mut lanes);
+        attached(vectors, sweep, &branch, &mut lanes);
+        uplifted(vectors, sweep, &mut lanes);
     }
 }
 
 /// All attached runs to their next uplift.
 #[inline(always)]
-fn attached<const RUNS: usize, const STIFFNESS: bool>(
+fn attached<V: Vectors, const RUNS: usize, const STIFFNESS: bool>(
+    vectors: V,
     sweep: &Sweep<'_>,
     branch: &Attached,
     lanes: &mut [Option<Lane<'_, STIFFNESS>>; RUNS],
@@ -111,7 +116,7 @@ fn attached<const RUNS: usize, const STIFFNESS: bool>(
         if at.interval == n {
             *phase = Phase::RecordEnd(0.0, at.u, at.v);
         } else if stays_inside[i] {
-            match run.seek_uplift(at.interval + 1, &motions.end(i)) {
+            match run.seek_uplift(vectors, at.interval + 1, &motions.end(i)) {
                 Err(over) => *phase = over,
                 Ok(segment) => {
                     motions.put(i, &segment.motion, segment.h);
@@ -128,7 +133,7 @@ fn attached<const RUNS: usize, const STIFFNESS: bool>(
         if let (Some(Lane { run, phase, .. }), Some(segment)) = (lane, &segments[i]) {
             *phase = match found.crossing(i) {
                 Some(crossing) => run.uplift(crossing, &segment.at),
-                None => run.attached_from(segment),
+                None => run.attached_from(vectors, segment),
             };
         }
     }
@@ -136,7 +141,8 @@ fn attached<const RUNS: usize, const STIFFNESS: bool>(
 
 /// All uplifted runs to their next impact.
 #[inline(always)]
-fn uplifted<const RUNS: usize, const STIFFNESS: bool>(
+fn uplifted<V: Vectors, const RUNS: usize, const STIFFNESS: bool>(
+    vectors: V,
     sweep: &Sweep<'_>,
     lanes: &mut [Option<Lane<'_, STIFFNESS>>; RUNS],
 ) {
@@ -162,7 +168,7 @@ fn uplifted<const RUNS: usize, const STIFFNESS: bool>(
             if let Some(crossing) = run.uplifted_interval(side, &segment) {
                 break run.impact(crossing, side, &segment.at);
             }
-            match run.seek_impact(side, segment.at.interval + 1, &segment.end) {
+            match run.seek_impact(vectors, side, segment.at.interval + 1, &segment.end) {
                 Ok(further) => segment = further,
                 Err(over) => break over,
             }
@@ -176,7 +182,7 @@ fn uplifted<const RUNS: usize, const STIFFNESS: bool>(
                     run.peak_m = larger(tops[i], run.peak_m);
                     run.impact(crossing.on(*side), *side, &segment.at)
                 }
-                None => run.uplifted_from(*side, segment),
+                None => run.uplifted_from(vectors, *side, segment),
             };
         }
     }

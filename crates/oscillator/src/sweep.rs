@@ -24,6 +24,9 @@ use crate::reference::OVERTURNED_CAPACITIES;
 use crate::side_by_side::PendingRun;
 use crate::stumpff::Stumpff;
 
+/// What a bound leaves to rounding, of itself.
+const ROUNDING: f64 = 1e-9;
+
 /// What an incremental dynamic analysis keeps of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
@@ -74,6 +77,10 @@ pub struct Sweep<'a> {
     /// Deviation from the chord between samples, while attached, over the largest acceleration at their ends, s²; NaN
     /// where the samples are too far apart for such a bound.
     pub(crate) sag_factor: f64,
+    /// Where the displacement at samples is at most this times `boundary − sag_factor a`, and the ground's acceleration
+    /// at most `a`, it stays inside the boundaries between them too: its acceleration is at most `k` times as much and
+    /// `a`. NaN as `sag_factor`.
+    pub(crate) quiet_factor: f64,
     /// See [`growth`].
     pub(crate) growth: f64,
     pub(crate) rotations: Rotations,
@@ -91,6 +98,7 @@ impl<'a> Sweep<'a> {
         let dt_s = ground.excitation.dt_s();
         let omega = attached.stiffness_per_s2.sqrt();
         let growth = growth(omega * dt_s);
+        let sag_factor = 0.125 * dt_s * dt_s * growth;
         Self {
             ground,
             elastic: ElasticResponse::new(&attached, ground, with_free_peak && !oscillator.is_free_mass()),
@@ -102,7 +110,8 @@ impl<'a> Sweep<'a> {
             restitution: oscillator.restitution(),
             overturned_m: OVERTURNED_CAPACITIES * oscillator.capacity_m(),
             omega,
-            sag_factor: 0.125 * dt_s * dt_s * growth,
+            sag_factor,
+            quiet_factor: (1.0 - ROUNDING) / (1.0 + sag_factor * attached.stiffness_per_s2),
             growth,
             with_free_peak,
             dt_s,

@@ -1,6 +1,8 @@
 //! A run while the system is uplifted, whatever the stiffness.
 
-use crate::ahead::{AHEAD, Lanes, larger, largest, smaller};
+use uplift_instructions::Vectors;
+
+use crate::ahead::{AHEAD, Lanes, intervals_to_look_at, larger, smaller};
 use crate::crossings::{Crossing, SIMPLE, State, crossing, first_crossing, turning_time};
 use crate::nodes::Node;
 use crate::nonzero_stiffness::NonzeroStiffnessMotion;
@@ -9,8 +11,13 @@ use crate::zero_stiffness::{PARABOLIC, ZeroStiffnessMotion};
 
 /// An uplifted motion over the samples ahead, in the coordinates of its side.
 pub(crate) trait UpliftedMotion {
-    /// Distance and acceleration at the samples after `j`.
-    fn ahead(&self, j: usize) -> (Lanes, Lanes);
+    /// Distance at the samples after `j`.
+    fn ahead<V: Vectors>(&self, vectors: V, j: usize) -> V::F64s;
+    /// Acceleration at the sample `j`, where the distance is `y`.
+    fn acceleration(&self, j: usize, y: f64) -> f64;
+    /// Bounds on the outward and inward acceleration from the sample `j`, where it is `w0`, on over those after it,
+    /// whose distances are `y`; at least zero.
+    fn bounds_ahead(&self, j: usize, w0: f64, y: &Lanes) -> (f64, f64);
     /// Rate of the distance at the sample `j`.
     fn rate(&self, j: usize) -> f64;
     /// Restoring force per mass at the distance `y`.
@@ -24,11 +31,11 @@ pub(crate) trait UpliftedMotion {
 
 impl<const STIFFNESS: bool> Run<'_, STIFFNESS> {
     #[inline(always)]
-    pub(crate) fn uplifted(&mut self, side: f64, start: IntervalState) -> Phase {
+    pub(crate) fn uplifted<V: Vectors>(&mut self, vectors: V, side: f64, start: IntervalState) -> Phase {
         if start.interval == self.sweep.ground.intervals() {
             return Phase::RecordEnd(side, start.u, start.v);
         }
-        self.uplifted_from(side, &self.rest_of_interval_uplifted(side, start))
+        self.uplifted_from(vectors, side, &self.rest_of_interval_uplifted(side, start))
     }
 
     /// The rest of the interval of an uplift.
@@ -44,13 +51,13 @@ impl<const STIFFNESS: bool> Run<'_, STIFFNESS> {
 
     /// Uplifted from the start of a segment on.
     #[inline(always)]
-    pub(crate) fn uplifted_from(&mut self, side: f64, segment: &Segment) -> Phase {
+    pub(crate) fn uplifted_from<V: Vectors>(&mut self, vectors: V, side: f64, segment: &Segment) -> Phase {
         let mut segment = *segment;
         loop {
             if let Some(crossing) = self.uplifted_interval(side, &segment) {
                 return self.impact(crossing, side, &segment.at);
             }
-            match self.seek_impact(side, segment.at.interval + 1, &segment.end) {
+            match self.seek_impact(vectors, side, segment.at.interval + 1, &segment.end) {
                 Ok(further) => segment = further,
                 Err(over) => return over,
             }
@@ -60,11 +67,20 @@ impl<const STIFFNESS: bool> Run<'_, STIFFNESS> {
     /// The first interval from the sample `j` on in which the system may come down, or turn back beyond the peak, or
     /// how the run ends before; the peak is raised on the way.
     #[inline(always)]
-    pub(crate) fn seek_impact(&mut self, side: f64, j: usize, start: &State) -> Result<Segment, Phase> {
+    pub(crate) fn seek_impact<V: Vectors>(
+        &mut self,
+        vectors: V,
+        side: f64,
+        j: usize,
+        start: &State,
+    ) -> Result<Segment, Phase> {
         match &self.sweep.nonzero_stiffness {
-            _ if !STIFFNESS => self.seek_impact_of(ZeroStiffnessMotion::new(self, side, j, start), side, j, start),
+            _ if !STIFFNESS => {
+                self.seek_impact_of(vectors, ZeroStiffnessMotion::new(self, side, j, start), side, j, start)
+            }
             Some(stiffness) if stiffness.keeps_digits(self.scale, self.sweep.boundary_m) => {
-                self.seek_impact_of(NonzeroStiffnessMotion::new(self, stiffness, side, j, start), side, j, start)
+                let motion = NonzeroStiffnessMotion::new(self, stiffness, side, j, start);
+                self.seek_impact_of(vectors, motion, side, j, start)
             }
             _ => self.next_interval_uplifted(side, j, start),
         }
@@ -84,8 +100,9 @@ impl<const STIFFNESS: bool> Run<'_, STIFFNESS> {
     }
 
     #[inline(always)]
-    fn seek_impact_of(
+    fn seek_impact_of<V: Vectors>(
         &mut self,
+        vectors: V,
         mut uplifted: impl UpliftedMotion,
         side: f64,
         mut j: usize,
@@ -100,39 +117,37 @@ impl<const STIFFNESS: bool> Run<'_, STIFFNESS> {
         }
         while j < n {
             let count = AHEAD.min(n - j);
-            let (y, w) = uplifted.ahead(j);
-            // no event in all of them, or else one by one
-            let (lowest, highest) = (smaller(-largest(y.map(|y| -y)), y0), larger(largest(y), y0));
-            let (least, greatest) = (smaller(-largest(w.map(|w| -w)), w0), larger(largest(w), w0));
-            let stays_uplifted = lowest - eighth * uplifted.outward_bound(least, greatest) >= boundary;
-            let no_new_peak = highest + eighth * uplifted.outward_bound(-greatest, -least)
-                <= smaller(self.peak_m, sweep.overturned_m);
-            let first = match (stays_uplifted, no_new_peak) {
-                (true, true) => count,
-                // without outward acceleration it comes down only where it is below at a sample
-                (false, true) if greatest <= 0.0 => y[..count].iter().position(|y| *y < boundary).unwrap_or(count),
-                _ => 0,
-            };
-            if first > 0 {
-                (y0, w0) = (y[first - 1], w[first - 1]);
-            }
-            for m in first..count {
-                if self.may_impact_or_peak(&uplifted, (y0, w0), (y[m], w[m])) {
-                    let interval = j + m;
+            let distance = uplifted.ahead(vectors, j);
+            let y = vectors.store(distance);
+            let (outward, inward) = uplifted.bounds_ahead(j, w0, &y);
+            let (dip, rise) = (eighth * outward, eighth * inward);
+            let limit = smaller(self.peak_m, sweep.overturned_m);
+            // an interval between two quiet samples holds no event; the others are looked at one by one
+            let quiet = vectors.at_most(vectors.splat(boundary), vectors.sub(distance, vectors.splat(dip)))
+                & vectors.at_most(vectors.add(distance, vectors.splat(rise)), vectors.splat(limit));
+            let quiet_start = y0 - dip >= boundary && y0 + rise <= limit;
+            let mut intervals = intervals_to_look_at(quiet, quiet_start, count);
+            while intervals != 0 {
+                let m = intervals.trailing_zeros() as usize;
+                intervals &= intervals - 1;
+                let interval = j + m;
+                let (y0, w0) = if m == 0 { (y0, w0) } else { (y[m - 1], uplifted.acceleration(interval, y[m - 1])) };
+                let w = uplifted.acceleration(interval + 1, y[m]);
+                if self.may_impact_or_peak(&uplifted, (y0, w0), (y[m], w)) {
                     let (rate0, rate1) = (uplifted.rate(interval), uplifted.rate(interval + 1));
                     let force = side * uplifted.force(y0);
                     let at = IntervalState { interval, offset_s: 0.0, u: side * y0, v: side * rate0, force };
                     let motion = self.motion(&at, sweep.uplifted.stiffness_per_s2);
-                    let end = State { u: side * y[m], v: side * rate1, w: side * w[m] };
+                    let end = State { u: side * y[m], v: side * rate1, w: side * w };
                     return Ok(Segment { at, motion, h: dt_s, end });
                 }
                 if !(y[m] <= sweep.overturned_m) {
                     return Err(Phase::Overturned);
                 }
                 self.peak_m = larger(y[m], self.peak_m);
-                (y0, w0) = (y[m], w[m]);
             }
-            (y0, w0) = (y[count - 1], w[count - 1]);
+            y0 = y[count - 1];
+            w0 = uplifted.acceleration(j + count, y0);
             j += count;
             uplifted.restart_at(j, y0);
         }

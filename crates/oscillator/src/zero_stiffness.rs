@@ -1,5 +1,7 @@
 //! The motion of a system that is uplifted without stiffness, by the integrals of the record.
 
+use uplift_instructions::Vectors;
+
 use crate::ahead::{AHEAD, Lanes, ahead, larger};
 use crate::crossings::State;
 use crate::ground_motion::GroundMotion;
@@ -9,6 +11,16 @@ use crate::uplifted::UpliftedMotion;
 
 /// Stumpff functions of a branch without stiffness.
 pub(crate) const PARABOLIC: Stumpff = Stumpff { c0: 1.0, c1: 1.0, c2: 0.5, c3: 1.0 / 6.0 };
+
+/// `0, 1, 2, …`
+const SAMPLES: Lanes = {
+    let (mut samples, mut m) = ([0.0; AHEAD], 0);
+    while m < AHEAD {
+        samples[m] = m as f64;
+        m += 1;
+    }
+    samples
+};
 
 /// With the time `T` since the sample `base`, the distance on its side is `y = y0 + T (p − η g T/2) − c (D(t) − D0)`.
 pub(crate) struct ZeroStiffnessMotion<'a> {
@@ -44,17 +56,29 @@ impl<'a> ZeroStiffnessMotion<'a> {
 
 impl UpliftedMotion for ZeroStiffnessMotion<'_> {
     #[inline(always)]
-    fn ahead(&self, j: usize) -> (Lanes, Lanes) {
+    fn ahead<V: Vectors>(&self, vectors: V, j: usize) -> V::F64s {
         let displacement = ahead(&self.ground.displacement_m, j + 1);
-        let acceleration = ahead(&self.ground.acceleration_m_s2, j + 1);
         let elapsed = (j + 1 - self.base) as f64;
-        let (mut y, mut w) = ([0.0; AHEAD], [0.0; AHEAD]);
-        for m in 0..AHEAD {
-            let t = (elapsed + m as f64) * self.dt_s;
-            y[m] = self.y0 + t * (self.p - 0.5 * self.weight * t) - self.scale * (displacement[m] - self.d0);
-            w[m] = -self.weight - self.scale * acceleration[m];
-        }
-        (y, w)
+        // y0 + t (p − η g t/2) − c (D − D0)
+        let samples = vectors.add(vectors.splat(elapsed), vectors.load(&SAMPLES));
+        let t = vectors.mul(samples, vectors.splat(self.dt_s));
+        let rate = vectors.sub(vectors.splat(self.p), vectors.mul(vectors.splat(0.5 * self.weight), t));
+        let ground = vectors.sub(vectors.load(displacement), vectors.splat(self.d0));
+        vectors.sub(
+            vectors.add(vectors.splat(self.y0), vectors.mul(t, rate)),
+            vectors.mul(vectors.splat(self.scale), ground),
+        )
+    }
+
+    #[inline(always)]
+    fn acceleration(&self, j: usize, _: f64) -> f64 {
+        -self.weight - self.scale * self.ground.acceleration_m_s2[j]
+    }
+
+    #[inline(always)]
+    fn bounds_ahead(&self, j: usize, _: f64, _: &Lanes) -> (f64, f64) {
+        let ground = self.scale.abs() * self.ground.largest_ahead(j);
+        (larger(ground - self.weight, 0.0), ground + self.weight)
     }
 
     #[inline(always)]
