@@ -6,14 +6,16 @@
 //! whether λ ≤ target, the exact sum of [`RiskCurve`] decides. So the ordinates are those of
 //! [`RiskCurve::exact_ordinate`], to the bit.
 
+// what is not inlined into a search is not compiled for the instructions that it is compiled for
+#![allow(clippy::inline_always)]
+
+use uplift_instructions::{Instructions, LANES, Vectors, Work};
+
 use crate::fixed_point::{QUANTUM_PER_YEAR, rate_per_year};
 use crate::{PooledDemand, RecordSample, RiskCurve, RiskError, StripeWeights};
 
 /// Demands between two rows of the table.
 const BLOCK: usize = 32;
-
-/// Terms added side by side, for the processor to do at once.
-pub(crate) const LANES: usize = 8;
 
 /// The risk of one oscillator at one site, split by record: for many samples of the records.
 ///
@@ -84,31 +86,46 @@ impl<'a> ResamplingTable<'a> {
             }
             return Ok(());
         }
+        let instructions = Instructions::chosen();
         for (&target, ordinate_m) in targets_per_year.iter().zip(ordinates_m) {
             if !target.is_finite() || target <= 0.0 {
                 return Err(RiskError::Target { rate: target });
             }
-            *ordinate_m = match self.search(sample, target * f64::from(sample.size())) {
+            let search = Search { table: self, sample, limit: target * f64::from(sample.size()) };
+            *ordinate_m = match instructions.run(search) {
                 Some(displacement_m) => displacement_m,
                 None => exact.exact_ordinate(target)?.displacement_m,
             };
         }
         Ok(())
     }
+}
 
-    /// The ordinate at which the sum of weights passes `limit`; none where rounding leaves doubt.
-    fn search(&self, sample: &RecordSample, limit: f64) -> Option<f64> {
+/// A search for the ordinate at which the sum of weights passes a limit; none where rounding leaves doubt.
+struct Search<'a> {
+    table: &'a ResamplingTable<'a>,
+    sample: &'a RecordSample,
+    /// Times the size of the sample, 1/yr.
+    limit: f64,
+}
+
+impl Work for Search<'_> {
+    type Output = Option<f64>;
+
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) -> Option<f64> {
+        let Self { table, sample, limit } = self;
         let draws = sample.lanes();
         // the exact curve rounds the target to whole quanta
-        let margin = limit * self.error + 2.0 * f64::from(sample.size()) * QUANTUM_PER_YEAR;
+        let margin = limit * table.error + 2.0 * f64::from(sample.size()) * QUANTUM_PER_YEAR;
         let (surely_within, surely_beyond) = (limit - margin, limit + margin);
-        let blocks = self.before.len() / self.row;
+        let blocks = table.before.len() / table.row;
         // the last block that begins within the limit: the first begins with nothing
         let (mut low, mut high) = (0, blocks);
         let mut sum = 0.0;
         while high - low > 1 {
             let middle = usize::midpoint(low, high);
-            let middle_sum = dot(draws, &self.before[middle * self.row..(middle + 1) * self.row]);
+            let middle_sum = dot(vectors, draws, &table.before[middle * table.row..(middle + 1) * table.row]);
             if middle_sum < surely_within {
                 (low, sum) = (middle, middle_sum);
             } else if middle_sum > surely_beyond {
@@ -118,9 +135,9 @@ impl<'a> ResamplingTable<'a> {
             }
         }
         let start = low * BLOCK;
-        let (edp_m, runs) = (self.demand.edp_m(), self.demand.runs());
+        let (edp_m, runs) = (table.demand.edp_m(), table.demand.runs());
         for (run, &demand_m) in runs[start..].iter().zip(&edp_m[start..]) {
-            sum += draws[usize::from(run.record)] * self.per_year[usize::from(run.level)];
+            sum += draws[usize::from(run.record)] * table.per_year[usize::from(run.level)];
             if sum > surely_beyond {
                 return Some(demand_m);
             }
@@ -133,12 +150,20 @@ impl<'a> ResamplingTable<'a> {
 }
 
 /// Scalar product; both of the same whole number of lanes.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; LANES];
-    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
-        for lane in 0..LANES {
-            sums[lane] += a[lane] * b[lane];
-        }
+#[inline(always)]
+fn dot<V: Vectors>(vectors: V, a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = vectors.splat(0.0);
+    for (a, b) in a.as_chunks().0.iter().zip(b.as_chunks().0) {
+        sums = vectors.add(sums, vectors.mul(vectors.load(a), vectors.load(b)));
     }
-    sums.iter().sum()
+    // by halves, so that the additions do not wait for each other
+    let mut sums = vectors.store(sums);
+    let mut half = LANES / 2;
+    while half > 0 {
+        for lane in 0..half {
+            sums[lane] += sums[lane + half];
+        }
+        half /= 2;
+    }
+    sums[0]
 }

@@ -1,8 +1,9 @@
 //! Which records count, and how often.
 
+use uplift_instructions::LANES;
+
 use crate::RiskError;
 use crate::fixed_point::MAX_SAMPLE_SIZE;
-use crate::resampling::LANES;
 
 /// A sample of the records, drawn with replacement: how often each record was drawn.
 #[derive(Debug, Clone, PartialEq)]
