@@ -40,7 +40,7 @@ shape = (len(sites), len(poe), len(strength))
 # a table is nothing but a table, whatever its sites are called
 tidy = pd.read_csv(table)
 names = [f"{name}_n{size}_m" for of in (limits, beyond) for size in sizes for name in of]
-assert list(tidy.columns) == ["site", "im", "poe", "years", "strength", "u_m", "fit_m", "return_period_years", "flag",
+assert list(tidy.columns) == ["site", "im", "poe", "years", "strength", "u_m", "lower_m", "upper_m", "fit_m", "return_period_years", "flag",
                               "lower_tail_share", "upper_tail_share", *names]
 for im in measures:
     own = tidy[tidy.im == im.upper()]
@@ -114,28 +114,34 @@ def block(sheet, head, value):
             for column in range(1, len(rows[0]))}
 
 
-spectra = block("Spectra", 5, "u, m")
-assert len(spectra) == 2 * len(sites) * len(poe)
+spectra = block("Spectra", 6, "u, m")
+assert len(spectra) == 3 * 2 * len(sites) * len(poe)
 band = block("Bands", 7, "u, m")
 for im in measures:
     for i, site in enumerate(sites):
         for j, probability in enumerate(poe):
             found = [key for key in spectra if key[:3] == (site, im.upper(), probability)]
-            assert len(found) == 1 and abs(found[0][3] / period[j] - 1) < 1e-12
+            assert [key[4] for key in found] == ["best estimate", "90 % band, lower", "90 % band, upper"]
+            assert abs(found[0][3] / period[j] - 1) < 1e-12
             assert spectra[found[0]] == list(u_m[im][i, j])
+            quoted = [[limit if np.isfinite(limit) else None for limit in spectra[key]] for key in found[1:]]
+            own = tree["spectra"][(measures.index(im) * len(sites) + i) * len(poe) + j]
+            assert quoted == [own["lower_m"], own["upper_m"]]
+            assert np.array_equal(file[f"lower_{im}_m"][:, j, i], spectra[found[1]])
+            assert all(low <= high for low, high in zip(*(spectra[key] for key in found[1:])))
             for index, size in enumerate(sizes):
-                for word, name in zip(("5 %", "median", "95 %"), limits):
-                    assert band[(*found[0], size, word)] == list(bands[im, name][i, j, index])
-                words = ("truth, lower", "truth, upper", "another set, lower", "another set, upper")
+                for word, name in zip(("resamples, 5 %", "resamples, median", "resamples, 95 %"), limits):
+                    assert band[(*found[0][:4], size, word)] == list(bands[im, name][i, j, index])
+                words = ("band, lower", "band, upper", "another set, lower", "another set, upper")
                 for word, name in zip(words, beyond):
-                    assert band[(*found[0], size, word)] == list(bands[im, name][i, j, index])
+                    assert band[(*found[0][:4], size, word)] == list(bands[im, name][i, j, index])
 rows = list(workbook["Flags and tails"].iter_rows(values_only=True))
 heads = [tuple(row[column] for row in rows[:3]) + (rows[4][column],) for column in range(1, len(rows[0]))]
 column = 1 + heads.index((sites[0], "PGV", poe[0], "flag"))
 assert [row[column] for row in rows[5:]] == [flags[number] for number in flag["pgv"][0, 0]]
 assert rows[4][column + 1:column + 3] == ("share from below, %", "share from above, %")
 cell = workbook["Spectra"]["B3"]
-assert cell.number_format == "0.00%" and workbook["Spectra"]["B6"].number_format == "0.0000"
+assert cell.number_format == "0.00%" and workbook["Spectra"]["B7"].number_format == "0.0000"
 
 fits = pd.read_excel(book, sheet_name="Coefficients")
 for im in measures:

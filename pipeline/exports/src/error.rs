@@ -10,6 +10,7 @@ use uplift_laboratory::LaboratoryError;
 use uplift_questions::QuestionsError;
 use uplift_result::ResultError;
 use uplift_statics::StaticsError;
+use uplift_studies::StudiesError;
 use uplift_study::StudyError;
 use uplift_uniform_risk::UniformRiskError;
 
@@ -23,6 +24,8 @@ pub enum ExportsError {
     Result(#[from] ResultError),
     /// Spectra that cannot be computed.
     UniformRisk(#[from] UniformRiskError),
+    /// What a run computes beside its spectra.
+    Studies(#[from] StudiesError),
     /// A result that cannot be looked at.
     Alarms(#[from] AlarmsError),
     /// A question that has no answer.

@@ -9,6 +9,7 @@ use uplift_result::{
     BAND_FIGURES, BandKind, Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, flag_word,
     regression, urs,
 };
+use uplift_studies::uniform_risk::QUOTED_LIMITS;
 
 use super::Export;
 use super::added::Influence;
@@ -54,6 +55,9 @@ impl Export {
         let first = (row.at[0] * self.spectra.poes.len() + row.at[1]) * strengths;
         for quantity in urs::GROUP.quantities {
             spectrum[quantity.name] = (first..first + strengths).map(|at| cell(quantity, row.of_measure, at)).collect();
+        }
+        for (name, limits_m) in QUOTED_LIMITS.iter().zip(self.quoted_of(row)) {
+            spectrum[name] = numbers(&limits_m).into();
         }
         spectrum["fit"] = coefficients(&row.spectrum.fit);
         spectrum["bands"] = self.bands_of(row, BandKind::PLAIN).iter().map(band).collect();

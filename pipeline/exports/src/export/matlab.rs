@@ -6,7 +6,8 @@ use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_questions::efficiency::{FIGURES, TRENDS};
 use uplift_result::declared::Quantity;
-use uplift_result::{BAND_FIGURES, INFERRED_BANDS, StoredSpectra, StoredSpread, regression, urs};
+use uplift_result::{BAND_FIGURES, INFERRED_BANDS, StoredSpectra, StoredSpread, before_unit, regression, urs};
+use uplift_studies::uniform_risk::QUOTED_LIMITS;
 
 use super::Export;
 use super::added::Influence;
@@ -16,7 +17,7 @@ use crate::error::ExportsError;
 use level_5::{MatFile, Shape};
 
 impl Export {
-    /// A MATLAB file: `u_pgv_m` is strength × probability × site, bands `u05_pgv_m` are strength × size × probability ×
+    /// A MATLAB file: `u_pgv_m` and its band are strength × probability × site, bands `u05_pgv_m` are strength × size × probability ×
     /// site, coefficients probability × site.
     ///
     /// # Errors
@@ -38,6 +39,11 @@ impl Export {
             // spectra come site by site, in each probability by probability: the order of MATLAB's columns
             let shape = Shape(vec![strengths.len(), poes.len(), sites.len()]);
             add(&mut file, urs::GROUP.quantities, key, &shape, spectra);
+            for (limit, name) in QUOTED_LIMITS.iter().enumerate() {
+                let rows = self.rows().filter(|row| row.spectrum.measure == spectra.measure);
+                let limits_m: Vec<f64> = rows.flat_map(|row| self.quoted_of(&row)[limit].clone()).collect();
+                file.numbers(&before_unit(name, &format!("_{key}")), &shape, &limits_m);
+            }
             add(&mut file, regression::COEFFICIENTS, key, &Shape(vec![poes.len(), sites.len()]), &spectra.fits);
         }
         self.add_consistency(&mut file);

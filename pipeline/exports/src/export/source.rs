@@ -9,6 +9,7 @@ use uplift_result::{
     Fit, Head, MeasureSpectra, ResultFile, Spectrum, SpreadOver, StoredBands, StoredConsistency, StoredFinding,
     StoredHazard, StoredSpectra, StoredSpread,
 };
+use uplift_studies::uniform_risk::quoted_bands_m;
 use uplift_study::UniformRiskStudy;
 
 use super::added::Added;
@@ -19,6 +20,9 @@ pub struct Export {
     pub(super) head: Head,
     pub(super) study: UniformRiskStudy,
     pub(super) spectra: StoredSpectra,
+    /// Limits of the quoted band of every ordinate, m, by measure, site, probability, then strength; none for a single
+    /// record.
+    pub(super) quoted_m: Vec<Option<[f64; 2]>>,
     pub(super) bands: Option<StoredBands>,
     /// Spreads over what is not known.
     pub(super) spreads: Vec<StoredSpread>,
@@ -68,6 +72,7 @@ impl Export {
         Ok(Self {
             return_periods: spectra.poes.iter().map(return_period).collect::<Result<_, ExportsError>>()?,
             study: file.stored_study()?,
+            quoted_m: quoted_bands_m(file, &spectra)?,
             bands: file.bands()?,
             spreads: file.spreads()?,
             hazard: file.hazard()?,
@@ -97,6 +102,15 @@ impl Export {
             spectrum,
             return_period: self.return_periods[at[1]],
         })
+    }
+
+    /// Lower and upper limit of the quoted band of a spectrum over the strengths, m; NaN where there is none.
+    pub(super) fn quoted_of(&self, row: &Row<'_>) -> [Vec<f64>; 2] {
+        let (strengths, [site, poe]) = (self.spectra.strengths.len(), row.at);
+        let of_measure = self.spectra.measures.iter().position(|of| of.measure == row.spectrum.measure).unwrap_or(0);
+        let first = ((of_measure * self.spectra.sites.len() + site) * self.spectra.poes.len() + poe) * strengths;
+        let of_row = &self.quoted_m[first..first + strengths];
+        [0, 1].map(|limit| of_row.iter().map(|band_m| band_m.map_or(f64::NAN, |band_m| band_m[limit])).collect())
     }
 
     /// What there are spreads over.

@@ -4,7 +4,7 @@ use polars::prelude::Column;
 use uplift_job::text::finite;
 use uplift_questions::efficiency;
 use uplift_result::{BandKind, INFERRED_BANDS, StoredSpread, before_unit, urs};
-use uplift_studies::uniform_risk::spectra_table;
+use uplift_studies::uniform_risk::{band_columns, spectra_table};
 
 use super::Export;
 use super::added::SHARES;
@@ -26,8 +26,8 @@ fn all(values: &[f64]) -> Vec<Option<f64>> {
 }
 
 impl Export {
-    /// A row for each ordinate: its fit beside it, its return period and flag, and the limits of its bands for each
-    /// size of the sample, `u05_n20_m` for 20 records; then the bands of all records there could be and of another set;
+    /// A row for each ordinate: its quoted band and its fit beside it, its return period and flag, and the limits of its
+    /// bands for each size of the sample, `u05_n20_m` for 20 records; then the bands of all records there could be and of another set;
     /// last mean and fractiles over weighted hazard curves and over possible structures, `u05_hazard_m`.
     pub fn columns(&self) -> Vec<Column> {
         let strengths = &self.spectra.strengths;
@@ -42,7 +42,7 @@ impl Export {
         let period = Cells::new("return_period_years", |row| Some(vec![Some(row.return_period); strengths.len()]));
         let mut columns = spectra_table(&self.spectra);
         let beside = columns.iter().position(|column| column.name() == urs::U_M.name).map_or(0, |place| place + 1);
-        columns.splice(beside..beside, [fit_m, period].map(column));
+        columns.splice(beside..beside, band_columns(&self.quoted_m).into_iter().chain([fit_m, period].map(column)));
         let mut more = self.band_cells(BandKind::PLAIN);
         more.extend(self.added_cells());
         more.extend(BandKind::ALL[1..].iter().flat_map(|&kind| self.band_cells(kind)));

@@ -22,7 +22,7 @@ pub fn resampled(file: ResultFile, events: &dyn Events) -> Result<ResultFile, Qu
     }
     let Some(plan) = resampling_plan(&file)? else {
         events.note(&format!(
-            "no confidence bands: {} keeps no draws; compute them: `uplift bootstrap`",
+            "no resampled bands (Table 4.1): for them run `uplift bootstrap {}` first",
             file.path().display()
         ));
         return Ok(file);

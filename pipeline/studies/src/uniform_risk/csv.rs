@@ -50,7 +50,7 @@ pub fn write_csv(result: &Path, outcome: &ComputedStudy<'_>) -> Result<(), Studi
     let [ordinates, coefficients] = csv_paths(result);
     let spectra = outcome.stored_spectra();
     let mut columns = spectra_table(&spectra);
-    columns.extend(band_columns(&ResultFile::open(result)?, &spectra)?);
+    columns.extend(band_columns(&quoted_bands_m(&ResultFile::open(result)?, &spectra)?));
     write_table(&ordinates, &line, columns)?;
     Ok(write_table(&coefficients, &line, regression_table(&spectra))?)
 }
@@ -65,16 +65,28 @@ pub fn spectra_table(spectra: &StoredSpectra) -> Vec<Column> {
     columns
 }
 
-/// Limits of the quoted bands of the ordinates in `file`; empty for a single record.
-fn band_columns(file: &ResultFile, spectra: &StoredSpectra) -> Result<[Column; 2], StudiesError> {
+/// Limits of the quoted bands of the ordinates in `file`, m, by measure, site, probability, then strength; none for a
+/// single record.
+///
+/// # Errors
+/// A file that is damaged.
+pub fn quoted_bands_m(file: &ResultFile, spectra: &StoredSpectra) -> Result<Vec<Option<[f64; 2]>>, StudiesError> {
     let mut bands_m = Vec::new();
     for of in &spectra.measures {
         let (strengths, measure) = (spectra.strengths.clone(), Some(of.measure));
         let asked = DisplacementOptions { strengths, measure, every_probability: true, ..Default::default() };
         bands_m.extend(displacements(file, &asked)?.displacements.into_iter().map(|own| own.band_m));
     }
+    Ok(bands_m)
+}
+
+/// The names of the limits of the quoted band, m, in tables and exports.
+pub const QUOTED_LIMITS: [&str; 2] = ["lower_m", "upper_m"];
+
+/// The columns of these limits, of every ordinate.
+pub fn band_columns(bands_m: &[Option<[f64; 2]>]) -> [Column; 2] {
     let limits_m = |at: usize| bands_m.iter().map(|own| own.map(|limits_m| limits_m[at])).collect::<Vec<Option<f64>>>();
-    Ok([("lower_m", 0), ("upper_m", 1)].map(|(name, at)| Column::new(name.into(), limits_m(at))))
+    std::array::from_fn(|at| Column::new(QUOTED_LIMITS[at].into(), limits_m(at)))
 }
 
 /// A row for each spectrum: what it is of, then its coefficients.

@@ -3,6 +3,7 @@
 use rust_xlsxwriter::XlsxError;
 use uplift_job::text::{per_cent, risk_in_words};
 use uplift_oscillator::PostUplift;
+use uplift_uniform_risk::CONFIDENCE;
 
 use super::sheet::Sheet;
 use crate::export::Export;
@@ -39,7 +40,8 @@ impl Export {
             ("After uplift", post_uplift),
             ("Probabilities", risks.join(", ")),
             ("Ordinates", study.risk.contour.key().to_owned()),
-            ("Confidence bands", bands.unwrap_or_else(|| "none: `uplift bootstrap` makes them".to_owned())),
+            ("Confidence bands", format!("{}, beside each spectrum", per_cent(CONFIDENCE))),
+            ("Resampled bands", bands.unwrap_or_else(|| "none: `uplift bootstrap` makes them".to_owned())),
             ("Coefficients", "u = c0 exp(c1 strength) + c2, c2 not negative (Eq. 4.11)".to_owned()),
             ("Fitted", format!("strengths above {}", study.regression.strength_above)),
             ("Units", "displacements u in m; strength is f_up/(m g); censored: larger than any analysed".to_owned()),

@@ -1,7 +1,9 @@
 //! The sheets of spectra and of bands: strengths down, spectra across.
 
 use rust_xlsxwriter::XlsxError;
+use uplift_job::text::per_cent;
 use uplift_result::{BandKind, flag_word};
+use uplift_uniform_risk::CONFIDENCE;
 
 use super::sheet::{Sheet, Shown};
 use crate::export::Export;
@@ -19,14 +21,21 @@ const SPREAD: [&str; 6] = ["mean", "5 %", "16 %", "50 %", "84 %", "95 %"];
 const WIDTHS: [f64; 1] = [26.0];
 
 impl Export {
-    /// The spectra.
+    /// The spectra, the quoted band of each beside it.
     pub(super) fn spectra_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
-        let below = self.heads(sheet, &[])?;
-        for (index, row) in self.rows().enumerate() {
-            let column = index + 1;
-            head_of(sheet, column, &row)?;
-            sheet.heading((below - 1, column), "u, m", true)?;
-            over_strengths(sheet, (below, column), row.spectrum.u_m)?;
+        let below = self.heads(sheet, &["value"])?;
+        let band = per_cent(CONFIDENCE);
+        let names = ["best estimate".to_owned(), format!("{band} band, lower"), format!("{band} band, upper")];
+        let mut column = 1;
+        for row in self.rows() {
+            let [lower_m, upper_m] = self.quoted_of(&row);
+            for (name, values_m) in names.iter().zip([row.spectrum.u_m, &lower_m, &upper_m]) {
+                head_of(sheet, column, &row)?;
+                sheet.heading((below - 2, column), name, false)?;
+                sheet.heading((below - 1, column), "u, m", true)?;
+                over_strengths(sheet, (below, column), values_m)?;
+                column += 1;
+            }
         }
         sheet.finish((below, 1), &WIDTHS)
     }
@@ -62,13 +71,14 @@ impl Export {
         let headings: Vec<&str> = weights.into_iter().chain(["records in a sample", "limit"]).collect();
         let below = self.heads(sheet, &headings)?;
         let [lower, upper] = self.bands.as_ref().map(uplift_result::StoredBands::level_names).unwrap_or_default();
-        let names = [lower.as_str(), "median", upper.as_str()];
-        let beyond = ["truth, lower", "truth, upper", "another set, lower", "another set, upper"];
+        let resamples = [&lower, "median", &upper].map(|name| format!("resamples, {name}"));
+        // the band to quote comes first
+        let beyond = ["band, lower", "band, upper", "another set, lower", "another set, upper"].map(str::to_owned);
         let mut column = 1;
         for row in self.rows() {
             for (kind, band) in self.all_bands_of(&row) {
                 let inferred = beyond.iter().zip(band.inferred_m.into_iter().flatten());
-                for (name, values) in names.iter().zip(band.limits_m).chain(inferred) {
+                for (name, values) in inferred.chain(resamples.iter().zip(band.limits_m)) {
                     head_of(sheet, column, &row)?;
                     if has_others {
                         sheet.heading((below - 4, column), kind.weights, false)?;
