@@ -93,7 +93,10 @@ fn the_other_measure_judges_the_safe_value() {
     let shown = study.uplift(&[&["target", "frame.toml", "--urs", "r.h5"], &ask[..]].concat()).ok().stdout;
     let verdict = if per_year <= 2e-3 { "meets" } else { "MISSES" };
     assert!(shown.contains(&format!(" per year at {safe} m: {verdict} the target\n")), "{shown}");
-    assert!(shown.contains("\nAssumed   uplift displacement 0.5 mm, restitution 0.9 at every width: "), "{shown}");
+    assert!(
+        shown.contains("\nAssumed   uplift displacement 0.5 mm, restitution 0.9, column mass 1000 kg at every width: "),
+        "{shown}"
+    );
     assert!(number(&other["per_year"]) > 0.0);
     // levels that end far below what overturns the frame cannot tell
     let low = both.replace("levels_cm_s = [3, 10, 30, 60, 100, 200]", "levels_cm_s = [0.6, 0.8, 1]");

@@ -162,9 +162,6 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     }
     if !verdicts.is_empty() {
         writeln!(out, "          with a safety factor of {} (Eq. 3.15)", report.required_safety_factor)?;
-        if !report.assumed.is_empty() {
-            writeln!(out, "          assumed: {}", report.assumed.join(", "))?;
-        }
     }
     // the notes begin with what the structure and the spectrum do not have in common
     if let Some(difference) = report.notes.first().filter(|_| report.other_oscillator) {
@@ -172,6 +169,9 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     }
     if let Some(settings) = &report.own_oscillator {
         writeln!(out, "          for its own spectrum run the study with {settings}")?;
+    }
+    if !report.assumed.is_empty() {
+        writeln!(out, "Assumed   {}: not in the structure file", report.assumed.join(", "))?;
     }
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();

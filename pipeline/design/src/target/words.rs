@@ -132,7 +132,10 @@ pub(super) fn kept(structure: &Structure, restitution: f64) -> String {
     let uplift = period_s.map_or_else(|| format!("uplift displacement {uplift_mm} mm"), |s| format!("period {s} s"));
     let uplift = Some(uplift).filter(|_| !is_drawn(UncertainQuantity::UpliftDisplacement));
     let restitution = Some(restitution).filter(|_| !is_drawn(UncertainQuantity::Restitution));
-    let kept = uplift.into_iter().chain(restitution.map(|restitution| format!("restitution {restitution}")));
+    let restitution = restitution.map(|restitution| format!("restitution {restitution}"));
+    // a wider column of the same mass is another material
+    let mass = structure.description.column_mass_kg.map(|mass_kg| format!("column mass {mass_kg} kg"));
+    let kept = uplift.into_iter().chain(restitution).chain(mass);
     kept.collect::<Vec<_>>().join(", ")
 }
 
