@@ -40,8 +40,8 @@ shape = (len(sites), len(poe), len(strength))
 # a table is nothing but a table, whatever its sites are called
 tidy = pd.read_csv(table)
 names = [f"{name}_n{size}_m" for of in (limits, beyond) for size in sizes for name in of]
-assert list(tidy.columns) == ["site", "im", "poe", "years", "strength", "u_m", "lower_m", "upper_m", "fit_m", "return_period_years", "flag",
-                              "lower_tail_share", "upper_tail_share", *names]
+assert list(tidy.columns) == ["site", "im", "poe", "years", "strength", "u_m", "lower_m", "upper_m", "fit_m",
+                              "return_period_years", "flag", "lower_tail_share", "upper_tail_share", *names]
 for im in measures:
     own = tidy[tidy.im == im.upper()]
     assert np.array_equal(own.u_m.to_numpy().reshape(shape), u_m[im])

@@ -17,8 +17,8 @@ use crate::error::ExportsError;
 use level_5::{MatFile, Shape};
 
 impl Export {
-    /// A MATLAB file: `u_pgv_m` and its band are strength × probability × site, bands `u05_pgv_m` are strength × size × probability ×
-    /// site, coefficients probability × site.
+    /// A MATLAB file: `u_pgv_m` and its band are strength × probability × site, bands `u05_pgv_m` are strength × size ×
+    /// probability × site, coefficients probability × site.
     ///
     /// # Errors
     /// A result that is too large for the format.

@@ -26,9 +26,10 @@ fn all(values: &[f64]) -> Vec<Option<f64>> {
 }
 
 impl Export {
-    /// A row for each ordinate: its quoted band and its fit beside it, its return period and flag, and the limits of its
-    /// bands for each size of the sample, `u05_n20_m` for 20 records; then the bands of all records there could be and of another set;
-    /// last mean and fractiles over weighted hazard curves and over possible structures, `u05_hazard_m`.
+    /// A row for each ordinate: its quoted band and its fit beside it, its return period and flag, and the limits of
+    /// its bands for each size of the sample, `u05_n20_m` for 20 records; then the bands of all records there could be
+    /// and of another set; last mean and fractiles over weighted hazard curves and over possible structures,
+    /// `u05_hazard_m`.
     pub fn columns(&self) -> Vec<Column> {
         let strengths = &self.spectra.strengths;
         let column = |Cells(name, of): Cells<'_>| {
