@@ -114,7 +114,7 @@ lint:
 # Documentation of the code, without warnings; every example in it runs.
 docs:
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
-	env -u MAKEFLAGS cargo test --locked --workspace --doc  # examples cannot reach make's job server, and warn
+	env -u MAKEFLAGS -u MFLAGS cargo test --locked --workspace --doc  # examples cannot reach make's job server, and warn
 
 # The documents as one searchable book, target/book/index.html: no warning, no broken link, nothing from other hosts.
 book:
