@@ -481,7 +481,7 @@ fn a_file_that_says_another_unit_or_kind_is_answered_with_the_line_to_write() {
     words(&["says unit \"mm/s\"", "convert its levels into cm/s, and write that into its head"]);
     // probabilities that are certain, called rates
     study.write("pgv.csv", "pgv_cm_s,maf\n0.5,1\n1,1\n2,0.9\n80,0.01\n200,0.001\n");
-    words(&["line 3: annual rate 1 1/yr is not below 1 1/yr", "probabilities, mostly", "kind = \"poe\""]);
+    words(&["line 3: annual rate 1 1/yr is not below 1 1/yr", "look like probabilities", "kind = \"poe\""]);
 }
 
 #[test]

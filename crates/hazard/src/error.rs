@@ -41,8 +41,8 @@ fn list(mistakes: &[HazardError], more: usize) -> String {
 /// What to do about rates that do not fall.
 const OF_RATES: &str = "correct the rates, export them with more digits, or remove the row";
 /// The same of rates of exactly 1.
-const OF_ONES: &str = "rates of exactly 1 are probabilities, mostly: say so (column poe; in a study kind = \"poe\" and \
-                       the years of the curve), or remove the row";
+const OF_ONES: &str = "these look like probabilities: name the column `PoE in 50 years` (in a study kind = \"poe\" and \
+                       years = 50), or remove the row";
 
 /// Why a hazard curve could not be built, read or evaluated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
