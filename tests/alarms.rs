@@ -368,7 +368,9 @@ fn curves_and_levels_in_other_units_are_named() {
     assert!(!failed.stderr.contains("are its numbers"), "{}", failed.stderr);
     // a curve that begins a little too high is no curve in another unit
     study.write("pgv.csv", "iml,maf\n4,0.01\n30,1e-3\n400,1e-6\n");
-    let failed = study.uplift(&["check", "study.toml"]).fails(4, &["PGV = 2 cm/s lies outside"]);
+    let failed = study
+        .uplift(&["check", "study.toml"])
+        .fails(4, &["the curve begins at 4 cm/s, the levels at 2 cm/s. In [pgv] write: levels_cm_s ="]);
     assert!(!failed.stderr.contains("are its numbers"), "{}", failed.stderr);
 }
 

@@ -330,6 +330,22 @@ fn impossible_units_are_reported() {
         let said = run.stdout + &run.stderr;
         assert!(said.contains("unit right"), "{arguments:?}\n{said}");
     }
+    // the other way round: in g, and the head says cm/s2
+    let weak = at2(&wave.iter().map(|a| a / 500.0).collect::<Vec<_>>(), wave.len());
+    study.write("gal.AT2", &weak.replace("UNITS OF G", "UNITS OF CM/S2"));
+    std::fs::create_dir(study.path().join("d")).unwrap();
+    study.write("d/RSN1_A000.AT2", &weak.replace("UNITS OF G", "UNITS OF CM/S2"));
+    study.write("d/RSN1_A090.AT2", &weak);
+    for arguments in [
+        &["check", "study.toml"][..],
+        &["records", "show", "gal.AT2"],
+        &["records", "show", "manifest.csv", "A"],
+        &["records", "import", "d", "-o", "set.csv"],
+    ] {
+        let run = study.uplift(arguments).ok();
+        let said = run.stdout + &run.stderr;
+        assert!(said.contains("mistake? PGA 3.") && said.contains("e-4 g: is the file in g?"), "{arguments:?}\n{said}");
+    }
 }
 
 /// Names given with `-o` that are those of something else.
