@@ -30,6 +30,8 @@ fn usage() {
     study.uplift(&["rum"]).fails(2, &["run"]);
     study.uplift(&["run"]).fails(2, &["<STUDY>"]);
     study.uplift(&["run", "study.toml", "--threads", "0"]).fails(2, &["--threads"]);
+    study.uplift(&["spectrum", "r.h5", "--period", "475"]).fails(2, &["has no --period: write --return-period"]);
+    study.uplift(&["export", "r.h5", "--excel"]).fails(2, &["has no --excel: write --xlsx"]);
 }
 
 #[test]
@@ -39,6 +41,10 @@ fn study_file() {
     study.uplift(&["run", "."]).fails(3, &["."]);
     study.uplift(&["check", "study.toml", "--set", "records.frist=2"]).fails(3, &["frist", "first"]);
     study.uplift(&["check", "study.toml", "--set", "risk.poe=[0.02, 2]"]).fails(3, &["risk.poe", "2"]);
+    study.uplift(&["check", "study.toml", "--set", "risk.return_period=475"]).fails(3, &["--return-period 475"]);
+    let coordinates = SMALL_STUDY.replace("[[sites]]\n", "[[sites]]\nlongitude = 23.7\n");
+    study.write("map.toml", &coordinates);
+    study.uplift(&["check", "map.toml"]).fails(3, &["map.toml:", "a site needs no coordinates"]);
     // all mistakes at once, each with its line
     study.write(
         "wrong.toml",

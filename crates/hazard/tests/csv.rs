@@ -175,7 +175,7 @@ fn every_broken_line_is_named() {
         (
             "iml,maf\n1,1\n2,1\n",
             "site.csv, line 3: annual rate 1 1/yr is not below 1 1/yr at site.csv, line 2; a hazard curve must fall \
-             strictly: these look like probabilities: name the column `PoE in 50 years`",
+             strictly. These look like probabilities. Name the column `PoE in 50 years`",
         ),
         ("maf,poe\n1,0.2\n", "site.csv, line 1: columns \"maf\" and \"poe\": one must hold levels"),
         ("iml,maf\n1,0.2\n1,0.1\n", "site.csv, line 3: intensity 1 cm/s does not exceed 1 cm/s at site.csv, line 2"),
