@@ -167,6 +167,23 @@ fn bands_need_the_draws() {
 }
 
 #[test]
+fn a_single_record_has_no_band_in_any_export() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-q", "-o", "r.h5", "--set", "records.first=1"]).ok();
+    study.uplift(&["export", "r.h5", "--csv", "--json", "--mat", "--xlsx"]).ok();
+    let json: serde_json::Value = serde_json::from_slice(&std::fs::read(study.path().join("r.json")).unwrap()).unwrap();
+    let spectrum = &json["spectra"][0];
+    let strengths = json["strength"].as_array().unwrap().len();
+    for limit in ["lower_m", "upper_m"] {
+        assert_eq!(spectrum[limit], serde_json::json!(vec![(); strengths]), "{spectrum}");
+    }
+    let table = std::fs::read_to_string(study.path().join("r.spectra.csv")).unwrap();
+    let mut lines = table.lines();
+    let place = lines.next().unwrap().split(',').position(|name| name == "lower_m").unwrap();
+    assert!(lines.count() > 0 && table.lines().skip(1).all(|line| line.split(',').nth(place) == Some("")), "{table}");
+}
+
+#[test]
 fn what_is_no_risk_is_refused() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-q", "-o", "r.h5"]).ok();

@@ -341,7 +341,7 @@ fn differences_from_the_study_are_reported() {
     );
     let found = design(&study, "other.toml", &[]);
     let notes = found["notes"].to_string();
-    for words in ["(its 4 mm over Γ)", "this structure has 0.9", "9.81 m/s2"] {
+    for words in ["(4 mm over Γ)", "this structure's is 0.9", "9.81 m/s2"] {
         assert!(notes.contains(words), "{words}: {notes}");
     }
     assert_eq!(found["structure"]["restitution"], 0.9);
@@ -358,8 +358,10 @@ fn differences_from_the_study_are_reported() {
     // the answer names the difference; what rounding makes of the remedy is none
     let needed_mm = |text: &str| notes.split(text).nth(1).unwrap().split(' ').next().unwrap().parse::<f64>().unwrap();
     let said = study.uplift(&["design", "other.toml", "--urs", "r.h5", "--spectrum-only"]).ok().stdout;
-    assert!(said.contains("the spectrum was computed for an uplift displacement of 0.5 mm; this structure needs"));
-    let needed_mm = needed_mm("this structure needs ");
+    assert!(
+        said.contains("The spectrum is of another oscillator. Its uplift displacement is 0.5 mm; this structure's is")
+    );
+    let needed_mm = needed_mm("mm; this structure's is ");
     let settings = found["own_oscillator"].as_str().unwrap();
     assert!(said.contains(&format!("\n          for its own spectrum run the study with {settings}\n")), "{said}");
     let run = ["run", "study.toml", "-o", "own.h5", "-q"].into_iter().chain(settings.split(' '));
@@ -457,6 +459,11 @@ fn mistakes_are_said_at_once_with_their_lines() {
         "10 mistakes",
     ];
     study.uplift(&["design", "wrong.toml", "--urs", "r.h5"]).fails(3, &lines);
+    for modulus in ["E = 33e9", "youngs_modulus_pa = 33e9"] {
+        study.write("modulus.toml", &format!("{BLOCK}{modulus}\n"));
+        let words = ["modulus.toml:5", "uplift_displacement_m = force at uplift / stiffness, or period_s"];
+        study.uplift(&["design", "modulus.toml", "--urs", "r.h5"]).fails(3, &words);
+    }
     study.write("kind.toml", "kind = \"blok\"\nwidth_m = \"x\"\n");
     study.uplift(&["design", "kind.toml", "--urs", "r.h5"]).fails(3, &["did you mean `block`?", "kind.toml:2"]);
     study.write("none.toml", "width_m = 1\n");

@@ -100,7 +100,7 @@ fn mistakes_in_branches_are_all_said() {
         .fails(3, &["has this name"]);
     study.write("short.csv", "iml,maf\n2,0.1\n20,0.01\n");
     site("{ file = \"a.csv\", weight = 0.5 }, { file = \"short.csv\", weight = 0.5 }")
-        .fails(4, &["short.csv", "outside"]);
+        .fails(4, &["short.csv", "the curve spans 2 to 20 cm/s"]);
 }
 
 /// 105 synthetic pairs at a site whose hazard is that of Montreux or that of Athens, by both measures.

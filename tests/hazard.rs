@@ -246,6 +246,20 @@ fn what_is_no_hazard() {
     uplift(at, &["hazard", "show", "plain.csv"]).fails(4, &["does not say its measure", "# IM: PGV [cm/s]"]);
     uplift(at, &["hazard", "show", "plain.csv", "--measure", "pgv", "--unit", "cm/s"]).fails(4, &["iml,maf"]);
     uplift(at, &["hazard", "show", "plain.csv", "--measure", "pgv", "--unit", "cm/s", "--years", "50"]).ok();
+    // the unit may follow the measure without brackets; of a head that is not understood, the remedy works
+    let rows = "\n1,0.9\n10,0.1\n";
+    write("bare.csv", &format!("PGV cm/s,probability of exceedance in 50 years{rows}"));
+    uplift(at, &["hazard", "show", "bare.csv"]).ok();
+    write("head.csv", &format!("speed,chance{rows}"));
+    let remedy = "PGV [cm/s],PoE in 50 years";
+    for measure in [&[][..], &["--measure", "pgv"]] {
+        let show = [&["hazard", "show", "head.csv"], measure].concat();
+        uplift(at, &show).fails(4, &["line 1", "\"speed\"", &format!("write e.g. \"{remedy}\"")]);
+    }
+    write("head.csv", &format!("{remedy}{rows}"));
+    uplift(at, &["hazard", "show", "head.csv"]).ok();
+    write("one.csv", "PGV [cm/s]\n1\n10\n");
+    uplift(at, &["hazard", "show", "one.csv"]).fails(4, &["one column", "two are needed"]);
     uplift(at, &["hazard", "show", "broken.xml"]).fails(4, &["broken.xml"]);
     uplift(at, &["hazard", "import", "plain.csv", "-o", "x"]).fails(4, &["plain.csv"]);
     assert!(!at.join("x").exists());

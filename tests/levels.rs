@@ -104,9 +104,16 @@ fn an_extrapolated_curve_is_named_by_check_and_run_alike() {
 #[test]
 fn a_curve_that_begins_above_the_default_levels_has_those_that_it_covers_named() {
     let study = SmallStudy::with(HIGH);
-    let levels =
-        "the default ones within it are, in [pgv], levels_cm_s = [\"0.5:0.1:0.9\", \"1:0.5:20\", \"25:5:200\"]";
+    let levels = "cm/s, the levels at 0.1 cm/s. In [pgv] write: levels_cm_s = [\"0.5:0.1:0.9\", \"1:0.5:20\", \
+                  \"25:5:200\"]";
     let text = HIGH.replace("levels_cm_s = [5, 10, \"20:20:100\"]\n", "");
     study.write("study.toml", &text);
-    study.uplift(&["check", "study.toml"]).fails(4, &["Here", "leave the level out of pgv.levels_cm_s", levels]);
+    study.uplift(&["check", "study.toml"]).fails(4, &["Here", levels, "risk.extrapolate = \"loglog\""]);
+    // rows without a rate are why it begins there
+    study.write("here-pgv.csv", "iml,PoE in 1 year\n0.1,1\n0.2,1\n0.3,0.9\n10,0.1\n300,1e-5\n");
+    let dropped =
+        "the curve begins at 0.3 cm/s (2 rows of probability 1 dropped), the levels at 0.1 cm/s. In [pgv] write:";
+    study
+        .uplift(&["check", "study.toml", "--set", "sites.Here.pgv.kind=poe", "--set", "sites.Here.pgv.years=1"])
+        .fails(4, &[dropped]);
 }

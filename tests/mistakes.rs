@@ -30,6 +30,8 @@ fn usage() {
     study.uplift(&["rum"]).fails(2, &["run"]);
     study.uplift(&["run"]).fails(2, &["<STUDY>"]);
     study.uplift(&["run", "study.toml", "--threads", "0"]).fails(2, &["--threads"]);
+    study.uplift(&["spectrum", "r.h5", "--period", "475"]).fails(2, &["has no --period: write --return-period"]);
+    study.uplift(&["export", "r.h5", "--excel"]).fails(2, &["has no --excel: write --xlsx"]);
 }
 
 #[test]
@@ -39,6 +41,10 @@ fn study_file() {
     study.uplift(&["run", "."]).fails(3, &["."]);
     study.uplift(&["check", "study.toml", "--set", "records.frist=2"]).fails(3, &["frist", "first"]);
     study.uplift(&["check", "study.toml", "--set", "risk.poe=[0.02, 2]"]).fails(3, &["risk.poe", "2"]);
+    study.uplift(&["check", "study.toml", "--set", "risk.return_period=475"]).fails(3, &["--return-period 475"]);
+    let coordinates = SMALL_STUDY.replace("[[sites]]\n", "[[sites]]\nlongitude = 23.7\n");
+    study.write("map.toml", &coordinates);
+    study.uplift(&["check", "map.toml"]).fails(3, &["map.toml:", "a site needs no coordinates"]);
     // all mistakes at once, each with its line
     study.write(
         "wrong.toml",
@@ -66,7 +72,7 @@ fn hazard_curves() {
     spoil("iml,maf\n0.5,0.1\n10,NaN\n300,0.01\n", &["NaN"]);
     // all lines at once, up to a number that can be read
     spoil("iml,maf\n0.5,0.1\n10,abc\n20,0,05\n30,x\n300,0.01\n", &["line 3", "abc", "line 4", "line 5"]);
-    spoil(&format!("iml,maf\n{}300,0.01\n", "1,what\n".repeat(500)), &["line 2", "and 495 lines more"]);
+    spoil(&format!("iml,maf\n{}300,0.01\n", "1,what\n".repeat(500)), &["line 2", "and 499 lines more"]);
     spoil("# IM: PGV [m/s]\niml,maf\n0.5,0.1\n300,0.01\n", &["m/s", "cm/s"]);
     spoil("", &["point"]);
     // the last stripe, 100 cm/s, is outside
@@ -329,6 +335,22 @@ fn impossible_units_are_reported() {
         let run = study.uplift(arguments).ok();
         let said = run.stdout + &run.stderr;
         assert!(said.contains("unit right"), "{arguments:?}\n{said}");
+    }
+    // the other way round: in g, and the head says cm/s2
+    let weak = at2(&wave.iter().map(|a| a / 500.0).collect::<Vec<_>>(), wave.len());
+    study.write("gal.AT2", &weak.replace("UNITS OF G", "UNITS OF CM/S2"));
+    std::fs::create_dir(study.path().join("d")).unwrap();
+    study.write("d/RSN1_A000.AT2", &weak.replace("UNITS OF G", "UNITS OF CM/S2"));
+    study.write("d/RSN1_A090.AT2", &weak);
+    for arguments in [
+        &["check", "study.toml"][..],
+        &["records", "show", "gal.AT2"],
+        &["records", "show", "manifest.csv", "A"],
+        &["records", "import", "d", "-o", "set.csv"],
+    ] {
+        let run = study.uplift(arguments).ok();
+        let said = run.stdout + &run.stderr;
+        assert!(said.contains("mistake? PGA 3.") && said.contains("e-4 g: is the file in g?"), "{arguments:?}\n{said}");
     }
 }
 

@@ -253,7 +253,8 @@ fn real_records_measure_what_their_manifest_says() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("set.csv");
     let done = uplift(folder.path(), &["records", "import", records.to_str().unwrap(), "-o", output.to_str().unwrap()]);
-    assert!(done.ok().stdout.contains("138 pairs"));
+    let done = done.ok();
+    assert!(done.stdout.contains("138 pairs") && !done.stderr.contains("mistake?"), "{}", done.stderr);
     let file = |row: &BTreeMap<String, String>, column: &str| {
         Path::new(&row[column]).file_name().unwrap().to_string_lossy().into_owned()
     };

@@ -132,7 +132,7 @@ for im in measures:
             for index, size in enumerate(sizes):
                 for word, name in zip(("resamples, 5 %", "resamples, median", "resamples, 95 %"), limits):
                     assert band[(*found[0][:4], size, word)] == list(bands[im, name][i, j, index])
-                words = ("band, lower", "band, upper", "another set, lower", "another set, upper")
+                words = [f"90 % {of}, {limit}" for of in ("band", "of another set") for limit in ("lower", "upper")]
                 for word, name in zip(words, beyond):
                     assert band[(*found[0][:4], size, word)] == list(bands[im, name][i, j, index])
 rows = list(workbook["Flags and tails"].iter_rows(values_only=True))

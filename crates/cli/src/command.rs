@@ -207,10 +207,12 @@ pub(crate) fn execute(arguments: &Arguments, terminal: &Terminal) -> Result<(), 
     }
 }
 
-/// Options that people give to a command which has none of the kind, and what to type instead.
-const ELSEWHERE: [(&str, &str, &str); 2] = [
+/// Options that people give to a command which has none of the kind or calls it otherwise, and what to type instead.
+const ELSEWHERE: [(&str, &str, &str); 4] = [
     ("run", "--site", "a run computes every site; read one by `uplift spectrum RESULT --site NAME`"),
     ("overturning", "--poe", "it reports annual rates; to size for a probability: `uplift target --poe`"),
+    ("spectrum", "--period", "write --return-period"),
+    ("export", "--excel", "write --xlsx"),
 ];
 
 /// What was typed; a mistake ends the program with its message.

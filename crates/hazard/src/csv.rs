@@ -37,6 +37,9 @@ impl Declared {
         let fail = |reason: String| HazardError::File { file: name.to_owned(), reason };
         let (said_measure, said_unit) = Self::in_table(text);
         let measure = measure.map(str::to_owned).or(said_measure).ok_or_else(|| {
+            if let Some((line, field)) = unknown_name(text) {
+                return unknown_column(field, "PGV [cm/s]", Place::Line { file: name.to_owned(), line });
+            }
             let reason = "the table does not say its measure: name its columns, for example pgv_cm_s,maf or \
                           pga_g,return_period, add a first line such as \"# IM: PGV [cm/s]\", or give the measure \
                           (--measure; in Python measure=)";
@@ -88,8 +91,32 @@ fn head(text: &str) -> impl Iterator<Item = Column> {
     })
 }
 
+/// The first column name that is not known, with its line; none of a table that begins with numbers.
+fn unknown_name(text: &str) -> Option<(usize, &str)> {
+    let mut rows = text.trim_start_matches('\u{feff}').lines().enumerate();
+    let (index, names) = rows.find(|(_, line)| {
+        let line = line.trim().trim_start_matches('"');
+        !line.is_empty() && !line.starts_with('#')
+    })?;
+    let mut names = names.split([',', ';', '\t']).map(|field| field.trim().trim_matches('"'));
+    let unknown = |name: &&str| name.parse::<f64>().is_err() && declaration::column(name, None).is_none();
+    Some((index + 1, names.find(unknown)?))
+}
+
+/// The message for a column name that is not known: the line that works, with the intensity column `level`.
+fn unknown_column(field: &str, level: &str, place: Place) -> HazardError {
+    let reason = format!(
+        "column name {} is not known: write e.g. \"{level},PoE in 50 years\"; for the second column also \
+         {OTHER_NAMES}",
+        excerpt(field)
+    );
+    HazardError::Row { place, reason }
+}
+
 /// What the second column may be called.
 const HAZARD_NAMES: &str = "maf (rate per year), poe (probability) or return_period (years)";
+/// The same beside an example of probabilities.
+const OTHER_NAMES: &str = "maf (rate per year) or return_period (years)";
 
 /// Lines among which a table says what it holds.
 const LONGEST_HEAD: usize = 50;
@@ -192,12 +219,21 @@ impl Table {
         let mut rows: Vec<Row> = Vec::new();
         let mut mistakes = Vec::new();
         let mut more = 0;
-        let mut note = |mistake| if mistakes.len() < MISTAKES_NAMED { mistakes.push(mistake) } else { more += 1 };
+        let mut note = |mistake| {
+            // what all lines have wrong is said of the first
+            let is_said = mistakes.iter().any(|said| same_reason(said, &mistake));
+            if !is_said && mistakes.len() < MISTAKES_NAMED { mistakes.push(mistake) } else { more += 1 }
+        };
         // Which column is the level, and what the other holds; known from the first row on.
         let mut columns: Option<(usize, SecondColumn)> = None;
         let mut years = options.years;
         // `split` and not `lines`: old spreadsheets end lines with a carriage return alone.
         let unified = text.replace("\r\n", "\n").replace('\r', "\n");
+        if has_one_column(&unified) {
+            let reason = "one column: two are needed, the intensity and its rate or probability, with a first line \
+                          such as \"PGV [cm/s],PoE in 50 years\"";
+            return Err(HazardError::File { file: name.to_owned(), reason: reason.to_owned() });
+        }
         let commas = has_decimal_commas(&unified, name)?;
         for (index, line) in unified.split('\n').enumerate() {
             let place = Place::Line { file: name.to_owned(), line: index + 1 };
@@ -239,7 +275,7 @@ impl Table {
         }
         match mistakes.len() {
             0 => {}
-            1 => return Err(mistakes.remove(0)),
+            1 if more == 0 => return Err(mistakes.remove(0)),
             _ => return Err(HazardError::Rows { mistakes, more }),
         }
         let Some((_, content)) = columns else {
@@ -248,6 +284,18 @@ impl Table {
         let source = if comments.is_empty() { name.to_owned() } else { comments.join("\n") };
         Ok(Self { rows, content, years, source, component })
     }
+}
+
+fn same_reason(one: &HazardError, other: &HazardError) -> bool {
+    matches!((one, other), (HazardError::Row { reason, .. }, HazardError::Row { reason: other, .. }) if reason == other)
+}
+
+/// Whether every row below the first, which may hold names with blanks, has a single field.
+fn has_one_column(text: &str) -> bool {
+    let is_row = |line: &&str| !line.is_empty() && !line.trim_start_matches('"').starts_with('#');
+    let mut below = text.split('\n').map(str::trim).filter(is_row).skip(1).peekable();
+    let single = |line: &str| !line.trim_end_matches([',', ';', '\t']).contains([',', ';', '\t', ' ']);
+    below.peek().is_some() && below.all(single)
 }
 
 /// Whether the numbers of a table have decimal commas, which they can where semicolons or tabs separate the columns.
@@ -321,10 +369,8 @@ fn read_header(
                 content = Some(SecondColumn::Probability);
             }
             None => {
-                let field = excerpt(field);
-                return fail(format!(
-                    "column name {field} is not known: use iml (or the measure, e.g. pgv_cm_s) and {HAZARD_NAMES}"
-                ));
+                let Declared { measure, unit } = &options.declared;
+                return Err(unknown_column(field, &format!("{measure} [{unit}]"), place.clone()));
             }
         }
     }

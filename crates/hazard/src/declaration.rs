@@ -70,8 +70,10 @@ pub(crate) fn column(name: &str, declared_measure: Option<&str>) -> Option<Colum
     if is(&RETURN_PERIODS) {
         return unit.is_none_or(is_years).then_some(Column::Hazard(SecondColumn::ReturnPeriod));
     }
-    if let Some(years) = PROBABILITIES.iter().find_map(|name| years_within(key.strip_prefix(name)?)) {
-        return unit.is_none().then_some(Column::ProbabilityWithin(years));
+    // the years are part of the name, not its unit
+    let whole = name.trim().to_ascii_lowercase().replace([' ', '-'], "_");
+    if let Some(years) = PROBABILITIES.iter().find_map(|name| years_within(whole.strip_prefix(name)?)) {
+        return Some(Column::ProbabilityWithin(years));
     }
     let unit = unit.map(str::to_owned);
     if is(&GENERIC) {
@@ -164,7 +166,7 @@ pub(crate) fn same_measure(a: &str, b: &str) -> bool {
         || average(&a) && average(&b) && (unsaid(&a) || unsaid(&b))
 }
 
-/// Splits `PGV [cm/s]`, `PGV (cm/s)`, `pgv_cm_s` and `maf_1_yr` into name and unit. Only brackets may
+/// Splits `PGV [cm/s]`, `PGV (cm/s)`, `PGV cm/s`, `pgv_cm_s` and `maf_1_yr` into name and unit. Only brackets may
 /// hold an unknown unit.
 fn split_unit(name: &str) -> (&str, Option<&str>) {
     if let Some((plain, unit)) = name.strip_suffix(']').and_then(|rest| rest.split_once('[')) {
@@ -178,7 +180,7 @@ fn split_unit(name: &str) -> (&str, Option<&str>) {
     }
     // The longest suffix first: `im_cm_s` is in cm/s, not in "s".
     let mut suffixes =
-        name.match_indices('_').map(|(at, _)| at).filter(|&at| at > 0 && name.len() - at <= LONGEST_UNIT);
+        name.match_indices([' ', '_']).map(|(at, _)| at).filter(|&at| at > 0 && name.len() - at <= LONGEST_UNIT);
     let at = suffixes.find(|&at| is_unit(&name[at + 1..]));
     at.map_or((name, None), |at| (&name[..at], Some(&name[at + 1..])))
 }
@@ -213,6 +215,10 @@ mod tests {
             ("pgv_cm_s", Some("pgv"), Some("cm_s")),
             ("PGV [cm/s]", Some("PGV"), Some("cm/s")),
             ("PGA (g)", Some("PGA"), Some("g")),
+            ("PGV cm/s", Some("PGV"), Some("cm/s")),
+            ("PGA g", Some("PGA"), Some("g")),
+            ("PGA m/s2", Some("PGA"), Some("m/s2")),
+            ("SA(1.0) cm s-2", Some("SA(1.0)"), Some("cm s-2")),
             ("SA(1.0)", Some("SA(1.0)"), None),
             ("SA(1.0)_g", Some("SA(1.0)"), Some("g")),
             ("pga_m_s2", Some("pga"), Some("m_s2")),
@@ -228,13 +234,17 @@ mod tests {
             ("maf_1_yr", SecondColumn::AnnualRate),
             ("MAF [1/yr]", SecondColumn::AnnualRate),
             ("annual rate", SecondColumn::AnnualRate),
+            ("return period years", SecondColumn::ReturnPeriod),
             ("PoE", SecondColumn::Probability),
         ] {
             assert_eq!(column(name, Some("PGV")), Some(Column::Hazard(what)), "{name}");
         }
-        for (name, years) in
-            [("PoE in 50 years", 50.0), ("poe_50yr", 50.0), ("Probability of exceedance in 1 year", 1.0)]
-        {
+        for (name, years) in [
+            ("PoE in 50 years", 50.0),
+            ("poe_50yr", 50.0),
+            ("poe_in_50_years", 50.0),
+            ("Probability of exceedance in 1 year", 1.0),
+        ] {
             assert_eq!(column(name, Some("PGV")), Some(Column::ProbabilityWithin(years)), "{name}");
         }
         for name in [

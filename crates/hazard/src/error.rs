@@ -39,10 +39,10 @@ fn list(mistakes: &[HazardError], more: usize) -> String {
 }
 
 /// What to do about rates that do not fall.
-const OF_RATES: &str = "correct the rates, export them with more digits, or remove the row";
+const OF_RATES: &str = ": correct the rates, export them with more digits, or remove the row";
 /// The same of rates of exactly 1.
-const OF_ONES: &str = "rates of exactly 1 are probabilities, mostly: say so (column poe; in a study kind = \"poe\" and \
-                       the years of the curve), or remove the row";
+const OF_ONES: &str = ". These look like probabilities. Name the column `PoE in 50 years`, in a study kind = \"poe\" \
+                       and years = 50";
 
 /// Why a hazard curve could not be built, read or evaluated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -101,7 +101,7 @@ pub enum HazardError {
     /// Rates that do not decrease.
     #[error(
         "{place}: annual rate {value} 1/yr is not below {previous} 1/yr at {previous_place}; a hazard curve must fall \
-         strictly: {}", if *value == 1.0 && *previous == 1.0 { OF_ONES } else { OF_RATES }
+         strictly{}", if *value == 1.0 && *previous == 1.0 { OF_ONES } else { OF_RATES }
     )]
     RatesNotDecreasing {
         /// Where the offending rate stands.

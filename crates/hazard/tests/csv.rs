@@ -28,6 +28,7 @@ fn the_same_table_in_many_dresses() {
         "IML ; MAF\n\n 1 ; 0.2 \n2;0.1\n\n",
         "pgv_cm_s\tafe\n1\t2e-1\n2\t1e-1",
         "PGV [cm/s], MAF [1/yr]\n1, 0.2\n2, 0.1",
+        "PGV cm/s,annual rate\n1,0.2\n2,0.1",
         "maf,im\n0.2,1\n0.1,2",
         "iml;maf\r\n1,0;0,2\r\n2;1,0E-1\r\n",
         "\u{feff}\"iml\"\t\"maf\"\n\"1,000\"\t\"0,2\"\n2\t0,100",
@@ -160,7 +161,22 @@ fn every_broken_line_is_named() {
         ("iml,maf\n1,0.2\n2,nan\n", "site.csv, line 3: \"nan\" is not a finite number"),
         ("iml,maf\n1,0.2\n2\n", "site.csv, line 3: 1 columns where 2 are expected; keep one column"),
         ("lon,lat,depth,poe-0.1,poe-0.2\n", "site.csv, line 1: 5 columns where 2 are expected; keep one column"),
-        ("iml,sigma\n1,0.2\n", "site.csv, line 1: column name \"sigma\" is not known"),
+        (
+            "iml,sigma\n1,0.2\n",
+            "site.csv, line 1: column name \"sigma\" is not known: write e.g. \"PGV [cm/s],PoE in 50 years\"; for",
+        ),
+        ("PGV [cm/s]\n1\n2\n", "site.csv: one column: two are needed, the intensity and its rate or probability"),
+        ("1\n2\n", "site.csv: one column: two are needed"),
+        (
+            "iml,maf\n0,1,0,2\n0,2,0,1\n0,3,0,05\n",
+            "site.csv, line 2: 4 columns where 2 are expected; if these are decimal commas, write decimal points, or \
+             semicolons between the columns; and 2 lines more",
+        ),
+        (
+            "iml,maf\n1,1\n2,1\n",
+            "site.csv, line 3: annual rate 1 1/yr is not below 1 1/yr at site.csv, line 2; a hazard curve must fall \
+             strictly. These look like probabilities. Name the column `PoE in 50 years`",
+        ),
         ("maf,poe\n1,0.2\n", "site.csv, line 1: columns \"maf\" and \"poe\": one must hold levels"),
         ("iml,maf\n1,0.2\n1,0.1\n", "site.csv, line 3: intensity 1 cm/s does not exceed 1 cm/s at site.csv, line 2"),
         (

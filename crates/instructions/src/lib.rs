@@ -96,7 +96,7 @@ fn named(word: &str) -> Result<InstructionSet, InstructionsError> {
     })
 }
 
-/// A set that this processor is known to have: only [`of`](Self::from_set) says so.
+/// A set that this processor is known to have: only [`from_set`](Self::from_set) says so.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Instructions(InstructionSet);
 

@@ -253,6 +253,23 @@ pub enum MotionError {
         /// What is wrong with it.
         reason: &'static str,
     },
+    /// The text ends within a number.
+    #[error(
+        "{name}, line {line}: \"{token}\" is not a number after {found} of {declared} points: the file is cut; get it \
+         again"
+    )]
+    CutNumber {
+        /// The file.
+        name: String,
+        /// The line.
+        line: usize,
+        /// What is there of the number.
+        token: String,
+        /// Values in the lines above.
+        found: usize,
+        /// Number of points that the head says.
+        declared: u64,
+    },
     /// A line has a wrong number of columns.
     #[error("{name}, line {line}: number of columns {found}, expected {expected}{hint}")]
     ColumnCount {

@@ -1,4 +1,4 @@
-//! Several samples ahead evaluated together, which the compiler turns into vector instructions.
+//! Several samples ahead evaluated together, in the vectors of the processor.
 //!
 //! Arrays that are read in this way are longer by [`AHEAD`] samples than the record.
 

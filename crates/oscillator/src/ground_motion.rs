@@ -7,7 +7,7 @@
 use crate::ahead::{AHEAD, larger, padded};
 use crate::excitation::Excitation;
 
-/// A unit-scale record with its integrals. Memory: 3 numbers a sample beside the record.
+/// A unit-scale record with its integrals. Memory: a little over 3 numbers a sample beside the record.
 #[derive(Debug, Clone)]
 pub struct GroundMotion<'a> {
     pub(crate) excitation: Excitation<'a>,
@@ -56,5 +56,32 @@ impl<'a> GroundMotion<'a> {
     /// Number of sample intervals.
     pub(crate) fn intervals(&self) -> usize {
         self.excitation.acceleration_m_s2().len() - 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn the_largest_ahead_is_no_less_than_any_sample_there() {
+        for samples in [2, 15, 16, 17, 32, 33, 50] {
+            // one sample stands out, wherever it is
+            for peak in 0..samples {
+                let mut record = vec![0.1; samples];
+                record[peak] = -1.0;
+                let ground = GroundMotion::new(Excitation::new(0.01, &record).unwrap());
+                for j in 0..ground.intervals() {
+                    let ahead = &record[j..samples.min(j + AHEAD + 1)];
+                    let largest = ahead.iter().fold(0.0, |most, a| larger(a.abs(), most));
+                    assert!(ground.largest_ahead(j) >= largest, "{samples} {peak} {j}");
+                    // and far from the peak it is not that of the peak
+                    if peak + AHEAD < j || peak > j + 2 * AHEAD {
+                        assert_eq!(ground.largest_ahead(j), 0.1, "{samples} {peak} {j}");
+                    }
+                }
+            }
+        }
     }
 }

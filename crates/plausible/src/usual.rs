@@ -49,6 +49,9 @@ pub const USUAL_LENGTH: Range = usual(0.02, 150.0, "m", "was it meant in mm or c
 /// Mass of what rocks: from a model on a shaking table to a long deck.
 pub const USUAL_MASS: Range = usual(1.0, 1e9, "kg", "was it meant in t, or is it a weight in N?");
 
+/// Mass of a deck over that of its columns; one lighter than a twentieth was probably given in tonnes.
+pub const USUAL_DECK: Range = usual(0.05, 1e4, "", "times the mass of the columns; is it in kg?");
+
 /// Mass over width² times height: what a block or column as deep as it is wide would have for a density. Walls are
 /// deeper and boxes hollow: a tenth of light timber, a hundred times concrete.
 pub const USUAL_BULK: Range = usual(

@@ -105,7 +105,7 @@ impl<'a> ResamplingTable<'a> {
 struct Search<'a> {
     table: &'a ResamplingTable<'a>,
     sample: &'a RecordSample,
-    /// Times the size of the sample, 1/yr.
+    /// The target rate times the size of the sample, 1/yr.
     limit: f64,
 }
 

@@ -184,6 +184,10 @@ fn numbers_in_other_units_are_accepted_and_reported() {
         )
     };
     assert_eq!(unlikely(&frame(1.5e6)), [""; 0]);
+    // the deck alone in tonnes
+    let light = frame(1.5e6).replace("deck_mass_kg = 900000", "deck_mass_kg = 900");
+    assert_eq!(unlikely(&light), ["deck_mass_kg over the mass of the columns"]);
+    assert_eq!(unlikely(&frame(1.5e6).replace("= 900000", "= 9700")), [""; 0]);
     let description: StructureDescription = toml::from_str(&frame(5.6e6)).unwrap();
     let found = description.unlikely();
     let [rotation] = &found[..] else { panic!("{found:?}") };

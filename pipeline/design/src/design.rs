@@ -521,7 +521,7 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     }
     if !system.is_of_uplift_displacement(oscillator.uplift_displacement_m) {
         notes.push(format!(
-            "the spectrum was computed for an uplift displacement of {} mm; this structure needs {} mm (its {} mm \
+            "The spectrum is of another oscillator. Its uplift displacement is {} mm; this structure's is {} mm ({} mm \
              over Γ)",
             rounded(1e3 * oscillator.uplift_displacement_m, 4),
             rounded(1e3 * system.spectral_uplift_displacement_m(), 3),
@@ -532,7 +532,7 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     }
     if apart(restitution, oscillator.restitution) {
         notes.push(format!(
-            "the spectrum was computed for a restitution of {}; this structure has {restitution}",
+            "The spectrum is of another oscillator. Its restitution is {}; this structure's is {restitution}",
             oscillator.restitution
         ));
         settings.push(format!("--set oscillator.restitution={restitution}"));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use uplift_hazard::{CsvOptions, HazardCurve, SecondColumn, read_path};
 use uplift_job::JobError;
 use uplift_job::checksum::checksum_of_file;
-use uplift_job::text::counted;
+use uplift_job::text::{counted, rounded};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
 use uplift_study::{
@@ -296,16 +296,28 @@ impl SiteReader<'_> {
                 let key = levels_key(self.measure);
                 return format!("{name}: {other_unit}; if not, use a longer curve or leave levels out of {key}");
             }
-            let within = levels_within(self.measure, curve.first().im, curve.last().im);
-            let within = within.map_or_else(String::new, |(_, levels)| {
-                let (section, key) = levels_place(self.measure);
-                format!(": the default ones within it are, in [{section}], {key} = {levels}")
-            });
             let dropped = match dropped_certain {
                 0 => String::new(),
-                rows => format!(" ({rows} rows of probability 1 at its start carry no rate and were dropped)"),
+                rows => format!(" ({} of probability 1 dropped)", counted(rows, "row")),
             };
-            format!("{name}: {reason}{within}{dropped}")
+            let (first, last) = (curve.first().im, curve.last().im);
+            let unit = self.measure.unit();
+            let [begin, end] = [first, last].map(|end| rounded(end, 6));
+            let (least, most) = (plan.levels[0], plan.levels[plan.levels.len() - 1]);
+            let span = match (least < first, most > last) {
+                (true, true) => Some(format!("spans {begin} to {end} {unit}{dropped}, the levels {least} to {most}")),
+                (true, false) => Some(format!("begins at {begin} {unit}{dropped}, the levels at {least} {unit}")),
+                (false, true) => Some(format!("ends at {end} {unit}, the levels at {most} {unit}")),
+                (false, false) => None,
+            };
+            let (Some(span), Some((_, levels))) = (span, levels_within(self.measure, first, last)) else {
+                return format!("{name}: {reason}{dropped}");
+            };
+            let (section, key) = levels_place(self.measure);
+            format!(
+                "{name}: the curve {span}. In [{section}] write: {key} = {levels}. Or use a longer curve, or \
+                 risk.extrapolate = \"loglog\""
+            )
         })
     }
 

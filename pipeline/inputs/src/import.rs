@@ -21,7 +21,7 @@ use serde::Serialize;
 pub use measured::PairMeasures;
 pub use name::sequence_number;
 pub use warnings::of_pair as warnings_of_pair;
-pub use warnings::{Remarks, Warning, unusual_peak};
+pub use warnings::{Remarks, Warning, unusual_peaks};
 
 use crate::FileOptions;
 use crate::error::InputsError;

@@ -22,7 +22,7 @@ use super::pairs::{self, CheckedPair};
 use super::third_component::{ThirdComponents, Vertical};
 use super::{AtLevel, at_level, cache, manifest, selection};
 use crate::error::InputsError;
-use crate::import::unusual_peak;
+use crate::import::unusual_peaks;
 
 /// One analysis record: a component of a pair, or the pair as it is seen from azimuths, with the intensity of the pair.
 #[derive(Debug, Clone)]
@@ -264,23 +264,18 @@ fn of_unequal_length(pairs: &[CheckedPair], study: &UniformRiskStudy) -> Option<
     })
 }
 
-/// Records whose unit is probably not what it is taken for.
+/// Records whose unit is probably not what it is taken for: the first, and how many more.
 pub(super) fn of_unusual_peak(pairs: &[CheckedPair], gravity_m_s2: f64) -> Option<String> {
     let told = |(pair, _): &CheckedPair| {
-        let pga_g = pair.h1.pga_m_s2().max(pair.h2.pga_m_s2()) / gravity_m_s2;
-        unusual_peak(pga_g).map(|_| format!("{}: {pga_g:.3} g", pair.id))
+        let told = unusual_peaks(&[&pair.h1, &pair.h2].map(|motion| motion.pga_m_s2() / gravity_m_s2))?;
+        Some(format!("{}: {told}", pair.id))
     };
     let unusual: Vec<String> = pairs.iter().filter_map(told).collect();
-    (!unusual.is_empty()).then(|| {
-        format!(
-            "{} of {} records have a PGA that the ground hardly has ({}{}): is their unit right, cm/s2 taken for g \
-             perhaps?",
-            unusual.len(),
-            pairs.len(),
-            unusual.iter().take(5).cloned().collect::<Vec<_>>().join(", "),
-            if unusual.len() > 5 { ", …" } else { "" }
-        )
-    })
+    let more = match unusual.len() {
+        0 | 1 => String::new(),
+        count => format!(" ({} more of {} records)", count - 1, pairs.len()),
+    };
+    Some(format!("{}{more}", unusual.first()?))
 }
 
 /// Records both components of which are the same numbers.

@@ -30,9 +30,17 @@ pub fn number(text: &str) -> Result<f64, String> {
             Some(_) if text.split(',').all(is_number) => {
                 "give one number, and repeat the command for the others".to_owned()
             }
+            None if let Some(quotient) = quotient(text) => format!("write a number, {quotient:e}"),
             _ => "write a number, 0.2 or 2e-4, without a unit".to_owned(),
         }
     })
+}
+
+/// `1/20000` to three digits; none of other text.
+fn quotient(text: &str) -> Option<f64> {
+    let (above, below) = text.split_once('/')?;
+    let quotient = above.trim().parse::<f64>().ok()? / below.trim().parse::<f64>().ok()?;
+    format!("{quotient:.2e}").parse().ok().filter(|quotient: &f64| quotient.is_finite())
 }
 
 /// Reads `0.1`, `10%` or `10 %`. What it may be is said where it is used, but per cent outside 0 to 100 are refused
@@ -75,7 +83,8 @@ mod tests {
         for text in ["475,2475", "1,234,567"] {
             assert!(number(text).is_err_and(|error| error.starts_with("give one number")), "{text}");
         }
-        for text in ["0.2 m", "x", ""] {
+        assert_eq!(number("1/20000"), Err("write a number, 5e-5".to_owned()));
+        for text in ["0.2 m", "x", "", "1/0", "m/s"] {
             assert!(number(text).is_err_and(|error| error.starts_with("write a number")), "{text}");
         }
     }

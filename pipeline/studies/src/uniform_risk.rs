@@ -11,7 +11,7 @@ mod work;
 mod write;
 mod write_hazard;
 
-pub use csv::{QUOTED_LIMITS, band_columns, csv_paths, quoted_bands_m, spectra_table, tables, write_csv};
+pub use csv::{band_columns, csv_paths, quoted_bands_m, spectra_table, tables, write_csv};
 pub use earlier::{EarlierStripes, is_of_records};
 pub use levels::{LevelCheck, LevelProposal};
 pub use plan::{Plan, needs, plan};

@@ -25,6 +25,8 @@ use crate::stored_stripes::{StoredMeasure, poe_index, stored_measure};
 
 /// How often a band is to hold the displacement of all records like those at hand.
 pub const CONFIDENCE: f64 = 0.9;
+/// The names of the limits of that band, m, in tables and exports.
+pub const QUOTED_LIMITS: [&str; 2] = ["lower_m", "upper_m"];
 /// The strengths that are shown where none are asked for, or the nearest that a result has.
 pub(crate) const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
 
@@ -185,8 +187,8 @@ impl DisplacementReport {
             .with("years", |own| own.years)
             .with("return_period_years", |own| own.return_period_years)
             .with("u_m", |own| own.u_m)
-            .with("lower_m", |own| limit(own, 0))
-            .with("upper_m", |own| limit(own, 1))
+            .with(QUOTED_LIMITS[0], |own| limit(own, 0))
+            .with(QUOTED_LIMITS[1], |own| limit(own, 1))
             .build();
         table_text(Path::new("standard output"), "", columns)
     }

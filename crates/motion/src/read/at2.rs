@@ -54,7 +54,8 @@ pub struct At2Record {
 ///
 /// Head: [`MotionError::NoPointCount`], [`MotionError::HeaderValue`],
 /// [`MotionError::NotAcceleration`], [`MotionError::HeaderUnit`], [`MotionError::MissingUnit`].
-/// Values: [`MotionError::Number`], [`MotionError::PointCount`] where their number is not NPTS.
+/// Values: [`MotionError::Number`], [`MotionError::CutNumber`], [`MotionError::PointCount`] where their number is not
+/// NPTS.
 /// [`MotionError::InFile`] where they make no [`Accelerogram`], [`MotionError::Gravity`].
 pub fn read_at2(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<At2Record, MotionError> {
     let text = decode(bytes);
@@ -64,13 +65,8 @@ pub fn read_at2(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<At2Re
         .or(options.unit)
         .ok_or_else(|| MotionError::MissingUnit { name: name.to_owned(), accepted: AccelerationUnit::ACCEPTED })?;
 
-    // Grows with what the file holds, never with what its head declares.
     let source = Source { name, format: RecordFormat::At2 };
-    let mut values = Vec::new();
-    for (index, line) in text.lines().enumerate().skip(header.lines.len()) {
-        source.numbers(index + 1, line, &mut values)?;
-    }
-    source.check_count(header.point_count, values.len())?;
+    let values = source.all_numbers(&text, header.lines.len(), header.point_count)?;
     let accelerogram = options.accelerogram(name, header.dt_s, unit, values)?;
     Ok(At2Record { header, accelerogram })
 }
@@ -323,6 +319,17 @@ mod tests {
         ] {
             assert_eq!(message(&file(UNIT, POINTS, values)), format!("RSN1.AT2, line {line}: \"{token}\" {reason}"));
         }
+    }
+
+    #[test]
+    fn a_file_cut_within_a_number_is_called_cut() {
+        assert_eq!(
+            message(&file(UNIT, "NPTS= 9, DT= .005 SEC", ".1 .2\n.3 -.1700506E\n\n")),
+            "RSN1.AT2, line 6: \"-.1700506E\" is not a number after 2 of 9 points: the file is cut; get it again"
+        );
+        // what follows shows that nothing is cut there
+        let more = message(&file(UNIT, "NPTS= 9, DT= .005 SEC", ".1 .2E\n.3\n"));
+        assert_eq!(more, "RSN1.AT2, line 5: \".2E\" is not a number");
     }
 
     #[test]

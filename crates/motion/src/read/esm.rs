@@ -37,8 +37,8 @@ pub(super) fn looks_like(head: &str) -> bool {
 /// [`MotionError::NoAcceleration`] and [`MotionError::NotAcceleration`] for velocities, displacements and
 /// spectra; [`MotionError::HeaderLacks`] without time step or number of values, [`MotionError::HeaderValue`]
 /// where one cannot be read; [`MotionError::HeaderUnit`], [`MotionError::MissingUnit`];
-/// [`MotionError::Number`], [`MotionError::PointCount`]; [`MotionError::InFile`] where the values make no
-/// accelerogram, [`MotionError::Gravity`].
+/// [`MotionError::Number`], [`MotionError::CutNumber`], [`MotionError::PointCount`]; [`MotionError::InFile`] where the
+/// values make no accelerogram, [`MotionError::Gravity`].
 pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Recording, MotionError> {
     let text = decode(bytes);
     let source = Source { name, format: RecordFormat::Esm };
@@ -51,11 +51,7 @@ pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Re
     let point_count = count.parse().map_err(|_| source.unreadable(line, "NDATA", count, "NDATA: 19128"))?;
     let unit = head.unit(name, options)?;
 
-    let mut values = Vec::new();
-    for (index, line) in text.lines().enumerate().skip(head.line_count) {
-        source.numbers(index + 1, line, &mut values)?;
-    }
-    source.check_count(point_count, values.len())?;
+    let values = source.all_numbers(&text, head.line_count, point_count)?;
     let accelerogram = options.accelerogram(name, dt_s, unit, values)?;
     Ok(Recording { accelerogram, description: head.describe() })
 }

@@ -1,7 +1,7 @@
 //! The text of a record file, and the errors that name its lines.
 
 use super::excerpt;
-use super::number::{numbers_of_line, why_no_number};
+use super::number::{numbers_of_line, parse_number, why_no_number};
 use crate::error::MotionError;
 use crate::recording::RecordFormat;
 
@@ -33,6 +33,28 @@ impl Source<'_> {
             token: excerpt(token),
             reason: why_no_number(token),
         })
+    }
+
+    /// The numbers of `text` below the `head` lines, of which there must be as many as `declared`.
+    pub(super) fn all_numbers(&self, text: &str, head: usize, declared: u64) -> Result<Vec<f64>, MotionError> {
+        // Grows with what the file holds, never with what its head declares.
+        let mut values = Vec::new();
+        let mut lines = text.lines().enumerate().skip(head);
+        while let Some((index, line)) = lines.next() {
+            self.numbers(index + 1, line, &mut values).map_err(|error| match error {
+                // the beginning of a number, and nothing below it
+                MotionError::Number { name, line, token, .. }
+                    if (values.len() as u64) < declared
+                        && parse_number(&format!("{token}0")).is_some()
+                        && lines.all(|(_, line)| line.trim().is_empty()) =>
+                {
+                    MotionError::CutNumber { name, line, token, found: values.len(), declared }
+                }
+                error => error,
+            })?;
+        }
+        self.check_count(declared, values.len())?;
+        Ok(values)
     }
 
     /// Refuses a number of values that is not the `declared` one.

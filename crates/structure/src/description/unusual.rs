@@ -1,7 +1,7 @@
 //! What a description says that can be, but is unlikely: numbers in another unit than the key's, mostly.
 
 use uplift_plausible::{
-    Range, USUAL_BULK, USUAL_GRAVITY, USUAL_LENGTH, USUAL_MASS, USUAL_RESTITUTION, USUAL_ROTATION,
+    Range, USUAL_BULK, USUAL_DECK, USUAL_GRAVITY, USUAL_LENGTH, USUAL_MASS, USUAL_RESTITUTION, USUAL_ROTATION,
     USUAL_TENDON_STIFFNESS, USUAL_UPLIFT_DISPLACEMENT, Unlikely,
 };
 
@@ -28,8 +28,23 @@ pub(super) fn unlikely(of: &StructureDescription) -> Vec<Unlikely> {
     ];
     let mut found: Vec<Unlikely> =
         quantities.into_iter().filter_map(|(name, value, usual)| usual.unlikely(name, value?)).collect();
+    found.extend(
+        deck_share(of).and_then(|share| USUAL_DECK.unlikely("deck_mass_kg over the mass of the columns", share)),
+    );
     found.extend(bulk_kg_m3(of).and_then(|(name, bulk)| USUAL_BULK.unlikely(name, bulk)));
     found
+}
+
+/// Mass of the deck over that of the columns; none where one of them has no mass.
+fn deck_share(of: &StructureDescription) -> Option<f64> {
+    let columns_kg = f64::from(of.columns?) * of.column_mass_kg?;
+    let share = of.deck_mass_kg? / columns_kg;
+    (share > 0.0 && share.is_finite()).then(|| three_digits(share))
+}
+
+/// Three digits of what is computed.
+fn three_digits(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 /// Mass over width² times height of a block, or of a column of a frame, kg/m³; none for a body that its centre alone
@@ -44,9 +59,7 @@ fn bulk_kg_m3(of: &StructureDescription) -> Option<(&'static str, f64)> {
     };
     let geometry = of.geometry().ok()?;
     let volume_m3 = geometry.width_m().powi(2) * geometry.height_m();
-    // three digits of what is computed
-    let bulk = || format!("{:.2e}", mass_kg / volume_m3).parse().unwrap_or(mass_kg / volume_m3);
-    (mass_kg > 0.0 && volume_m3 > 0.0).then(|| (name, bulk()))
+    (mass_kg > 0.0 && volume_m3 > 0.0).then(|| (name, three_digits(mass_kg / volume_m3)))
 }
 
 /// The rotation at which a frame with tendons or curved ends has lost its stability, rad. A body that is held by

@@ -2,7 +2,7 @@
 
 use uplift_motion::IntensityMeasure;
 
-use super::suggestion::{MEASURES, did_you_mean, measure_by_its_key, other_unit};
+use super::suggestion::{MEASURES, did_you_mean, measure_by_its_key, of_other_programs, other_unit};
 use super::{Field, Finding, Findings, Origin, Table, optional};
 use crate::error::MOST_LISTED;
 use crate::keys::{Form, Key, Readable};
@@ -95,11 +95,14 @@ impl<'a> Section<'a> {
             let what = if entry.node.is_sections() { "section" } else { "key" };
             let measures = self.path == MEASURES || self.known.contains(&IntensityMeasure::Pgv.key());
             let help = || {
-                let meant = did_you_mean_key(&entry.key, &self.known, measures, self.path.is_empty());
-                meant.unwrap_or_else(|| {
-                    let place = if self.path.is_empty() { "the file".to_owned() } else { format!("`{}`", self.path) };
-                    format!("{place} has {}", self.known.join(", "))
-                })
+                let meant = || did_you_mean_key(&entry.key, &self.known, measures, self.path.is_empty());
+                of_other_programs(&self.path, &entry.key, &self.known).map(str::to_owned).or_else(meant).unwrap_or_else(
+                    || {
+                        let place =
+                            if self.path.is_empty() { "the file".to_owned() } else { format!("`{}`", self.path) };
+                        format!("{place} has {}", self.known.join(", "))
+                    },
+                )
             };
             self.findings.add(Finding {
                 key: self.join(&entry.key),

@@ -39,6 +39,28 @@ pub fn did_you_mean(word: &str, known: &[&str]) -> Option<String> {
         .map(|(_, candidate)| format!("did you mean `{candidate}`?"))
 }
 
+/// What to do about keys of other programs that no key here stands for: `path` and `known` tell the section.
+pub(crate) fn of_other_programs(path: &str, key: &str, known: &[&str]) -> Option<&'static str> {
+    let key = key.to_lowercase();
+    let is_modulus = key.contains("modulus") || key.starts_with("young");
+    match &*key {
+        "return_period" | "return_periods" | "return_period_years" if path == "risk" => Some(
+            "a result is read at any return period: uplift spectrum RESULT --return-period 475; the study gives `poe` \
+             and `years`",
+        ),
+        "longitude" | "latitude" | "lon" | "lat" if path.starts_with("sites[") => {
+            Some("a site needs no coordinates: its curve is the hazard there; leave the key out")
+        }
+        "e" | "e_pa" | "e_mpa" | "e_gpa" | "e_n_m2" if known.contains(&"period_s") => Some(NO_MODULUS),
+        _ if is_modulus && known.contains(&"period_s") => Some(NO_MODULUS),
+        _ => None,
+    }
+}
+
+/// A structure file has forces and displacements, no material.
+const NO_MODULUS: &str =
+    "the modulus is not read: give uplift_displacement_m = force at uplift / stiffness, or period_s";
+
 /// The section of the measures that Chapter 4 has not.
 pub(crate) const MEASURES: &str = "measures";
 

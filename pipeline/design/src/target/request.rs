@@ -18,7 +18,8 @@ const TOLERANCE: Range = Range { least: 1e-9, most: 0.5, unit: "", hint: "a shar
 /// What a value may be before the structure says what it makes of it.
 const VALUE: Range = Range { least: 1e-9, most: 1e13, unit: "", hint: "in the unit of what is varied" };
 /// From hourly to once in ten thousand million years.
-const PER_YEAR: Range = Range { least: 1e-10, most: 1e4, unit: "1/yr", hint: "a mean annual frequency, 2e-4" };
+const PER_YEAR: Range =
+    Range { least: 1e-10, most: 1e4, unit: "1/yr", hint: "a rate per year: 5e-5 is once in 20,000 years" };
 /// Of a fragility.
 const DISPERSION: Range = Range { least: 1e-3, most: 5.0, unit: "", hint: "of ln im, 0.6 or so" };
 

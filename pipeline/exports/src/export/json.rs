@@ -9,7 +9,7 @@ use uplift_result::{
     BAND_FIGURES, BandKind, Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, flag_word,
     regression, urs,
 };
-use uplift_studies::uniform_risk::QUOTED_LIMITS;
+use uplift_uniform_risk::QUOTED_LIMITS;
 
 use super::Export;
 use super::added::Influence;
@@ -56,7 +56,7 @@ impl Export {
         for quantity in urs::GROUP.quantities {
             spectrum[quantity.name] = (first..first + strengths).map(|at| cell(quantity, row.of_measure, at)).collect();
         }
-        for (name, limits_m) in QUOTED_LIMITS.iter().zip(self.quoted_of(row)) {
+        for (name, limits_m) in QUOTED_LIMITS.iter().zip(row.quoted_m()) {
             spectrum[name] = numbers(&limits_m).into();
         }
         spectrum["fit"] = coefficients(&row.spectrum.fit);

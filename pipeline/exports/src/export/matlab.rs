@@ -7,7 +7,7 @@ use uplift_job::alarm::Alarm;
 use uplift_questions::efficiency::{FIGURES, TRENDS};
 use uplift_result::declared::Quantity;
 use uplift_result::{BAND_FIGURES, INFERRED_BANDS, StoredSpectra, StoredSpread, before_unit, regression, urs};
-use uplift_studies::uniform_risk::QUOTED_LIMITS;
+use uplift_uniform_risk::QUOTED_LIMITS;
 
 use super::Export;
 use super::added::Influence;
@@ -39,9 +39,10 @@ impl Export {
             // spectra come site by site, in each probability by probability: the order of MATLAB's columns
             let shape = Shape(vec![strengths.len(), poes.len(), sites.len()]);
             add(&mut file, urs::GROUP.quantities, key, &shape, spectra);
+            let rows = self.rows().filter(|row| row.spectrum.measure == spectra.measure);
+            let quoted_m: Vec<[Vec<f64>; 2]> = rows.map(|row| row.quoted_m()).collect();
             for (limit, name) in QUOTED_LIMITS.iter().enumerate() {
-                let rows = self.rows().filter(|row| row.spectrum.measure == spectra.measure);
-                let limits_m: Vec<f64> = rows.flat_map(|row| self.quoted_of(&row)[limit].clone()).collect();
+                let limits_m: Vec<f64> = quoted_m.iter().flat_map(|of_row| of_row[limit].iter().copied()).collect();
                 file.numbers(&before_unit(name, &format!("_{key}")), &shape, &limits_m);
             }
             add(&mut file, regression::COEFFICIENTS, key, &Shape(vec![poes.len(), sites.len()]), &spectra.fits);

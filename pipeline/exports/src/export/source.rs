@@ -50,8 +50,17 @@ pub(super) struct Row<'a> {
     /// All spectra of its measure.
     pub(super) of_measure: &'a MeasureSpectra,
     pub(super) spectrum: Spectrum<'a>,
+    /// [`Export::quoted_m`] over the strengths.
+    quoted_m: &'a [Option<[f64; 2]>],
     /// Years.
     pub(super) return_period: f64,
+}
+
+impl Row<'_> {
+    /// Lower and upper limit of the quoted band over the strengths, m; NaN where there is none.
+    pub(super) fn quoted_m(&self) -> [Vec<f64>; 2] {
+        [0, 1].map(|limit| self.quoted_m.iter().map(|band_m| band_m.map_or(f64::NAN, |band_m| band_m[limit])).collect())
+    }
 }
 
 impl Export {
@@ -96,21 +105,14 @@ impl Export {
     /// Every spectrum, by measure, then site, then probability.
     pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
         let places = self.spectra.measures.iter().flat_map(|of| of.fits.blocks::<2>().map(move |(at, _)| (at, of)));
-        places.zip(self.spectra.rows()).map(|((at, of_measure), spectrum)| Row {
+        let quoted = self.quoted_m.chunks(self.spectra.strengths.len());
+        places.zip(self.spectra.rows()).zip(quoted).map(|(((at, of_measure), spectrum), quoted_m)| Row {
             at,
             of_measure,
             spectrum,
+            quoted_m,
             return_period: self.return_periods[at[1]],
         })
-    }
-
-    /// Lower and upper limit of the quoted band of a spectrum over the strengths, m; NaN where there is none.
-    pub(super) fn quoted_of(&self, row: &Row<'_>) -> [Vec<f64>; 2] {
-        let (strengths, [site, poe]) = (self.spectra.strengths.len(), row.at);
-        let of_measure = self.spectra.measures.iter().position(|of| of.measure == row.spectrum.measure).unwrap_or(0);
-        let first = ((of_measure * self.spectra.sites.len() + site) * self.spectra.poes.len() + poe) * strengths;
-        let of_row = &self.quoted_m[first..first + strengths];
-        [0, 1].map(|limit| of_row.iter().map(|band_m| band_m.map_or(f64::NAN, |band_m| band_m[limit])).collect())
     }
 
     /// What there are spreads over.

@@ -29,13 +29,27 @@ const RIGHT_ANGLE_DEG: f64 = 5.0;
 /// How many times as long or short a significant duration may be as the search results state it: they take one of the
 /// components, or both together.
 const ODD_DURATION_RATIO: f64 = 1.5;
-/// Peaks beyond which the unit is probably not what it is taken for, g.
-const USUAL_PGA_G: [f64; 2] = [1e-6, 3.0];
+/// Peaks beyond which the unit is probably not what it is taken for, g: nobody feels less than 0.001 g, and a file in g
+/// read as cm/s2 is below it up to a true PGA of 1 g; the strongest one recorded has about 4 g.
+const USUAL_PGA_G: [f64; 2] = [1e-3, 3.0];
+/// Ratio of the peaks of two components beyond which they are hardly in one unit: it is below some 5 where the ground
+/// moved, and g taken for cm/s2 multiplies one of them by 981.
+const USUAL_PGA_RATIO: f64 = 20.0;
 
-/// What to say of a largest acceleration \[g\] that the ground hardly has.
-pub fn unusual_peak(pga_g: f64) -> Option<String> {
-    let usual = (USUAL_PGA_G[0]..USUAL_PGA_G[1]).contains(&pga_g);
-    (!usual).then(|| format!("a component has a PGA of {pga_g:.3e} g; is its unit right?"))
+/// What to say of the largest accelerations \[g\] of the components of a record, which the ground hardly has.
+pub fn unusual_peaks(pga_g: &[f64]) -> Option<String> {
+    let [least, largest] = USUAL_PGA_G;
+    if let Some(strong) = pga_g.iter().find(|&&pga_g| pga_g >= largest || pga_g.is_nan()) {
+        return Some(format!("mistake? PGA {strong:.3} g: is its unit right, cm/s2 perhaps?"));
+    }
+    let weakest = pga_g.iter().copied().fold(f64::INFINITY, f64::min);
+    let strongest = pga_g.iter().copied().fold(0.0, f64::max);
+    let question = "is the file in g? Check the unit in its head";
+    if weakest < least {
+        return Some(format!("mistake? PGA {weakest:.3e} g: {question}"));
+    }
+    (strongest > USUAL_PGA_RATIO * weakest)
+        .then(|| format!("mistake? PGA {weakest:.3e} g of one component, {strongest:.3} g of the other: {question}"))
 }
 
 /// Remarks about `pair`, whose files say the `descriptions` of its components; `gravity_m_s2` as in its `measures`.
@@ -64,10 +78,10 @@ pub fn of_pair(
         let share = 100.0 * measures.residual_velocity_share;
         add("odd baseline", format!("a velocity of {share:.0} % of the PGV is left at the end: its baseline is odd"));
     }
+    if let Some(text) = unusual_peaks(&motions.map(|motion| motion.pga_m_s2() / gravity_m_s2)) {
+        add("unusual peak", text);
+    }
     for (motion, description) in motions.iter().zip(descriptions) {
-        if let Some(text) = unusual_peak(motion.pga_m_s2() / gravity_m_s2) {
-            add("unusual peak", text);
-        }
         if let Some(stated) = description.stated_pga_m_s2.filter(|stated| stated.abs() > 0.0) {
             let found = motion.pga_m_s2();
             if (found / stated.abs() - 1.0).abs() > STATED_PEAK {
@@ -190,6 +204,23 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
+
+    #[test]
+    fn peaks_of_another_unit() {
+        for usual in [[0.1, 0.2], [0.002, 0.01], [1.0, 2.9]] {
+            assert_eq!(unusual_peaks(&usual), None);
+        }
+        // 0.3 g read as cm/s2; 1.3 g read so beside 0.9 g; 30 cm/s2 read as g
+        for (pga_g, words) in [
+            ([3.06e-4, 3.0e-4], "PGA 3.000e-4 g: is the file in g?"),
+            ([1.3e-3, 0.9], "PGA 1.300e-3 g of one component, 0.900 g of the other: is the file in g?"),
+            ([30.0, 0.1], "PGA 30.000 g: is its unit right, cm/s2 perhaps?"),
+            ([0.0, 0.1], "PGA 0.000e0 g"),
+        ] {
+            let told = unusual_peaks(&pga_g).unwrap();
+            assert!(told.starts_with(&format!("mistake? {words}")), "{told}");
+        }
+    }
 
     #[test]
     fn a_duration_that_is_not_the_one_of_the_search() {

@@ -11,7 +11,7 @@ use uplift_study::did_you_mean;
 
 use crate::FileOptions;
 use crate::error::InputsError;
-use crate::import::{PairMeasures, unusual_peak, warnings_of_pair};
+use crate::import::{PairMeasures, unusual_peaks, warnings_of_pair};
 use crate::manifest::{self, ComponentFile};
 use crate::pairs::read_component;
 
@@ -148,7 +148,7 @@ fn file(path: &Path, files: FileOptions) -> Result<FileReport, InputsError> {
         .iter()
         .map(|recording| ComponentReport::from_recording(recording, files.gravity_m_s2))
         .collect();
-    let warnings = components.iter().filter_map(|component| unusual_peak(component.pga_g)).collect();
+    let warnings = components.iter().filter_map(|component| unusual_peaks(&[component.pga_g])).collect();
     Ok(FileReport { file: path.to_owned(), format: file.format.to_string(), components, warnings })
 }
 

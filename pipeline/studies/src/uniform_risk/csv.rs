@@ -9,7 +9,7 @@ use uplift_job::table::{ColumnsOf, write_table};
 use uplift_result::declared::{Field, Place, Quantity};
 use uplift_result::{Fits, ResultFile, StoredSpectra, flag_word, regression, urs};
 use uplift_study::UniformRiskStudy;
-use uplift_uniform_risk::{DisplacementOptions, displacements};
+use uplift_uniform_risk::{DisplacementOptions, QUOTED_LIMITS, displacements};
 
 use super::ComputedStudy;
 use super::site_table::{cube_path, site_table_paths};
@@ -79,9 +79,6 @@ pub fn quoted_bands_m(file: &ResultFile, spectra: &StoredSpectra) -> Result<Vec<
     }
     Ok(bands_m)
 }
-
-/// The names of the limits of the quoted band, m, in tables and exports.
-pub const QUOTED_LIMITS: [&str; 2] = ["lower_m", "upper_m"];
 
 /// The columns of these limits, of every ordinate.
 pub fn band_columns(bands_m: &[Option<[f64; 2]>]) -> [Column; 2] {

@@ -25,6 +25,11 @@ impl Export {
             let sizes: Vec<String> = bands.sizes.iter().map(u32::to_string).collect();
             format!("{} over {}, samples of {}", per_cent(bands.confidence), bands.drawn_words(), sizes.join(", "))
         });
+        let quoted = if self.quoted_m.iter().any(Option::is_some) {
+            format!("{}, beside each spectrum", per_cent(CONFIDENCE))
+        } else {
+            "none: a single record".to_owned()
+        };
         let facts = [
             ("Uniform risk spectra", head.title.clone()),
             ("Result file", self.file.clone()),
@@ -40,7 +45,7 @@ impl Export {
             ("After uplift", post_uplift),
             ("Probabilities", risks.join(", ")),
             ("Ordinates", study.risk.contour.key().to_owned()),
-            ("Confidence bands", format!("{}, beside each spectrum", per_cent(CONFIDENCE))),
+            ("Confidence bands", quoted),
             ("Resampled bands", bands.unwrap_or_else(|| "none: `uplift bootstrap` makes them".to_owned())),
             ("Coefficients", "u = c0 exp(c1 strength) + c2, c2 not negative (Eq. 4.11)".to_owned()),
             ("Fitted", format!("strengths above {}", study.regression.strength_above)),

@@ -28,7 +28,7 @@ impl Export {
         let names = ["best estimate".to_owned(), format!("{band} band, lower"), format!("{band} band, upper")];
         let mut column = 1;
         for row in self.rows() {
-            let [lower_m, upper_m] = self.quoted_of(&row);
+            let [lower_m, upper_m] = row.quoted_m();
             for (name, values_m) in names.iter().zip([row.spectrum.u_m, &lower_m, &upper_m]) {
                 head_of(sheet, column, &row)?;
                 sheet.heading((below - 2, column), name, false)?;
@@ -72,8 +72,9 @@ impl Export {
         let below = self.heads(sheet, &headings)?;
         let [lower, upper] = self.bands.as_ref().map(uplift_result::StoredBands::level_names).unwrap_or_default();
         let resamples = [&lower, "median", &upper].map(|name| format!("resamples, {name}"));
-        // the band to quote comes first
-        let beyond = ["band, lower", "band, upper", "another set, lower", "another set, upper"].map(str::to_owned);
+        let confidence = self.bands.as_ref().map(|bands| per_cent(bands.confidence)).unwrap_or_default();
+        let beyond = [("band", "lower"), ("band", "upper"), ("of another set", "lower"), ("of another set", "upper")]
+            .map(|(of, limit)| format!("{confidence} {of}, {limit}"));
         let mut column = 1;
         for row in self.rows() {
             for (kind, band) in self.all_bands_of(&row) {

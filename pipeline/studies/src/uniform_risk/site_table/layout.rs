@@ -10,7 +10,7 @@ use uplift_regression::ExponentialFit;
 use uplift_result::flag_word;
 use uplift_risk::Ordinate;
 use uplift_study::UniformRiskStudy;
-use uplift_uniform_risk::{SiteSpectra, SiteSpread};
+use uplift_uniform_risk::{QUOTED_LIMITS, SiteSpectra, SiteSpread};
 
 use super::consistent;
 use super::cube::{CubeRows, SPREAD, Shape};
@@ -116,7 +116,7 @@ impl SiteTableLayout {
     pub(super) fn spectra_columns(&self) -> Vec<String> {
         let mut columns = SPECTRA.to_vec();
         if self.shape.has_bands {
-            columns.extend(["lower_m", "upper_m"]);
+            columns.extend(QUOTED_LIMITS);
         }
         if self.shape.is_repaired {
             columns.extend(&consistent::SPECTRA[..if self.shape.has_bands { 3 } else { 1 }]);
@@ -272,7 +272,7 @@ impl SiteTableLayout {
         let strength = self.on_map[place];
         let in_table = self.shape.strengths.iter().position(|own| *own == strength);
         let band_m = spectrum.zip(in_table).and_then(|((_, bands_m), place)| bands_m.get(place).copied());
-        let limits = [("lower_m", band_m.map(|of| of[0])), ("upper_m", band_m.map(|of| of[1]))];
+        let limits = [0, 1].map(|at| (QUOTED_LIMITS[at], band_m.map(|of| of[at])));
         let ordinate_m = spectrum.map(|(ordinates, _)| ordinates[strength].displacement_m);
         [("u_m", ordinate_m)].into_iter().chain(limits.into_iter().filter(move |_| self.shape.has_bands))
     }
