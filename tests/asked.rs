@@ -163,7 +163,7 @@ fn bands_need_the_draws() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-q", "-o", "r.h5"]).ok();
     let said = study.uplift(&["export", "r.h5", "--csv", "--poe", "0.05"]).ok().stderr;
-    assert!(said.contains("no resampled bands") && said.contains("uplift bootstrap"), "{said}");
+    assert!(said.contains("no percentiles of resamples") && said.contains("uplift bootstrap"), "{said}");
 }
 
 #[test]

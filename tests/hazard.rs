@@ -244,6 +244,9 @@ fn what_is_no_hazard() {
     uplift(at, &["hazard", "show", "absent.csv"]).fails(4, &["absent.csv"]);
     uplift(at, &["hazard", "show", "empty.csv"]).fails(4, &["empty.csv"]);
     uplift(at, &["hazard", "show", "plain.csv"]).fails(4, &["does not say its measure", "# IM: PGV [cm/s]"]);
+    // blanks between numbers are no name of a column
+    write("bare.txt", "1 0.1\n10 0.001\n");
+    uplift(at, &["hazard", "show", "bare.txt"]).fails(4, &["does not say its measure"]);
     uplift(at, &["hazard", "show", "plain.csv", "--measure", "pgv", "--unit", "cm/s"]).fails(4, &["iml,maf"]);
     uplift(at, &["hazard", "show", "plain.csv", "--measure", "pgv", "--unit", "cm/s", "--years", "50"]).ok();
     // the unit may follow the measure without brackets; of a head that is not understood, the remedy works

@@ -99,7 +99,9 @@ fn unknown_name(text: &str) -> Option<(usize, &str)> {
         !line.is_empty() && !line.starts_with('#')
     })?;
     let mut names = names.split([',', ';', '\t']).map(|field| field.trim().trim_matches('"'));
-    let unknown = |name: &&str| name.parse::<f64>().is_err() && declaration::column(name, None).is_none();
+    // blanks may separate numbers
+    let is_numbers = |name: &str| name.split_whitespace().all(|word| word.parse::<f64>().is_ok());
+    let unknown = |name: &&str| !is_numbers(name) && declaration::column(name, None).is_none();
     Some((index + 1, names.find(unknown)?))
 }
 

@@ -22,7 +22,7 @@ pub fn resampled(file: ResultFile, events: &dyn Events) -> Result<ResultFile, Qu
     }
     let Some(plan) = resampling_plan(&file)? else {
         events.note(&format!(
-            "no resampled bands (Table 4.1); compute them: `uplift bootstrap {}`",
+            "no percentiles of resamples (Table 4.1); optional: `uplift bootstrap {}`",
             file.path().display()
         ));
         return Ok(file);
