@@ -260,7 +260,7 @@ impl SiteReader<'_> {
         {
             if count > 0 {
                 self.notes.push(format!(
-                    "site {}, {}: {count} {what} of the hazard curve carry no rate and were dropped",
+                    "site {}, {}: {count} {what} of the hazard curve were dropped: they give no annual rate",
                     self.site,
                     self.measure.label()
                 ));

@@ -11,8 +11,7 @@ use super::compute::{Source, compute};
 use crate::error::QuestionsError;
 
 /// The result `file` with bands at the risks that it was asked for ([`at`](uplift_uniform_risk::at)), made of the draws
-/// of its bootstrap, to the bit as a bootstrap of these risks makes them. Without a bootstrap there are none, and
-/// `events` hear of it.
+/// of its bootstrap, to the bit as a bootstrap of these risks makes them. Without a bootstrap there are none.
 ///
 /// # Errors
 /// A file that is damaged; [`JobError::Interrupted`](uplift_job::JobError::Interrupted) where `events` say so.
@@ -20,13 +19,7 @@ pub fn resampled(file: ResultFile, events: &dyn Events) -> Result<ResultFile, Qu
     if !file.is_asked() {
         return Ok(file);
     }
-    let Some(plan) = resampling_plan(&file)? else {
-        events.note(&format!(
-            "no percentiles of resamples (Table 4.1); optional: `uplift bootstrap {}`",
-            file.path().display()
-        ));
-        return Ok(file);
-    };
+    let Some(plan) = resampling_plan(&file)? else { return Ok(file) };
     let BandMethod { confidence, interval, strength_above } = file.band_method()?;
     let settings = BandSettings { confidence, interval, simultaneous: false, strength_above };
     let stored = StoredStripes::read(&file)?;

@@ -46,7 +46,7 @@ impl Export {
             ("Probabilities", risks.join(", ")),
             ("Ordinates", study.risk.contour.key().to_owned()),
             ("Confidence bands", quoted),
-            ("Resampled bands", bands.unwrap_or_else(|| "none: `uplift bootstrap` makes them".to_owned())),
+            ("Percentiles of resamples", bands.unwrap_or_else(|| "none: `uplift bootstrap` makes them".to_owned())),
             ("Coefficients", "u = c0 exp(c1 strength) + c2, c2 not negative (Eq. 4.11)".to_owned()),
             ("Fitted", format!("strengths above {}", study.regression.strength_above)),
             ("Units", "displacements u in m; strength is f_up/(m g); censored: larger than any analysed".to_owned()),
