@@ -8,7 +8,7 @@
 use std::array::from_fn;
 use std::ops::ControlFlow;
 
-use uplift_instructions::{Instructions, Vectors, Work, larger, smaller};
+use uplift_instructions::{Instructions, Vectors, Work, by_halves, larger, smaller};
 use uplift_motion::Accelerogram;
 use uplift_taylor::{LEAST_ORDER, TRUNCATION};
 
@@ -376,17 +376,9 @@ impl SeriesOfAll {
     }
 }
 
-/// By halves, so that the additions do not wait for each other.
 #[inline(always)]
-fn sum(mut lanes: Lanes) -> f64 {
-    let mut half = LANES / 2;
-    while half > 0 {
-        for i in 0..half {
-            lanes[i] += lanes[i + half];
-        }
-        half /= 2;
-    }
-    lanes[0]
+fn sum(lanes: Lanes) -> f64 {
+    by_halves(lanes, |a, b| a + b)
 }
 
 #[cfg(test)]

@@ -84,8 +84,7 @@ fn head(text: &str) -> impl Iterator<Item = Column> {
     lines.flat_map(|line| {
         let line = line.trim().trim_start_matches('"');
         let Some(comment) = line.strip_prefix('#') else {
-            let names = line.split([',', ';', '\t']).map(|field| field.trim().trim_matches('"'));
-            return names.filter_map(|name| declaration::column(name, None)).collect();
+            return names(line).filter_map(|name| declaration::column(name, None)).collect();
         };
         vec![Column::Intensity(declaration::comment(comment))]
     })
@@ -94,15 +93,19 @@ fn head(text: &str) -> impl Iterator<Item = Column> {
 /// The first column name that is not known, with its line; none of a table that begins with numbers.
 fn unknown_name(text: &str) -> Option<(usize, &str)> {
     let mut rows = text.trim_start_matches('\u{feff}').lines().enumerate();
-    let (index, names) = rows.find(|(_, line)| {
+    let (index, head) = rows.find(|(_, line)| {
         let line = line.trim().trim_start_matches('"');
         !line.is_empty() && !line.starts_with('#')
     })?;
-    let mut names = names.split([',', ';', '\t']).map(|field| field.trim().trim_matches('"'));
     // blanks may separate numbers
     let is_numbers = |name: &str| name.split_whitespace().all(|word| word.parse::<f64>().is_ok());
     let unknown = |name: &&str| !is_numbers(name) && declaration::column(name, None).is_none();
-    Some((index + 1, names.find(unknown)?))
+    Some((index + 1, names(head).find(unknown)?))
+}
+
+/// The column names in a line.
+fn names(line: &str) -> impl Iterator<Item = &str> {
+    line.split([',', ';', '\t']).map(|field| field.trim().trim_matches('"'))
 }
 
 /// The message for a column name that is not known: the line that works, with the intensity column `level`.

@@ -184,6 +184,20 @@ pub fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
+/// All numbers joined into one by halves, so that the operations do not wait for each other; their number is a power of
+/// two.
+#[inline(always)]
+pub fn by_halves<const N: usize>(mut numbers: [f64; N], join: impl Fn(f64, f64) -> f64) -> f64 {
+    let mut half = N / 2;
+    while half > 0 {
+        for place in 0..half {
+            numbers[place] = join(numbers[place], numbers[place + half]);
+        }
+        half /= 2;
+    }
+    numbers[0]
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {

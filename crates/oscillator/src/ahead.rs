@@ -2,7 +2,7 @@
 //!
 //! Arrays that are read in this way are longer by [`AHEAD`] samples than the record.
 
-use uplift_instructions::LANES;
+use uplift_instructions::{LANES, by_halves};
 pub(crate) use uplift_instructions::{larger, smaller};
 
 /// Samples evaluated together, a power of two.
@@ -31,15 +31,8 @@ pub(crate) fn intervals_to_look_at(quiet_samples: u32, quiet_start: bool, count:
     !(quiet_samples & (quiet_samples << 1 | u32::from(quiet_start))) & ((1 << count) - 1)
 }
 
-/// The largest, by halves, so that the comparisons do not depend on each other.
+/// The largest.
 #[inline(always)]
-pub(crate) fn largest(mut x: Lanes) -> f64 {
-    let mut half = AHEAD / 2;
-    while half > 0 {
-        for m in 0..half {
-            x[m] = larger(x[m], x[m + half]);
-        }
-        half /= 2;
-    }
-    x[0]
+pub(crate) fn largest(x: Lanes) -> f64 {
+    by_halves(x, larger)
 }

@@ -9,7 +9,7 @@
 // what is not inlined into a search is not compiled for the instructions that it is compiled for
 #![allow(clippy::inline_always)]
 
-use uplift_instructions::{Instructions, LANES, Vectors, Work};
+use uplift_instructions::{Instructions, LANES, Vectors, Work, by_halves};
 
 use crate::fixed_point::{QUANTUM_PER_YEAR, rate_per_year};
 use crate::{PooledDemand, RecordSample, RiskCurve, RiskError, StripeWeights};
@@ -156,14 +156,5 @@ fn dot<V: Vectors>(vectors: V, a: &[f64], b: &[f64]) -> f64 {
     for (a, b) in a.as_chunks().0.iter().zip(b.as_chunks().0) {
         sums = vectors.add(sums, vectors.mul(vectors.load(a), vectors.load(b)));
     }
-    // by halves, so that the additions do not wait for each other
-    let mut sums = vectors.store(sums);
-    let mut half = LANES / 2;
-    while half > 0 {
-        for lane in 0..half {
-            sums[lane] += sums[lane + half];
-        }
-        half /= 2;
-    }
-    sums[0]
+    by_halves(vectors.store(sums), |a, b| a + b)
 }
