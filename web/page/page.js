@@ -865,12 +865,15 @@ const chosen = (id, work) => {
 chosen("files-hazard", (files) => each(files, (file) => takeCurves(file)));
 const takeRecords = (files) => each(files, takeRecord).then(listMotions);
 chosen("files-records", takeRecords);
-for (const id of ["record-unit", "record-step"]) $(id).onchange = () => {
+// one change after another: the files that one has refused are there for the next
+let reread = Promise.resolve();
+const rereadRecords = async () => {
   try {
     parsed("Time step", $("record-step").value);
-    if (unread.length) takeRecords(unread.splice(0));
+    if (unread.length) await takeRecords(unread.splice(0));
   } catch (error) { complain("own-mistake", error.message); }
 };
+for (const id of ["record-unit", "record-step"]) $(id).onchange = () => { reread = reread.then(rereadRecords); };
 chosen("files-stripes", (files) => each(files, takeStripes));
 $("take-paste").onclick = () => each([new File([$("paste").value], "pasted curve")], (file) => takeCurves(file));
 const ownSite = (of) => ask({ ask: "site", name: OWN_SITE, curves: of.map((own) => own.place), extrapolate: state.extrapolate });
