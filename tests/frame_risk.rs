@@ -322,7 +322,7 @@ fn a_case_known_by_hand() {
     let line = run.stdout.lines().find(|line| line.starts_with("Overturning")).unwrap();
     assert!(line.contains(" per year (") && line.contains(" to "), "{line}");
     assert_eq!(report["direction"]["wobbling_overturns"], 0);
-    assert!(report["alarms"].to_string().contains("of the risk is above the last level, 0.8 g"));
+    assert!(report["alarms"].to_string().contains("of the risk lies above the last level, 0.8 g"));
 }
 
 #[test]

@@ -101,18 +101,53 @@ fn an_extrapolated_curve_is_named_by_check_and_run_alike() {
     }
 }
 
+/// A study that names no levels.
+fn without_levels() -> SmallStudy {
+    SmallStudy::with(&HIGH.replace("levels_cm_s = [5, 10, \"20:20:100\"]\n", ""))
+}
+
 #[test]
-fn a_curve_that_begins_above_the_default_levels_has_those_that_it_covers_named() {
-    let study = SmallStudy::with(HIGH);
-    let levels = "cm/s, the levels at 0.1 cm/s. In [pgv] write: levels_cm_s = [\"0.5:0.1:0.9\", \"1:0.5:20\", \
-                  \"25:5:200\"]";
-    let text = HIGH.replace("levels_cm_s = [5, 10, \"20:20:100\"]\n", "");
-    study.write("study.toml", &text);
-    study.uplift(&["check", "study.toml"]).fails(4, &["Here", levels, "risk.extrapolate = \"loglog\""]);
+fn default_levels_reach_as_far_as_the_curves_of_all_sites() {
+    let study = without_levels();
+    study.write("here-pgv.csv", "iml,maf\n0.3,2\n1,0.4\n10,0.01\n64.2,3e-4\n");
+    let check = study.uplift(&["check", "study.toml", "--details", "--print-study"]).ok().stdout;
+    let note = "levels of PGV: 0.5 to 64.2 cm/s, as far as the hazard curves reach";
+    let levels = "levels_cm_s = [\"0.5:0.1:0.9\", \"1:0.5:20\", \"25:5:60\", 64.2]";
+    assert!(check.contains(levels), "{check}");
+    let details = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
+    assert!(details.contains(note), "{details}");
+    // the same study in one run, in shards, and with these levels written
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    let again = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    assert!(again.stdout.contains("done already") || again.stderr.contains("done already"), "{again:?}");
+    for (shard, part) in [("1/2", "one"), ("2/2", "two")] {
+        study.uplift(&["run", "study.toml", "-o", part, "-q", "--shard", shard]).ok();
+    }
+    study.uplift(&["merge", "study.toml", "one", "two", "-o", "s.h5", "-q"]).ok();
+    study.uplift(&["run", "study.toml", "-o", "w.h5", "-q", "--set", &format!("pgv.{levels}")]).ok();
+    let csv = |name: &str| std::fs::read_to_string(study.path().join(name)).unwrap();
+    assert!(csv("r.urs.csv") == csv("s.urs.csv") && csv("r.urs.csv") == csv("w.urs.csv"));
+    let swept = study.uplift(&["sweep", "study.toml", "--over", "oscillator.restitution=0.9,0.95", "-o", "sweep"]).ok();
+    assert!(study.path().join("sweep/comparison.csv").is_file(), "{}", swept.stderr);
+    // levels that the study gives are not left out behind its back
+    let own = ["check", "study.toml", "--set", "pgv.levels_cm_s=[0.1, 1, 10]"];
+    study.uplift(&own).fails(4, &["the curve begins at 0.3 cm/s, the levels at 0.1 cm/s"]);
+}
+
+#[test]
+fn a_curve_much_shorter_than_the_default_levels_has_those_that_it_covers_named() {
+    let study = without_levels();
+    let check = ["check", "study.toml"];
+    study.write("here-pgv.csv", "iml,maf\n2,0.4\n10,0.01\n300,1e-6\n");
+    let levels = "begins at 2 cm/s, the levels at 0.1 cm/s. In [pgv] write: levels_cm_s = [\"2:0.5:20\", \"25:5:200\"]";
+    study.uplift(&check).fails(4, &["Here", levels, "risk.extrapolate = \"loglog\""]);
+    // in m/s, and read as cm/s: as good a curve as one that ends soon
+    study.write("here-pgv.csv", "iml,maf\n0.005,2\n0.01,0.4\n0.1,0.01\n1.5,1e-5\n");
+    study.uplift(&check).fails(4, &["ends at 1.5 cm/s, the levels at 200 cm/s"]);
     // rows without a rate are why it begins there
-    study.write("here-pgv.csv", "iml,PoE in 1 year\n0.1,1\n0.2,1\n0.3,0.9\n10,0.1\n300,1e-5\n");
+    study.write("here-pgv.csv", "iml,PoE in 1 year\n0.1,1\n0.2,1\n3,0.9\n10,0.1\n300,1e-5\n");
     let dropped =
-        "the curve begins at 0.3 cm/s (2 rows of probability 1 dropped), the levels at 0.1 cm/s. In [pgv] write:";
+        "the curve begins at 3 cm/s (2 rows of probability 1 dropped), the levels at 0.1 cm/s. In [pgv] write:";
     study
         .uplift(&["check", "study.toml", "--set", "sites.Here.pgv.kind=poe", "--set", "sites.Here.pgv.years=1"])
         .fails(4, &[dropped]);

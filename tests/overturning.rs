@@ -74,7 +74,7 @@ fn a_case_known_by_hand() {
         assert_eq!(site["lower_tail_share"], 0.0);
         assert_eq!(site["site"], "Here");
     }
-    assert!(found["alarms"].to_string().contains("of the risk is above the last level, 0.8 g"), "{found}");
+    assert!(found["alarms"].to_string().contains("of the risk lies above the last level, 0.8 g"), "{found}");
 }
 
 const WITH_PGA: &str = "title = \"small\"\n[records.synthetic]\npairs = 20\n[strengths]\nvalues = [0.05, 0.1]\n\

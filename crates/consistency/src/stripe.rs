@@ -78,8 +78,10 @@ impl ScaleFactors {
         let mut factors: Vec<(f64, f64)> =
             shares.iter().enumerate().map(|(record, &share)| (factor(record), share)).collect();
         factors.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let outside = |[lower, upper]: [f64; 2]| -> f64 {
-            factors.iter().filter(|(factor, _)| !(lower..=upper).contains(factor)).map(|(_, share)| share).sum()
+        let outside = |[lower, upper]: [f64; 2]| {
+            let shares = factors.iter().filter(|(factor, _)| !(lower..=upper).contains(factor)).map(|(_, share)| share);
+            // the sum of none is -0
+            0.0 + shares.sum::<f64>()
         };
         Self {
             percentiles: [0.05, 0.5, 0.95].map(|probability| weighted_quantile(&factors, probability)),
@@ -164,6 +166,7 @@ mod tests {
             assert!((found - expected).abs() < 1e-12, "{found} {expected}");
         }
         assert_eq!((factors.outside_limits, factors.outside_tenfold), (0.75, 0.0));
+        assert!(factors.outside_tenfold.is_sign_positive(), "printed as -0");
         let medians = Medians::from_shares(&set(), &shares);
         assert_eq!((medians.magnitude, medians.distance_km), (Some(6.0), None));
         assert_eq!(Medians::from_shares(&set(), &[0.0, 0.0, 0.5, 0.5]).magnitude, Some(7.0));

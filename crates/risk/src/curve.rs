@@ -288,7 +288,8 @@ impl<'a> RiskCurve<'a> {
         let counts = |level: usize, records: &mut dyn Iterator<Item = u16>| -> f64 {
             // At most 65 535 levels.
             let level = u16::try_from(level).unwrap_or(u16::MAX);
-            records.map(|record| self.count(level, record)).sum()
+            // the sum of none is -0
+            0.0 + records.map(|record| self.count(level, record)).sum::<f64>()
         };
         let total = self.rate(swept.sum) * f64::from(self.size);
         let share = |tail: f64| {

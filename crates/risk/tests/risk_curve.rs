@@ -67,6 +67,7 @@ fn ordinates_of_the_hand_solved_case() {
     // At or above 0.3 there is no run of the first level.
     let ordinate = curve.exact_ordinate(0.1).unwrap();
     assert_eq!((ordinate.lower_tail_share, ordinate.upper_tail_share), (0.0, 0.125 / 0.1875));
+    assert!(ordinate.lower_tail_share.is_sign_positive(), "printed as -0");
 }
 
 #[test]

@@ -142,11 +142,7 @@ impl Grid {
     pub(crate) fn preceded_by(&self, notations: &[String]) -> Result<Self, GridError> {
         let mut grid = Self { pieces: Vec::new(), values: Vec::new() };
         for notation in notations {
-            let values = notation::values(notation)?;
-            let piece = match values[..] {
-                [value] => Piece::Number(value),
-                _ => Piece::Range(notation.clone()),
-            };
+            let (piece, values) = expanded(notation)?;
             grid.extend(piece, &values, "")?;
         }
         // the last piece brings all values, so that they are compared once
@@ -162,8 +158,7 @@ impl fmt::Display for Grid {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let piece = |piece: &Piece| match piece {
             Piece::Number(number) => number.to_string(),
-            Piece::Range(notation) if notation.contains([':', '/']) => format!("\"{notation}\""),
-            Piece::Range(number) => number.clone(),
+            Piece::Range(notation) => format!("\"{notation}\""),
         };
         write!(formatter, "[{}]", self.pieces.iter().map(piece).collect::<Vec<_>>().join(", "))
     }
@@ -177,7 +172,8 @@ impl FromStr for Grid {
     fn from_str(text: &str) -> Result<Self, GridError> {
         let mut grid = Self { pieces: Vec::new(), values: Vec::new() };
         for item in text.split(',') {
-            notation::values(item).and_then(|values| grid.extend(Piece::Range(item.trim().to_owned()), &values, ""))?;
+            let (piece, values) = expanded(item.trim())?;
+            grid.extend(piece, &values, "")?;
         }
         Ok(grid)
     }
@@ -185,30 +181,26 @@ impl FromStr for Grid {
 
 /// One item of a grid: its notation and its values.
 fn piece(item: &Field<'_>, unit: &str) -> Option<(Piece, Vec<f64>)> {
-    let expanded = |text: &str| match notation::values(text) {
-        Ok(values) => Some((Piece::Range(text.to_owned()), values)),
-        Err(GridError { message, help }) => {
-            item.mistake(message, help);
-            None
-        }
-    };
+    let expanded = |text: &str| expanded(text).map_err(|error| item.mistake(error.message, error.help)).ok();
     match &item.node.value {
         Value::Integer(integer) => Some(number(*integer as f64)),
         Value::Float(float) => Some(number(*float)),
-        Value::Text(text) => {
-            let (piece, values) = expanded(text)?;
-            // A number in quotes is a number; a fraction stays as it is written.
-            match (text.contains(['/', ':']), values.as_slice()) {
-                (false, &[value]) => Some(number(value)),
-                _ => Some((piece, values)),
-            }
-        }
+        Value::Text(text) => expanded(text),
         Value::Table(_) => expanded(&equal_steps(item, unit)?),
         _ => item.wrong_type(
             &format!("a grid{}", bracketed(unit)),
             "write numbers, \"start:step:stop\", or a list of these",
         ),
     }
+}
+
+/// The notation `text` and its values; a number in quotes is a number, a fraction stays as it is written.
+fn expanded(text: &str) -> Result<(Piece, Vec<f64>), GridError> {
+    let values = notation::values(text)?;
+    Ok(match values[..] {
+        [value] if !text.contains(['/', ':']) => number(value),
+        _ => (Piece::Range(text.to_owned()), values),
+    })
 }
 
 fn number(value: f64) -> (Piece, Vec<f64>) {

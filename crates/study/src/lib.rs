@@ -87,6 +87,6 @@ pub use study::Study;
 pub use uniform_risk::{
     Bootstrap, Branch, Consistency, Contour, Conversion, CurveFile, CurveKind, ExportFiles, Hazard, MeasurePlan,
     Oscillator, Records, Regression, Repair, Risk, Site, SiteSlice, SiteTable, UniformRiskStudy, definition_of,
-    levels_key, levels_place, levels_within, lower_starts, usual_top_level,
+    levels_key, levels_place, lower_starts, usual_top_level,
 };
 pub use warning::Warning;

@@ -52,7 +52,7 @@ pub use consistency::{Consistency, Repair};
 pub use curve::{CurveFile, CurveKind};
 pub use hazard::{Conversion, Hazard, definition_of};
 pub use lower_levels::{levels_key, levels_place, lower_starts};
-pub use measures::{MeasurePlan, levels_within};
+pub use measures::MeasurePlan;
 pub use oscillator::Oscillator;
 pub(crate) use oscillator::{FREE_VIBRATION, RESTITUTION};
 pub use records::Records;

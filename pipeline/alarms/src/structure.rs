@@ -90,16 +90,16 @@ pub fn own_risk_alarms(risks: &[OwnRisk]) -> Vec<Alarm> {
 fn outside_levels(own: &OwnRisk) -> Option<Case> {
     let EventRisk { lower_tail_share, upper_tail_share, .. } = own.risk;
     let (first, last) = own.levels;
-    let (share, where_from, therefore, remedy) = if upper_tail_share >= lower_tail_share {
-        (upper_tail_share, format!("above the last level, {last}"), "a lower bound", "Raise the last of")
+    let (share, beyond, error, remedy) = if upper_tail_share >= lower_tail_share {
+        (upper_tail_share, format!("above the last level, {last}"), "too low", "Raise the last of")
     } else {
-        (lower_tail_share, format!("below the first level, {first}"), "too large", "Lower the first of")
+        (lower_tail_share, format!("below the first level, {first}"), "too high", "Lower the first of")
     };
     (share > TAIL_SHARE_LIMIT).then(|| Case {
         severity: if share > DECISIVE_SHARE { Severity::Caution } else { Severity::Note },
         badness: share,
         subject: own.subject.clone(),
-        what: format!("{} of the risk is {where_from} {}: {therefore}", share_in_words(share), own.measure.unit()),
+        what: format!("rate {error} ({} of the risk lies {beyond} {})", share_in_words(share), own.measure.unit()),
         what_to_do: format!("{remedy} {}", levels_key(own.measure)),
     })
 }
@@ -167,9 +167,13 @@ mod tests {
         assert_eq!(own_risk_alarms(&[own(RISK)]), []);
         let [above] = &own_risk_alarms(&[own(EventRisk { upper_tail_share: 0.078, ..RISK })])[..] else { panic!() };
         assert_eq!(above.severity, Severity::Note);
-        assert!(above.what.starts_with("7.8 % of the risk") && above.what.ends_with("a lower bound"), "{above}");
+        assert!(above.what == "rate too low (7.8 % of the risk lies above the last level, 200 cm/s)", "{above}");
         let [below] = &own_risk_alarms(&[own(EventRisk { lower_tail_share: 0.5, ..RISK })])[..] else { panic!() };
-        assert!(below.severity == Severity::Caution && below.what.contains("below the first level, 1 cm/s"), "{below}");
+        assert!(
+            below.severity == Severity::Caution
+                && below.what.ends_with("too high (50 % of the risk lies below the first level, 1 cm/s)"),
+            "{below}"
+        );
     }
 
     #[test]

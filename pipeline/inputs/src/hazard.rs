@@ -8,10 +8,9 @@ use uplift_job::checksum::checksum_of_file;
 use uplift_job::text::{counted, rounded};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
-use uplift_study::{
-    CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_place, levels_within,
-};
+use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_place};
 
+use super::default_levels::shortened_note;
 use super::other_unit::{file_of, of_outside, with_remedy};
 use crate::error::InputsError;
 
@@ -74,6 +73,7 @@ pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Ve
     }
     notes.extend(undefined_note(study, &undefined));
     notes.extend(extrapolated_note(study, &all));
+    notes.extend(study.measures.iter().zip(&all).filter_map(|(plan, sites)| shortened_note(plan, sites)));
     if mistakes.is_empty() { Ok((all, notes)) } else { Err(JobError::Inputs(mistakes).into()) }
 }
 
@@ -285,7 +285,7 @@ impl SiteReader<'_> {
         dropped_certain: usize,
     ) -> Result<StripeWeights, String> {
         stripe_weights(self.study, plan, curve).map_err(|reason| {
-            if self.are_interchanged(plan).unwrap_or(false) {
+            if are_interchanged(self.study, self.site, self.file, plan).unwrap_or(false) {
                 return format!(
                     "{name}: are the files of pgv and pga interchanged? Each covers the levels of the other. As they \
                      are, {reason}"
@@ -310,34 +310,47 @@ impl SiteReader<'_> {
                 (false, true) => Some(format!("ends at {end} {unit}, the levels at {most} {unit}")),
                 (false, false) => None,
             };
-            let (Some(span), Some((_, levels))) = (span, levels_within(self.measure, first, last)) else {
+            let (Some(span), Some(within)) = (span, MeasurePlan::default_within(self.measure, first, last)) else {
                 return format!("{name}: {reason}{dropped}");
             };
             let (section, key) = levels_place(self.measure);
             format!(
-                "{name}: the curve {span}. In [{section}] write: {key} = {levels}. Or use a longer curve, or \
-                 risk.extrapolate = \"loglog\""
+                "{name}: the curve {span}. In [{section}] write: {key} = {}. Or use a longer curve, or \
+                 risk.extrapolate = \"loglog\"",
+                within.levels
             )
         })
     }
+}
 
-    /// Whether the files of PGV and PGA each cover the levels of the other; none where there are not both.
-    fn are_interchanged(&self, plan: &MeasurePlan) -> Option<bool> {
-        let other = match self.measure {
-            IntensityMeasure::Pgv => IntensityMeasure::Pga,
-            IntensityMeasure::Pga => IntensityMeasure::Pgv,
-            _ => return None,
-        };
-        let other_file = file_of(self.study, self.site, other)?;
-        let other_plan = self.study.measures.iter().find(|plan| plan.measure == other)?;
-        let covers = |path: Option<&PathBuf>, file: &CurveFile, plan: &MeasurePlan| {
-            let curve =
-                read_path(path?, &csv_options(file)).ok()?.curve.in_field_units(self.study.gravity_m_s2).ok()?;
-            Some(curve.first().im <= *plan.levels.first()? && *plan.levels.last()? <= curve.last().im)
-        };
-        let this_covers_others = covers(self.file.file.as_ref(), other_file, other_plan)?;
-        Some(this_covers_others && covers(other_file.file.as_ref(), self.file, plan)?)
-    }
+/// Whether the files of PGV and PGA of a `site` each cover the levels of the other; none where there are not both.
+pub(super) fn are_interchanged(
+    study: &UniformRiskStudy,
+    site: &str,
+    file: &CurveFile,
+    plan: &MeasurePlan,
+) -> Option<bool> {
+    let other = match plan.measure {
+        IntensityMeasure::Pgv => IntensityMeasure::Pga,
+        IntensityMeasure::Pga => IntensityMeasure::Pgv,
+        _ => return None,
+    };
+    let other_file = file_of(study, site, other)?;
+    let other_plan = study.measures.iter().find(|plan| plan.measure == other)?;
+    let covers = |path: Option<&PathBuf>, file: &CurveFile, plan: &MeasurePlan| {
+        let curve = read_path(path?, &csv_options(file)).ok()?.curve.in_field_units(study.gravity_m_s2).ok()?;
+        Some(curve.first().im <= *plan.levels.first()? && *plan.levels.last()? <= curve.last().im)
+    };
+    let this_covers_others = covers(file.file.as_ref(), other_file, other_plan)?;
+    Some(this_covers_others && covers(other_file.file.as_ref(), file, plan)?)
+}
+
+/// The curve at `path` that a study says as `file`, for the records' definition of the measure where its own is known;
+/// none where something is wrong with it.
+pub(super) fn curve_of(study: &UniformRiskStudy, file: &CurveFile, path: &Path) -> Option<HazardCurve> {
+    let curve = read_path(path, &csv_options(file)).ok()?.curve.in_field_units(study.gravity_m_s2).ok()?;
+    let converted = of_the_records_definition(study, file.measure, &curve).ok()?;
+    Some(converted.unwrap_or(curve))
 }
 
 /// How the numbers of a file are read that a study says as `file`.

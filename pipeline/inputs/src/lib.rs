@@ -3,6 +3,7 @@
 pub mod at_level;
 mod cache;
 mod checksums;
+mod default_levels;
 mod drawn_structures;
 mod duplicates;
 mod error;
@@ -25,6 +26,7 @@ mod third_component;
 
 pub use at_level::AtLevel;
 pub use checksums::{input_checksums, motion_keys};
+pub use default_levels::{load_study, load_uniform_risk};
 pub use drawn_structures::DrawnStructure;
 pub use error::InputsError;
 pub use file_options::FileOptions;

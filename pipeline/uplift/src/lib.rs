@@ -7,7 +7,7 @@
 //!
 //! # In this order
 //!
-//! 1. [`study::Study`] reads and checks a study file, all mistakes at once.
+//! 1. [`load_study`] reads and checks a study file, all mistakes at once.
 //! 2. [`plan()`] says what the study would cost, [`run()`] carries it out and leaves a result file.
 //!    Several machines share it by [`run_shard`] and [`merge`].
 //! 3. [`result::ResultFile`] opens that file, and returns what is in it as plain values with named axes.
@@ -24,11 +24,10 @@
 //!
 //! use uplift::bootstrap::{BootstrapOptions, bootstrap};
 //! use uplift::result::ResultFile;
-//! use uplift::study::Study;
-//! use uplift::{RunOptions, Silent, run};
+//! use uplift::{RunOptions, Silent, load_study, run};
 //!
 //! let file = Path::new("configs/quick.toml");
-//! let study = Study::load_any(file, &["risk.years=100".to_owned()])?;
+//! let study = load_study(file, &["risk.years=100".to_owned()])?;
 //! let options = RunOptions { study_file: file.to_owned(), ..RunOptions::default() };
 //! let report = run(&study, &options, &Silent)?;
 //!
@@ -90,7 +89,7 @@ pub use run::{RunOptions, RunReport, run};
 pub use shard::{check_inputs, merge, run_shard};
 pub use uplift_engine::{analysis, checkpoint};
 pub use uplift_exports::{export, fragility, table};
-pub use uplift_inputs::{self as inputs, hazard_curves, import, records};
+pub use uplift_inputs::{self as inputs, hazard_curves, import, load_study, load_uniform_risk, records};
 pub use uplift_job::events::{Events, Phase, Silent};
 pub use uplift_job::{
     Array, COMMIT, JobError, ShapeError, VERSION, VERSION_AND_COMMIT, cause, events, lock, machine, outputs, study_run,

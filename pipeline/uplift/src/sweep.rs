@@ -14,6 +14,7 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 use uplift_alarms::alarms;
 use uplift_engine::checkpoint::oscillator_key;
+use uplift_inputs::load_uniform_risk;
 use uplift_job::JobError;
 use uplift_job::alarm::{Alarm, Severity};
 use uplift_job::events::Events;
@@ -23,7 +24,7 @@ use uplift_job::text::counted;
 use uplift_labelled::hexadecimal;
 use uplift_result::{ResultFile, flag_word};
 use uplift_studies::uniform_risk::Inputs;
-use uplift_study::{AnyStudy, Study, StudyError, UniformRiskStudy};
+use uplift_study::{AnyStudy, StudyError, UniformRiskStudy};
 use uplift_uniform_risk::{BandOf, Displacement, DisplacementOptions, DisplacementReport, displacements};
 
 use crate::error::UpliftError;
@@ -132,7 +133,7 @@ pub fn sweep_folder(options: &SweepOptions) -> Result<PathBuf, UpliftError> {
     if let Some(folder) = &options.folder {
         return Ok(folder.clone());
     }
-    let study = Study::load(&options.study_file, &options.overrides)?;
+    let study = load_uniform_risk(&options.study_file, &options.overrides)?;
     Ok(outputs::beside(&study.output.file, "sweep"))
 }
 
@@ -143,7 +144,7 @@ pub fn sweep_folder(options: &SweepOptions) -> Result<PathBuf, UpliftError> {
 /// would replace something else; as [`run`](crate::run()) of any of them: what is finished stays, and the same sweep
 /// goes on from there.
 pub fn sweep(options: &SweepOptions, events: &dyn Events) -> Result<SweepReport, UpliftError> {
-    let study = Study::load(&options.study_file, &options.overrides)?;
+    let study = load_uniform_risk(&options.study_file, &options.overrides)?;
     let folder = sweep_folder(options)?;
     let table = folder.join("comparison.csv");
     let ready = ready(options, &folder)?;
@@ -216,7 +217,7 @@ fn ready(options: &SweepOptions, folder: &Path) -> Result<Vec<Ready>, UpliftErro
     }
     for (variant, name) in options.variants.iter().zip(names) {
         let overrides: Vec<String> = options.overrides.iter().cloned().chain(variant.overrides()).collect();
-        match Study::load(&options.study_file, &overrides) {
+        match load_uniform_risk(&options.study_file, &overrides) {
             Ok(study) => {
                 let options = RunOptions {
                     study_file: options.study_file.clone(),

@@ -30,9 +30,9 @@ pub(crate) fn tell_remarks(report: &ImportReport, terminal: &Terminal) {
 pub(crate) fn print_import(report: &ImportReport, terminal: &Terminal) -> Result<(), CommandError> {
     if !report.blank_columns.is_empty() {
         terminal.say(&format!(
-            "no file has {}: fill in the columns of the manifest, or put PEER's _SearchResults.csv into the folder \
-             and import again",
-            report.blank_columns.join(", ")
+            "the record files give no {}: fill in these columns of the manifest, or put PEER's _SearchResults.csv \
+             into the folder and import again",
+            report.blank_columns.join(", no ")
         ));
     }
     if let Some(manifest) = report.manifest.as_ref().filter(|_| !terminal.is_quiet()) {

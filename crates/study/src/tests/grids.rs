@@ -135,18 +135,30 @@ proptest! {
 
 #[test]
 fn default_levels_cut_to_a_curve() {
-    use super::super::levels_within;
-    let pgv = |least, most| levels_within(IntensityMeasure::Pgv, least, most).map(|(_, levels)| levels);
+    use super::super::MeasurePlan;
+    let within = |measure, least, most| MeasurePlan::default_within(measure, least, most).map(|plan| plan.line());
+    let pgv = |least, most| within(IntensityMeasure::Pgv, least, most);
     assert_eq!(pgv(0.1, 300.0), None);
-    assert_eq!(pgv(0.1, 174.3).as_deref(), Some("[\"0.1:0.1:0.9\", \"1:0.5:20\", \"25:5:170\", \"174.3\"]"));
-    assert_eq!(pgv(0.25, 200.0).as_deref(), Some("[\"0.25\", \"0.3:0.1:0.9\", \"1:0.5:20\", \"25:5:200\"]"));
-    assert_eq!(pgv(1.7, 200.0).as_deref(), Some("[\"1.7\", \"2:0.5:20\", \"25:5:200\"]"));
+    assert_eq!(
+        pgv(0.1, 174.3).as_deref(),
+        Some("pgv.levels_cm_s = [\"0.1:0.1:0.9\", \"1:0.5:20\", \"25:5:170\", 174.3]")
+    );
+    assert_eq!(
+        pgv(0.25, 200.0).as_deref(),
+        Some("pgv.levels_cm_s = [0.25, \"0.3:0.1:0.9\", \"1:0.5:20\", \"25:5:200\"]")
+    );
+    assert_eq!(pgv(1.7, 200.0).as_deref(), Some("pgv.levels_cm_s = [1.7, \"2:0.5:20\", \"25:5:200\"]"));
     assert_eq!(pgv(500.0, 600.0), None);
-    let (key, levels) = levels_within(IntensityMeasure::Pga, 0.00233, 1.997).unwrap();
-    assert_eq!(key, "pga.levels_g");
-    assert_eq!(levels, "[\"0.00233\", \"0.0025:0.0025:0.0225\", \"0.025:0.005:0.195\", \"0.2:0.05:1.95\", \"1.997\"]");
+    let line = within(IntensityMeasure::Pga, 0.00233, 1.997).unwrap();
+    assert_eq!(
+        line,
+        "pga.levels_g = [0.00233, \"0.0025:0.0025:0.0225\", \"0.025:0.005:0.195\", \"0.2:0.05:1.95\", 1.997]"
+    );
     // what is suggested is a grid that a study takes
-    load(&format!("[pga]\nlevels_g = {levels}\n")).unwrap();
+    let study = load(&line).unwrap();
+    let [plan] = &study.measures[..] else { panic!("one measure") };
+    assert_eq!(Some(plan), MeasurePlan::default_within(IntensityMeasure::Pga, 0.00233, 1.997).as_ref());
+    assert!(!plan.is_default() && load("[pga]\n").unwrap().measures[0].is_default());
 }
 
 #[test]

@@ -79,7 +79,10 @@ impl Words<'_> {
     pub(super) fn notes(&self, found: &[Crossing], tried: &[(f64, Attempt)], noise: &Noisy) -> Vec<String> {
         let margin = (noise.highest > self.target_per_year).then(|| {
             let [lowest, highest] = [noise.lowest, noise.highest].map(rate);
-            format!("values within 1 % of it have {lowest} to {highest} per year: choose the value with a margin")
+            format!(
+                "within 1 % of this {} the annual rate varies from {lowest} to {highest}: add a margin",
+                self.options.quantity.key()
+            )
         });
         self.of_crossings(found, tried).into_iter().chain(margin).collect()
     }

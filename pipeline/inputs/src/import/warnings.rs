@@ -150,14 +150,13 @@ fn synchronisation(
     if let (Some(start), Some(other_start)) = (one.start_time_s, other.start_time_s) {
         if !are_together([one, other], h1.dt_s()) {
             let apart_s = (start - other_start).abs();
-            add(KIND, format!("its components begin {apart_s:.3} s apart: no measures over all directions"));
+            add(KIND, format!("its components begin {apart_s:.3} s apart: not for RotD50, RotD100 and azimuths"));
         }
     } else if h1.len() != h2.len() {
         add(
             KIND,
             format!(
-                "its components have {} and {} points and no start times: do not use it over all directions (RotD50, \
-                 RotD100, azimuths)",
+                "its components have {} and {} points and no start times: not for RotD50, RotD100 and azimuths",
                 h1.len(),
                 h2.len()
             ),

@@ -15,8 +15,7 @@ mod values;
 use std::path::PathBuf;
 
 use sets::{Failed, Population, Tallies};
-use uplift::{RunOptions, Silent};
-use uplift_study::Study;
+use uplift::{RunOptions, Silent, load_study};
 
 /// Sets of each size, where no other number is given.
 const SETS: usize = 200;
@@ -67,7 +66,7 @@ fn population(records: &[String]) -> Result<Population, Failed> {
     let study_file = PathBuf::from("configs/europe.toml");
     let strengths = "strengths.values=[0.05, 0.1, 0.2, 0.3, 0.5, 0.8]".to_owned();
     let overrides = [records, &[strengths, "risk.maf_surface=false".to_owned()]].concat();
-    let study = Study::load_any(&study_file, &overrides)?;
+    let study = load_study(&study_file, &overrides)?;
     let folder = tempfile::tempdir()?;
     let output = folder.path().join("population.h5");
     let options = RunOptions {

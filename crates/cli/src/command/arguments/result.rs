@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use uplift::result::is_hdf5;
-use uplift::{RunOptions, result_of};
-use uplift_study::{Bootstrap, Repair, Structure, Study};
+use uplift::{RunOptions, load_uniform_risk, result_of};
+use uplift_study::{Bootstrap, Repair, Structure};
 
 use super::ForceArgument;
 use super::study::command_line;
@@ -60,7 +60,7 @@ impl ResultArguments {
             }
             return Ok(FoundResult { path: self.input.clone(), bootstrap: None, repair: false });
         }
-        let study = Study::load(&self.input, &self.overrides)?;
+        let study = load_uniform_risk(&self.input, &self.overrides)?;
         let options = RunOptions {
             study_file: self.input.clone(),
             output: None,

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use uplift::RunOptions;
 use uplift::analysis::MOST_SHARDS;
 use uplift::uniform_risk::site_table::slice_path;
+use uplift::{RunOptions, load_study};
 use uplift_ida::Shard;
-use uplift_study::{AnyStudy, SiteSlice, Study};
+use uplift_study::{AnyStudy, SiteSlice};
 
 use crate::error::CommandError;
 
@@ -24,7 +24,7 @@ pub(crate) struct StudyArguments {
 impl StudyArguments {
     /// The study, of whichever kind, every default filled in.
     pub(crate) fn load_any(&self) -> Result<AnyStudy, CommandError> {
-        Ok(Study::load_any(&self.study, &self.overrides)?)
+        Ok(load_study(&self.study, &self.overrides)?)
     }
 
     /// The same, of one slice of its table of sites where one is asked for, with the options of its run; the result of

@@ -2,11 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use uplift_hazard::{ExportedCurve, HazardCurve, RealizationWeight, SiteSelection, Statistic};
+use uplift_hazard::{ExportedCurve, RealizationWeight, SiteSelection, Statistic};
 use uplift_job::JobError;
-use uplift_study::{levels_place, levels_within};
 
-use super::text::{is_of, measures_of};
 use super::{Chosen, HazardImportOptions, weight_of};
 use crate::error::InputsError;
 
@@ -39,20 +37,6 @@ pub(super) fn check_weights(
 /// What the user should know before a study takes the curves.
 pub(super) fn remarks(written: &[Chosen]) -> Vec<String> {
     let mut remarks = Vec::new();
-    for measure in measures_of(written) {
-        let of: Vec<&HazardCurve> =
-            (written.iter().map(|written| &written.exported.curve)).filter(|curve| is_of(curve, measure)).collect();
-        let least = of.iter().map(|curve| curve.first().im).fold(0.0, f64::max);
-        let most = of.iter().map(|curve| curve.last().im).fold(f64::INFINITY, f64::min);
-        if let (false, Some((_, levels))) = (of.is_empty(), levels_within(measure, least, most)) {
-            let unit = measure.unit();
-            let (section, key) = levels_place(measure);
-            remarks.push(format!(
-                "the {measure} curves span {least:.4} to {most:.4} {unit}, less than the default levels: add to the \
-                 study [{section}] {key} = {levels}"
-            ));
-        }
-    }
     let weighted = |written: &Chosen| written.weight.is_some();
     let single = |written: &Chosen| matches!(written.exported.kind, Statistic::Mean | Statistic::Unspecified);
     if !written.iter().any(|written| weighted(written) || single(written)) {
