@@ -156,7 +156,7 @@ fn measures_that_disagree_are_raised_where_what_explains_it_is_not() {
     let apart = alarm(&found, "measures-disagree");
     let what = text(apart, "what");
     assert!(what.starts_with("the PGA spectrum is ") && what.contains(" times PGV's at strength "), "{apart}");
-    assert_eq!(text(apart, "what_to_do"), "Use the larger, or compare: uplift measures RESULT");
+    assert_eq!(text(apart, "what_to_do"), "Choose between them: uplift measures RESULT");
     // bands decide where there are some
     study.uplift(&["bootstrap", "r.h5", "--replicates", "30", "--sizes", "15,30", "-q"]).ok();
     let table = of("table", "pgv");

@@ -253,14 +253,14 @@ fn the_quoted_band_is_by_earthquake_where_records_of_one_are_alike() {
     let said = study.uplift(&["spectrum", "r.h5"]).ok().stdout;
     assert!(said.contains("(90 % band by earthquake)"), "{said}");
     let warned = study.uplift(&["warnings", "r.h5"]).ok().stdout;
-    assert!(warned.contains("Few earthquakes: 4; below 5 no confidence band holds."), "{warned}");
+    assert!(warned.contains("Few earthquakes: 4; below 5 the bands are unreliable."), "{warned}");
     // before anything is computed too, and of a sweep where it is so
     let manifest = ["--set", "records.manifest=set/manifest.csv"];
     let checked = study
         .uplift(&[&["check", "study.toml", "--details", "--set", "records.first=12"], &manifest[..]].concat())
         .ok()
         .stdout;
-    assert!(checked.contains("Few earthquakes: 4; below 5 no confidence band holds"), "{checked}");
+    assert!(checked.contains("Few earthquakes: 4; below 5 the bands are unreliable"), "{checked}");
     let sweep = |first: &str| {
         let over = format!("records.first={first}");
         study.uplift(&[&["sweep", "study.toml", "-o", first, "--over", &over], &manifest[..]].concat()).ok().stdout

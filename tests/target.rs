@@ -71,6 +71,40 @@ fn target_and_risk_are_inverses() {
     assert!(number(&at[0]["probability"]) <= number(&at[1]["probability"]) && at[1]["records"] == 20, "{found}");
 }
 
+/// The capacity over a safety factor, which `uplift design` holds against the structure's own demand.
+#[test]
+fn a_safety_factor_sizes_what_a_design_then_passes() {
+    let study = study();
+    let ask = ["--exceed", "capacity", "--safety-factor", "2.5", "--poe", "10%", "--years", "50", "--vary", "width"];
+    let found = json(&study, &[&ask[..], &["--tolerance", "0.02"]].concat());
+    assert_eq!(found["event"], "exceeding the capacity over 2.5");
+    let is_satisfied = |width_m: f64| {
+        study.write("other.toml", &frame(width_m));
+        let ask = ["design", "other.toml", "--urs", "r.h5", "--poe", "10%", "--proxy", "--json", "-q"];
+        let told: Value = serde_json::from_str(&study.uplift(&ask).ok().stdout).unwrap();
+        let [required_m, capacity_m] =
+            [&told["own_check"]["required_capacity_m"], &told["structure"]["capacity_m"]].map(number);
+        assert_eq!(told["own_check"]["satisfied"], capacity_m >= required_m);
+        assert!((required_m - 2.5 * number(&told["exact"]["demand_m"])).abs() < 1e-12);
+        capacity_m >= required_m
+    };
+    assert!(is_satisfied(number(&found["value"])) && !is_satisfied(number(&found["missed_at"])));
+    study
+        .uplift(&[
+            "target",
+            "frame.toml",
+            "--urs",
+            "r.h5",
+            "--vary",
+            "width",
+            "--overturning",
+            "1e-3",
+            "--safety-factor",
+            "2",
+        ])
+        .fails(2, &["--safety-factor divides a capacity: give --exceed capacity"]);
+}
+
 /// The other measure has its own word on the safe value, which is that of `uplift overturning`.
 #[test]
 fn the_other_measure_judges_the_safe_value() {

@@ -3,7 +3,7 @@
 //! - [`HazardCurve`]: a value that is valid by construction (strictly increasing levels, strictly decreasing
 //!   positive rates), read between its points by log–log interpolation and beyond them only on request
 //!   ([`Extrapolation`]).
-//! - [`rate_from_probability`], [`probability_from_rate`]: Eq. 4.8.
+//! - [`rate_from_probability`], [`probability_from_rate`], [`return_period_from_probability`]: Eq. 4.8.
 //! - [`read_csv`], [`read_path`]: two-column text (level and rate, or level and probability) into a curve, checked
 //!   against what the caller [`Declared`].
 //! - [`read_export`], [`ExportedCurves`]: curves of one site or many as `OpenQuake` and the USGS export them;
@@ -52,5 +52,5 @@ pub use import::{
     SitePlace, SiteSelection, Statistic, read_disaggregation, read_export, read_realization_weights,
 };
 pub use interpolation::Extrapolation;
-pub use probability::{probability_from_rate, rate_from_probability};
+pub use probability::{probability_from_rate, rate_from_probability, return_period_from_probability};
 pub use unit::CurveUnit;

@@ -23,6 +23,18 @@ pub fn rate_from_probability(probability: f64, years: f64) -> Result<f64, Hazard
     Err(HazardError::Argument { what: "probability of exceedance", value: probability, must_be: "above 0 and below 1" })
 }
 
+/// Return period, years, of an event that has `probability` of occurring within `years`: 1/λ (Eq. 4.8).
+///
+/// Whole years stay whole: a probability that was computed from them is off by a rounding.
+///
+/// # Errors
+/// As [`rate_from_probability`].
+pub fn return_period_from_probability(probability: f64, years: f64) -> Result<f64, HazardError> {
+    let period_years = 1.0 / rate_from_probability(probability, years)?;
+    let whole = period_years.round();
+    Ok(if (period_years - whole).abs() < 1e-12 * whole { whole } else { period_years })
+}
+
 /// Probability of at least one event within `years` at an annual `rate`, 1/yr: 1 − exp(−λT) (Eq. 4.8 inverted).
 ///
 /// # Errors
@@ -56,6 +68,11 @@ mod tests {
         assert_eq!(rate_from_probability(1e-20, 1.0).unwrap(), 1e-20);
         assert_eq!(probability_from_rate(1e-20, 1.0).unwrap(), 1e-20);
         assert_eq!(probability_from_rate(0.0, 50.0).unwrap(), 0.0);
+        for period_years in [72.0, 475.0, 2475.0, 100_000.0] {
+            let probability = probability_from_rate(1.0 / period_years, 50.0).unwrap();
+            assert_eq!(return_period_from_probability(probability, 50.0).unwrap(), period_years);
+        }
+        assert!((return_period_from_probability(0.02, 50.0).unwrap() - 2_474.915_8).abs() < 1e-4);
     }
 
     #[test]

@@ -33,10 +33,28 @@ fn missed(evidence: &Evidence, scope: &Scope, consistency: &StoredConsistency, s
         None => (consistency.bias[site], consistency.verdict[site].as_str()),
         Some(poe) => {
             let ratio = consistency.ratio[[site, poe]];
-            (ratio, Verdict::from_bias(ratio, ratio.ln().abs()).key())
+            (ratio, verdict_by(ratio))
         }
     };
     (times.is_finite() && verdict == Verdict::Inconsistent.key()).then_some(times)
+}
+
+/// The verdict on records that have so many `times` the site's level at every rate.
+fn verdict_by(times: f64) -> &'static str {
+    Verdict::from_bias(times, times.ln().abs()).key()
+}
+
+/// How many times the site's level the records have: on average, `1.6`; where that is near 1, at the rates compared,
+/// `0.5 to 2.1`.
+fn in_words(consistency: &StoredConsistency, site: usize, times: f64) -> String {
+    let [implied, own] = [&consistency.implied_level, &consistency.site_level].map(|level| level.block([site]));
+    let ratios = implied.iter().zip(own).map(|(implied, own)| implied / own).filter(|ratio| ratio.is_finite());
+    let (least, most) = ratios.fold((times, times), |(least, most), ratio| (least.min(ratio), most.max(ratio)));
+    if verdict_by(times) == Verdict::Inconsistent.key() {
+        format!("{times:.1}")
+    } else {
+        format!("{least:.1} to {most:.1}")
+    }
 }
 
 /// Whether an alarm within the scope, of the curves or of the records, already explains that the spectrum by PGA is
@@ -119,7 +137,7 @@ fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) ->
         severity: if is_repaired { Severity::Note } else { Severity::Caution },
         badness: times.ln().abs(),
         subject: format!("{name} by {scaled_to}"),
-        what: format!("scaled records have {times:.1} times the site's {other}"),
+        what: format!("scaled records have {} times the site's {other}", in_words(consistency, site, times)),
         what_to_do: match u_m {
             Some(_) if is_repaired => {
                 let key = consistency.scaled_to.key();

@@ -155,7 +155,7 @@ fn too_few(earthquakes: usize) -> Option<Alarm> {
             Severity::Caution,
             "few-earthquakes",
             "Few earthquakes",
-            format!("{earthquakes}; below {FEW_EARTHQUAKES} no confidence band holds"),
+            format!("{earthquakes}; below {FEW_EARTHQUAKES} the bands are unreliable"),
             "Add records of other earthquakes: records.manifest",
         )
     })
@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn five_earthquakes_are_no_longer_few() {
         assert_eq!(too_few(5), None);
-        assert_eq!(too_few(4).unwrap().to_string(), "Few earthquakes: 4; below 5 no confidence band holds");
+        assert_eq!(too_few(4).unwrap().to_string(), "Few earthquakes: 4; below 5 the bands are unreliable");
     }
 
     #[test]

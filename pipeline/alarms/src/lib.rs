@@ -45,7 +45,7 @@ pub use hazard::{CurvesAtSite, hazard_alarms};
 pub use inputs::{far_factors_alarm, few, few_earthquakes, study_alarms, synthetic_records};
 pub use levels::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, UpperEnd, below_first_case};
 pub use numbers::number_alarms;
-pub use structure::{OwnRisk, own_demand_alarm, own_risk_alarms, safety_factor_alarm, structure_alarms};
+pub use structure::{OwnRisk, own_risk_alarms, safety_factor_alarm, structure_alarms};
 use uplift_result::{Kind, ResultFile};
 pub use uplift_risk::COMPARED_FROM_M;
 

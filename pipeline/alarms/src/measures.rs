@@ -89,7 +89,7 @@ fn case(evidence: &Evidence, subject: String, gap: Gap, banded: bool) -> Case {
             two_digits(times),
             rounded(evidence.spectra.strengths[gap.strength], 4)
         ),
-        what_to_do: "Use the larger, or compare: uplift measures RESULT".to_owned(),
+        what_to_do: "Choose between them: uplift measures RESULT".to_owned(),
     }
 }
 

@@ -60,25 +60,6 @@ pub fn safety_factor_alarm(safety_factor: f64) -> Option<Alarm> {
     Some(Alarm::new(Severity::Mistake, "unlikely-number", "design", found.to_string(), what_to_do))
 }
 
-/// A design that the rules are content with and that the structure's own demand, m, is not, within the capacity over
-/// the safety factor.
-pub fn own_demand_alarm(demand_m: f64, capacity_m: Option<f64>, safety_factor: f64, satisfied: bool) -> Option<Alarm> {
-    let capacity_m = capacity_m.filter(|_| satisfied)?;
-    (safety_factor * demand_m > capacity_m).then(|| {
-        Alarm::new(
-            Severity::Caution,
-            "rule-unsafe",
-            "design",
-            format!(
-                "the rules are satisfied, the structure's own demand of {demand_m:.4} m is not: the capacity of \
-                 {capacity_m:.4} m is {:.2} times it, for a safety factor of {safety_factor}",
-                capacity_m / demand_m
-            ),
-            "Size it by its own demand: uplift target",
-        )
-    })
-}
-
 /// Risks that come from outside the stripes, and those that no run of them shows.
 pub fn own_risk_alarms(risks: &[OwnRisk]) -> Vec<Alarm> {
     let outside = risks.iter().filter_map(outside_levels).collect();
@@ -90,17 +71,17 @@ pub fn own_risk_alarms(risks: &[OwnRisk]) -> Vec<Alarm> {
 fn outside_levels(own: &OwnRisk) -> Option<Case> {
     let EventRisk { lower_tail_share, upper_tail_share, .. } = own.risk;
     let (first, last) = own.levels;
-    let (share, beyond, error, remedy) = if upper_tail_share >= lower_tail_share {
-        (upper_tail_share, format!("above the last level, {last}"), "too low", "Raise the last of")
+    let (share, beyond, error) = if upper_tail_share >= lower_tail_share {
+        (upper_tail_share, format!("above the last level, {last}"), "too low")
     } else {
-        (lower_tail_share, format!("below the first level, {first}"), "too high", "Lower the first of")
+        (lower_tail_share, format!("below the first level, {first}"), "too high")
     };
     (share > TAIL_SHARE_LIMIT).then(|| Case {
         severity: if share > DECISIVE_SHARE { Severity::Caution } else { Severity::Note },
         badness: share,
         subject: own.subject.clone(),
         what: format!("rate {error} ({} of the risk lies {beyond} {})", share_in_words(share), own.measure.unit()),
-        what_to_do: format!("{remedy} {}", levels_key(own.measure)),
+        what_to_do: format!("Extend {}, and the hazard curve if it ends there", levels_key(own.measure)),
     })
 }
 
@@ -150,16 +131,6 @@ mod tests {
             pairs: 30,
             effective_pairs: 30.0,
         }
-    }
-
-    #[test]
-    fn a_design_is_held_against_its_own_demand() {
-        assert_eq!(own_demand_alarm(0.2, Some(0.7), 2.5, true), None);
-        assert_eq!(own_demand_alarm(0.4, Some(0.7), 2.5, false), None, "the rules say so");
-        assert_eq!(own_demand_alarm(0.4, None, 2.5, true), None);
-        let Some(alarm) = own_demand_alarm(0.4, Some(0.7), 2.5, true) else { panic!() };
-        assert!(alarm.what.contains("1.75 times") && alarm.severity == Severity::Caution, "{alarm}");
-        assert!(own_demand_alarm(f64::INFINITY, Some(0.7), 2.5, true).is_some(), "it overturns");
     }
 
     #[test]

@@ -12,9 +12,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
-use uplift_alarms::{
-    OwnRisk, Scope, alarms_within, own_demand_alarm, own_risk_alarms, ranked, safety_factor_alarm, structure_alarms,
-};
+use uplift_alarms::{OwnRisk, Scope, alarms_within, own_risk_alarms, ranked, safety_factor_alarm, structure_alarms};
 use uplift_engine::analysis::{ResultJob, ShardReport};
 use uplift_ida::Shard;
 use uplift_job::JobError;
@@ -36,7 +34,9 @@ use super::opening::{Place, job_name, records_and_pairs, restitution};
 use super::own_frame::{FrameReport, OwnFrame, STOPPED, of_frame};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
-use super::rules::{MeasureVerdict, RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
+use super::rules::{
+    MeasureVerdict, OwnCheck, RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve, verdicts_in_words,
+};
 use super::spectrum::SpectrumDemand;
 use super::uncertain::UncertaintyReport;
 use super::weights::{RepairedWeights, SiteWeights};
@@ -133,6 +133,8 @@ pub struct DesignReport {
     pub unread: Option<String>,
     /// What the structure's own analysis says; none where there is none.
     pub exact: Option<ExactDemand>,
+    /// Its capacity held against that; none without a capacity.
+    pub own_check: Option<OwnCheck>,
     /// Whether the structure describes a frame that can wobble.
     pub wobbles: bool,
     /// What the frame itself says; none of a structure that cannot wobble, by its proxy, and without an analysis.
@@ -182,26 +184,31 @@ impl DesignReport {
         Some(checks.any(|check| check.satisfied != own.satisfied))
     }
 
-    /// Where another measure has another verdict by a rule: `by PGA: NOT satisfied by equal energy (requires 0.62 m)`.
-    pub fn contradicted_by(&self) -> Vec<String> {
-        let verdict = |outcome: &RuleOutcome| Some((outcome.rule, outcome.check()?.satisfied));
-        let own: Vec<_> = self.rules.iter().filter_map(verdict).collect();
-        let differs = |outcome: &&RuleOutcome| verdict(outcome).is_some_and(|of| !own.contains(&of));
-        let told = self.by_other_measures.iter().filter_map(|of| {
-            let differing: Vec<String> = of.rules.iter().filter(differs).filter_map(RuleOutcome::in_words).collect();
-            (!differing.is_empty()).then(|| format!("by {}: {}", of.im, differing.join(", ")))
-        });
-        if own.is_empty() { Vec::new() } else { told.collect() }
+    /// The verdicts by the spectrum's measure: `by PGV: satisfied by equal displacement (requires 0.48 m); NOT
+    /// satisfied by equal energy (requires 0.62 m), its own demand (requires 0.60 m)`; none where no rule applies.
+    pub fn verdicts(&self) -> Option<String> {
+        let verdicts = verdicts_in_words(&self.rules, self.own_check)?;
+        Some(format!("by {}: {verdicts}", self.spectrum_words()))
     }
 
-    /// Where a rule is satisfied, and the structure's own demand is not at the upper limit of its band: `not
-    /// satisfied at the upper limit of the demand's band, 0.50 m (requires 1.25 m)`.
+    /// The same by other measures, but those by which all rules are satisfied as here.
+    pub fn verdicts_by_other_measures(&self) -> Vec<String> {
+        let is_satisfied = |rules: &[RuleOutcome]| rules.iter().filter_map(RuleOutcome::check).all(|of| of.satisfied);
+        let told = self.by_other_measures.iter().filter_map(|of| {
+            let verdicts = verdicts_in_words(&of.rules, None)?;
+            let is_silent = is_satisfied(&of.rules) && is_satisfied(&self.rules);
+            (!is_silent).then(|| format!("by {}: {verdicts}", of.im))
+        });
+        told.collect()
+    }
+
+    /// Where the structure's own demand is satisfied, and is not at the upper limit of its band: `not satisfied at the
+    /// upper limit of the demand's band, 0.50 m (requires 1.25 m)`.
     pub fn unsafe_upper_limit(&self) -> Option<String> {
         let capacity_m = self.structure.capacity_m?;
         let [_, upper_m] = self.exact.as_ref()?.bands.as_ref()?.demand_m.quoted();
-        let satisfied = self.rules.iter().any(|outcome| outcome.check().is_some_and(|check| check.satisfied));
         let required_m = self.required_safety_factor * upper_m;
-        (satisfied && required_m > capacity_m).then(|| {
+        (self.own_check.is_some_and(|own| own.satisfied) && required_m > capacity_m).then(|| {
             if required_m.is_finite() {
                 let upper = two_digits(upper_m);
                 format!("not satisfied at the upper limit of the demand's band, {upper} m (requires {required_m:.2} m)")
@@ -291,9 +298,8 @@ pub fn design(
     }
     let by_other_measures =
         verdicts_by_measure(structure, safety_factor, (&file, &source), (place, poe), options.repaired)?;
-    let scope = scope((place, poe), spectrum, options.repaired);
     let told = StructureReport::from_structure(structure, Some(restitution));
-    let mut alarms = alarms_within(&file, &scope)?;
+    let mut alarms = alarms_within(&file, &scope((place, poe), spectrum, options.repaired))?;
     alarms.extend(structure_alarms(structure));
     alarms.extend(safety_factor_alarm(safety_factor));
     if let Some(exact) = &exact {
@@ -301,12 +307,12 @@ pub fn design(
         let mut risks = own_risks(exact, place, (&scatter.pairs, &weights));
         risks.extend(frame.iter().flat_map(|frame| frame.own_risks(place, &scatter)));
         alarms.extend(own_risk_alarms(&risks));
-        let satisfied = rules.iter().any(|rule| rule.check().is_some_and(|check| check.satisfied));
-        alarms.extend(own_demand_alarm(exact.demand_m, told.capacity_m, safety_factor, satisfied));
     }
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove();
     }
+    let own_check =
+        exact.zip(told.capacity_m).map(|(own, capacity_m)| OwnCheck::new(capacity_m, own.demand_m, safety_factor));
     Ok(DesignReport {
         structure: told,
         site: place.name.to_owned(),
@@ -319,6 +325,7 @@ pub fn design(
         required_safety_factor: safety_factor,
         spectrum,
         exact,
+        own_check,
         wobbles,
         frame,
         without_frame,
@@ -521,8 +528,8 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     }
     if !system.is_of_uplift_displacement(oscillator.uplift_displacement_m) {
         notes.push(format!(
-            "The spectrum is of another oscillator. Its uplift displacement is {} mm; this structure's is {} mm ({} mm \
-             over Γ)",
+            "The spectrum is of another oscillator: its uplift displacement is {} mm; this structure's is {} mm ({} mm \
+             divided by Γ)",
             rounded(1e3 * oscillator.uplift_displacement_m, 4),
             rounded(1e3 * system.spectral_uplift_displacement_m(), 3),
             rounded(1e3 * system.conditions().uplift_displacement_m(), 4)
@@ -532,7 +539,7 @@ fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) 
     }
     if apart(restitution, oscillator.restitution) {
         notes.push(format!(
-            "The spectrum is of another oscillator. Its restitution is {}; this structure's is {restitution}",
+            "The spectrum is of another oscillator: its restitution is {}; this structure's is {restitution}",
             oscillator.restitution
         ));
         settings.push(format!("--set oscillator.restitution={restitution}"));

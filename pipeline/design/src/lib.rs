@@ -39,9 +39,9 @@ pub use limits::{LimitOptions, LimitState, LimitStripes, independent_records, li
 pub use overturning::{
     CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning, overturning_shard,
 };
-pub use own_frame::{FrameCheck, FrameModel, FrameReport};
+pub use own_frame::{FrameModel, FrameReport};
 pub use report::{ReportSource, StructureReport};
-pub use rules::{MeasureVerdict, RuleCheck, RuleOutcome, verdict_word};
+pub use rules::{MeasureVerdict, OwnCheck, RuleCheck, RuleOutcome, verdict_word};
 pub use sensitivity::{DemandNoise, DemandRounding, RuleRanges, Sensitivity};
 pub use spectrum::SpectrumDemand;
 pub use target::{

@@ -24,6 +24,7 @@ use super::certainty::{DemandBands, Scatter, demand_bands};
 use super::hazard::Hazard;
 use super::opening::{Place, ShakenRecords};
 use super::risk::{OVERTURNING_M, bounded, own_risk, risk_of_exceeding};
+use super::rules::OwnCheck;
 use super::weights::SiteWeights;
 use crate::error::DesignError;
 
@@ -92,32 +93,13 @@ pub struct FrameModel {
     /// It overturns.
     pub overturning: EventRisk,
     /// The capacity held against the demand; none for a structure without one.
-    pub check: Option<FrameCheck>,
-}
-
-/// The capacity of a structure held against the demand on its frame (Eq. 3.15).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct FrameCheck {
-    /// Safety factor times demand, m; infinite where the frame overturns more often than the target.
-    pub required_capacity_m: f64,
-    /// Capacity over demand.
-    pub safety_factor: f64,
-    /// Whether the capacity is at least the required one.
-    pub satisfied: bool,
+    pub check: Option<OwnCheck>,
 }
 
 impl FrameReport {
     /// The wobbling frame.
     pub fn wobbling(&self) -> &FrameModel {
         &self.models[0]
-    }
-}
-
-impl FrameCheck {
-    fn new(capacity_m: f64, demand_m: f64, safety_factor: f64) -> Self {
-        let required_capacity_m = safety_factor * demand_m;
-        let satisfied = capacity_m >= required_capacity_m;
-        Self { required_capacity_m, safety_factor: capacity_m / demand_m, satisfied }
     }
 }
 
@@ -385,7 +367,7 @@ impl FrameQuestion<'_> {
                 bands,
                 beyond_capacity: self.capacity_m.map(risk).transpose()?,
                 overturning: risk(OVERTURNING_M)?,
-                check: self.capacity_m.map(|capacity_m| FrameCheck::new(capacity_m, demand_m, self.safety_factor)),
+                check: self.capacity_m.map(|capacity_m| OwnCheck::new(capacity_m, demand_m, self.safety_factor)),
             })
         };
         let models = peaks.models.iter().map(model).collect::<Result<_, DesignError>>()?;
@@ -445,13 +427,5 @@ mod tests {
         assert_eq!((thin.len(), thin[0], thin[27]), (LEVELS, 37, 199));
         assert!(thin.windows(2).all(|pair| pair[1] == pair[0] + 6), "{thin:?}");
         assert_eq!(sparse(&many, 180), (180..200).collect::<Vec<_>>());
-    }
-
-    #[test]
-    fn a_capacity_is_held_against_the_demand() {
-        let check = FrameCheck::new(1.2, 0.4, 2.5);
-        assert_eq!((check.satisfied, check.required_capacity_m), (true, 1.0));
-        assert!(!FrameCheck::new(1.2, 0.5, 2.5).satisfied);
-        assert!(!FrameCheck::new(1.2, f64::INFINITY, 2.5).satisfied);
     }
 }

@@ -49,19 +49,54 @@ pub struct RuleCheck {
     pub largest_zero_stiffness_demand_m: Option<f64>,
 }
 
-impl RuleOutcome {
-    /// `NOT satisfied by equal energy (requires 0.62 m)`; none without a check.
-    pub fn in_words(&self) -> Option<String> {
-        let check = self.check()?;
-        let required_m = check.required_capacity_m;
-        let required = if required_m.is_finite() { format!("{required_m:.2} m") } else { "any capacity".to_owned() };
-        Some(format!("{} by {} (requires {required})", verdict_word(check.satisfied), self.rule.words()))
-    }
+/// The capacity of a structure held against its own demand, or that of its frame.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct OwnCheck {
+    /// Safety factor times demand, m; infinite where it overturns more often than the target.
+    pub required_capacity_m: f64,
+    /// Capacity over demand.
+    pub safety_factor: f64,
+    /// Whether the capacity is at least the required one.
+    pub satisfied: bool,
+}
 
+impl OwnCheck {
+    pub(super) fn new(capacity_m: f64, demand_m: f64, safety_factor: f64) -> Self {
+        let required_capacity_m = safety_factor * demand_m;
+        let satisfied = capacity_m >= required_capacity_m;
+        Self { required_capacity_m, safety_factor: capacity_m / demand_m, satisfied }
+    }
+}
+
+impl RuleOutcome {
     /// The check that counts: from the spectrum, or where that cannot be read from the exact demand.
     pub fn check(&self) -> Option<&RuleCheck> {
         self.from_spectrum.as_ref().or(self.from_exact.as_ref())
     }
+}
+
+/// `satisfied by equal displacement (requires 0.48 m); NOT satisfied by equal energy (requires 0.62 m)`; none without a
+/// check.
+pub(super) fn verdicts_in_words(rules: &[RuleOutcome], own: Option<OwnCheck>) -> Option<String> {
+    let requires = |by: &str, required_m: f64, if_infinite: &str| {
+        let required =
+            if required_m.is_finite() { format!("requires {required_m:.2} m") } else { if_infinite.to_owned() };
+        format!("{by} ({required})")
+    };
+    let by_rules = rules.iter().filter_map(|outcome| {
+        let check = outcome.check()?;
+        let words = requires(outcome.rule.words(), check.required_capacity_m, "no capacity suffices");
+        Some((check.satisfied, words))
+    });
+    let own = own.map(|own| (own.satisfied, requires("its own demand", own.required_capacity_m, "overturns")));
+    let verdicts: Vec<(bool, String)> = by_rules.chain(own).collect();
+    let told = [true, false].map(|wanted| {
+        let of: Vec<&str> =
+            verdicts.iter().filter(|(satisfied, _)| *satisfied == wanted).map(|(_, words)| words.as_str()).collect();
+        (!of.is_empty()).then(|| format!("{} by {}", verdict_word(wanted), of.join(", ")))
+    });
+    let told: Vec<String> = told.into_iter().flatten().collect();
+    (!told.is_empty()).then(|| told.join("; "))
 }
 
 /// `satisfied` or `NOT satisfied`.
@@ -180,6 +215,19 @@ pub(super) fn verdicts_by_curve(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_capacity_is_held_against_the_demand() {
+        let check = OwnCheck::new(1.2, 0.4, 2.5);
+        assert_eq!((check.satisfied, check.required_capacity_m), (true, 1.0));
+        assert!(!OwnCheck::new(1.2, 0.5, 2.5).satisfied);
+        let overturns = OwnCheck::new(1.2, f64::INFINITY, 2.5);
+        assert!(!overturns.satisfied);
+        let told = |own| verdicts_in_words(&[], own);
+        assert_eq!(told(Some(check)).as_deref(), Some("satisfied by its own demand (requires 1.00 m)"));
+        assert_eq!(told(Some(overturns)).as_deref(), Some("NOT satisfied by its own demand (overturns)"));
+        assert_eq!(told(None), None);
+    }
 
     #[test]
     fn errors_have_the_sign_of_their_danger() {

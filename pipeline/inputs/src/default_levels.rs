@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
-use uplift_hazard::{Extrapolation, HazardCurve};
-use uplift_job::text::rounded;
+use uplift_hazard::Extrapolation;
 
 use uplift_study::{AnyStudy, MeasurePlan, Study, StudyError, UniformRiskStudy};
 
-use super::hazard::{SiteHazard, are_interchanged, curve_of};
+use super::hazard::{are_interchanged, curve_of};
 use super::other_unit::of_outside;
 
 /// How many times the first default level a curve may begin at, and how many times below the last one it may end: one
@@ -50,7 +49,7 @@ fn shortened(study: &UniformRiskStudy, plan: &MeasurePlan) -> Option<MeasurePlan
     if !plan.is_default() {
         return None;
     }
-    let mut curves = Vec::new();
+    let (mut least, mut most) = (0.0_f64, f64::INFINITY);
     for site in &study.sites {
         let file = site.curve(plan.measure)?;
         for path in file.files() {
@@ -59,37 +58,10 @@ fn shortened(study: &UniformRiskStudy, plan: &MeasurePlan) -> Option<MeasurePlan
             if is_of_another_unit || are_interchanged(study, &site.name, file, plan).unwrap_or(false) {
                 return None;
             }
-            curves.push(curve);
+            (least, most) = (least.max(curve.first().im), most.min(curve.last().im));
         }
     }
-    let [least, most] = covered(&curves);
     let (first, last) = (plan.levels.first()?, plan.levels.last()?);
     let is_near = least <= SHORTER_WITHIN[0] * first && *last <= SHORTER_WITHIN[1] * most;
     is_near.then(|| MeasurePlan::default_within(plan.measure, least, most))?
-}
-
-/// That the levels of `plan` are the default ones that the curves of all `sites` cover; none where they are not.
-pub(super) fn shortened_note(plan: &MeasurePlan, sites: &[SiteHazard]) -> Option<String> {
-    let inputs = sites.iter().flat_map(|site| {
-        let branches = site.branches.iter().map(|branch| &branch.input);
-        std::iter::once(&site.curve).chain(branches)
-    });
-    let [least, most] = covered(inputs.map(|input| &input.curve));
-    let (first, last) = (plan.levels.first()?, plan.levels.last()?);
-    (MeasurePlan::default_within(plan.measure, least, most).as_ref() == Some(plan)).then(|| {
-        format!(
-            "levels of {}: {} to {} {}, as far as the hazard curves reach",
-            plan.measure.label(),
-            rounded(*first, 4),
-            rounded(*last, 4),
-            plan.measure.unit()
-        )
-    })
-}
-
-/// The levels between which all `curves` lie.
-fn covered<'a>(curves: impl IntoIterator<Item = &'a HazardCurve>) -> [f64; 2] {
-    curves
-        .into_iter()
-        .fold([0.0, f64::INFINITY], |[least, most], curve| [least.max(curve.first().im), most.min(curve.last().im)])
 }

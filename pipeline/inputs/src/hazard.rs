@@ -8,10 +8,11 @@ use uplift_job::checksum::checksum_of_file;
 use uplift_job::text::{counted, rounded};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
-use uplift_study::{CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_place};
+use uplift_study::{
+    CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_place, usual_top_level,
+};
 
-use super::default_levels::shortened_note;
-use super::other_unit::{file_of, of_outside, with_remedy};
+use super::other_unit::{curve_line, file_of, of_outside, with_remedy};
 use crate::error::InputsError;
 
 /// The hazard of one site in one measure.
@@ -73,7 +74,6 @@ pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Ve
     }
     notes.extend(undefined_note(study, &undefined));
     notes.extend(extrapolated_note(study, &all));
-    notes.extend(study.measures.iter().zip(&all).filter_map(|(plan, sites)| shortened_note(plan, sites)));
     if mistakes.is_empty() { Ok((all, notes)) } else { Err(JobError::Inputs(mistakes).into()) }
 }
 
@@ -314,8 +314,17 @@ impl SiteReader<'_> {
                 return format!("{name}: {reason}{dropped}");
             };
             let (section, key) = levels_place(self.measure);
+            let therefore = usual_top_level(self.measure)
+                .and_then(|(_, usual)| usual.unlikely("its last level", last))
+                .map_or_else(
+                    || ". In".to_owned(),
+                    |unlikely| {
+                        let unit = curve_line(self.measure, !self.file.branches.is_empty(), "unit = …");
+                        format!(": {unlikely}. If so, write {unit}. If not, in")
+                    },
+                );
             format!(
-                "{name}: the curve {span}. In [{section}] write: {key} = {}. Or use a longer curve, or \
+                "{name}: the curve {span}{therefore} [{section}] write: {key} = {}. Or use a longer curve, or \
                  risk.extrapolate = \"loglog\"",
                 within.levels
             )

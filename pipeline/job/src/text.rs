@@ -69,7 +69,9 @@ pub fn cell_with_band(u_m: f64, band_m: Option<[f64; 2]>) -> String {
 fn with_band((u_m, band_m): (f64, Option<[f64; 2]>), unit: &str, [opening, between]: [&str; 2]) -> String {
     match band_m.map(|limits_m| limits_m.map(two_digits)) {
         _ if u_m.is_nan() => "none".to_owned(),
-        Some([lower, _]) if u_m.is_infinite() && lower != "∞" => format!("overturns ({opening}above {lower}{unit})"),
+        Some([lower, _]) if u_m.is_infinite() && lower != "∞" => {
+            format!("overturns ({opening}lower limit {lower}{unit})")
+        }
         _ if u_m.is_infinite() => "overturns".to_owned(),
         Some([lower, upper]) => format!("{}{unit} ({opening}{lower}{between}{upper})", two_digits(u_m)),
         None => two_digits(u_m) + unit,
@@ -142,7 +144,7 @@ mod tests {
         );
         assert_eq!(cell_with_band(0.346, Some([0.24, f64::INFINITY])), "0.35 (0.24–∞)");
         assert_eq!(metres_with_band(0.346, Some([0.24, 0.841])), "0.35 m (0.24 to 0.84)");
-        assert_eq!(metres_with_band(f64::INFINITY, Some([0.24, f64::INFINITY])), "overturns (above 0.24 m)");
+        assert_eq!(metres_with_band(f64::INFINITY, Some([0.24, f64::INFINITY])), "overturns (lower limit 0.24 m)");
         assert_eq!([metres_with_band(f64::INFINITY, None), metres_with_band(f64::NAN, None)], ["overturns", "none"]);
         assert_eq!([metres_with_band(0.5, None), cell_with_band(0.5, None)], ["0.50 m", "0.50"]);
     }

@@ -6,7 +6,7 @@ use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 use uplift_bootstrap::{repaired_truth_limits, truth_limits};
-use uplift_hazard::rate_from_probability;
+use uplift_hazard::{rate_from_probability, return_period_from_probability};
 use uplift_job::table::{ColumnsOf, table_text};
 use uplift_job::text::nearest;
 use uplift_job::typed::number;
@@ -151,7 +151,7 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
                     strength: place.strength,
                     poe: spectra.poes[poe],
                     years: spectra.years,
-                    return_period_years: 1.0 / targets_per_year[of_poe],
+                    return_period_years: return_period_from_probability(spectra.poes[poe], spectra.years)?,
                     u_m: rule(place.between(left_m, right_m)),
                     // a single record has none
                     band_m: Some(band_m).filter(|[_, upper_m]| !upper_m.is_nan()),

@@ -46,7 +46,10 @@ pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumRepo
     };
     let strengths = between(&axes.strengths, &asked.strengths);
     let (measure, repaired) = (Some(found.measure), found.repaired);
-    let mut alarms = alarms_of(&file, &Scope { site, measure, strengths, repaired, ..Scope::default() })?;
+    let rarest = found.displacements.iter().map(|own| own.poe).reduce(f64::min);
+    let only = rarest.filter(|only| found.displacements.iter().all(|own| own.poe == *only));
+    let poe = axes.poes.iter().position(|own| Some(*own) == only);
+    let mut alarms = alarms_of(&file, &Scope { site, measure, poe, strengths, repaired })?;
     // of risks asked for, what the printed numbers rest on comes before what is true of the whole set
     if asked.risk != AskedRisk::default() {
         alarms.sort_by_key(|alarm| (alarm.severity, ![BEYOND_LAST_LEVEL, BELOW_FIRST_LEVEL].contains(&alarm.kind)));

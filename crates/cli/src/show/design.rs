@@ -75,7 +75,7 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
         }
         _ => writeln!(out, "Verdict   {name}: no capacity, the force does not fall; {how_far}")?,
     }
-    for verdict in report.contradicted_by() {
+    for verdict in report.verdicts_by_other_measures() {
         writeln!(out, "          proxy {verdict}")?;
     }
     if let Some(capacity_m) = report.structure.capacity_m {
@@ -142,26 +142,21 @@ fn required(capacity_m: f64) -> String {
 /// The verdict of the rules, with the demand on the structure's oscillator and its risks.
 fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
     let StructureReport { name, capacity_m, .. } = &report.structure;
-    let verdicts: Vec<String> = report.rules.iter().filter_map(RuleOutcome::in_words).collect();
     let has =
         capacity_m.map_or_else(|| "no capacity: the force does not fall".to_owned(), |m| format!("capacity {m:.2} m"));
     // of a frame that can wobble it is the proxy that is judged
     let whose = if report.wobbles { ", by its proxy alone" } else { "" };
     let is_doubted = report.alarms.iter().any(|alarm| alarm.severity == Severity::Mistake);
     let doubt = if is_doubted { "if its numbers are right (mistake? below), " } else { "" };
-    writeln!(
-        out,
-        "Verdict   {name}{whose}, {has}: {doubt}{}",
-        if verdicts.is_empty() { "no rule applies".to_owned() } else { verdicts.join(", ") }
-    )?;
+    writeln!(out, "Verdict   {name}{whose}, {has}: {doubt}{}", overall(report))?;
+    if let Some(verdicts) = report.verdicts() {
+        writeln!(out, "          {verdicts}")?;
+    }
     if let Some(why) = &report.unread {
         writeln!(out, "          {why}")?;
     }
-    for verdict in report.unsafe_upper_limit().into_iter().chain(report.contradicted_by()) {
+    for verdict in report.unsafe_upper_limit().into_iter().chain(report.verdicts_by_other_measures()) {
         writeln!(out, "          {verdict}")?;
-    }
-    if !verdicts.is_empty() {
-        writeln!(out, "          with a safety factor of {} (Eq. 3.15)", report.required_safety_factor)?;
     }
     // the notes begin with what the structure and the spectrum do not have in common
     if let Some(difference) = report.notes.first().filter(|_| report.other_oscillator) {
@@ -202,6 +197,20 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         writeln!(out, "Demand    {demand} by the spectrum at strength {:.4}", spectrum.strength)?;
     }
     Ok(())
+}
+
+/// How many of the rules and of its own demand, by every measure, the structure satisfies.
+fn overall(report: &DesignReport) -> String {
+    let by_others = report.by_other_measures.iter().flat_map(|of| &of.rules);
+    let rules = report.rules.iter().chain(by_others).filter_map(RuleOutcome::check).map(|check| check.satisfied);
+    let checks: Vec<bool> = rules.chain(report.own_check.map(|own| own.satisfied)).collect();
+    let verdict = match checks.iter().filter(|satisfied| **satisfied).count() {
+        _ if checks.is_empty() => return "no rule applies".to_owned(),
+        count if count == checks.len() => verdict_word(true).to_owned(),
+        0 => verdict_word(false).to_owned(),
+        count => format!("satisfied by {count} of {} checks", checks.len()),
+    };
+    format!("{verdict}, with a safety factor of {} (Eq. 3.15)", report.required_safety_factor)
 }
 
 fn print_details(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {

@@ -66,12 +66,17 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
             say(format!("By {} it overturns.", rule.words()), Some("no"));
         }
     }
-    if let Some(words) = report.unsafe_upper_limit() {
-        say(format!("But {words}."), Some("no"));
+    if let Some(own) = report.own_check.filter(|_| !report.wobbles) {
+        let required = if_finite(own.required_capacity_m, "any capacity", |m| format!("{} m", two_digits(m)));
+        let class = if own.satisfied { "yes" } else { "no" };
+        say(format!("The structure's own demand requires {required}: {}.", verdict_word(own.satisfied)), Some(class));
     }
-    for verdict in report.contradicted_by() {
-        let class = verdict.contains("NOT").then_some("no");
-        say(format!("But {verdict}."), class);
+    if let Some(words) = report.unsafe_upper_limit() {
+        say(format!("By its own demand {words}."), Some("no"));
+    }
+    for verdict in report.verdicts_by_other_measures() {
+        let class = if verdict.contains("NOT") { "no" } else { "yes" };
+        say(format!("{}.", verdict.replacen("by", "By", 1)), Some(class));
     }
     if let Some(frame) = &report.frame {
         let own = frame.wobbling();

@@ -23,7 +23,7 @@ pub fn keep(finding: &Finding, result: &Path, events: &dyn Events) -> Option<Str
     match write(finding, result, events) {
         Ok(()) => {
             let group = finding.group();
-            events.remark("kept", &format!("{}: {group}", result.display()));
+            events.remark("kept", &format!("in {}", result.display()));
             Some(group)
         }
         Err(error) => {

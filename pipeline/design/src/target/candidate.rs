@@ -58,7 +58,7 @@ impl Attempt {
 pub(super) fn threshold_m(event: TargetEvent, system: &EquivalentSystem, oscillator: &System) -> f64 {
     match event {
         TargetEvent::Beyond(displacement_m) => displacement_m / system.participation(),
-        TargetEvent::BeyondCapacity => capacity_m(oscillator).unwrap_or(OVERTURNING_M),
+        TargetEvent::BeyondCapacity(factor) => capacity_m(oscillator).map_or(OVERTURNING_M, |own_m| own_m / factor),
         TargetEvent::Overturning => OVERTURNING_M,
     }
 }

@@ -192,7 +192,7 @@ impl FrameTarget<'_> {
         let peaks = trials.shake(frame, levels, with_planar)?;
         let threshold_m = match self.options.event {
             TargetEvent::Overturning => None,
-            TargetEvent::BeyondCapacity => structure.system.capacity_m(),
+            TargetEvent::BeyondCapacity(factor) => structure.system.capacity_m().map(|own_m| own_m / factor),
             TargetEvent::Beyond(displacement_m) => Some(displacement_m),
         };
         let (hazard, scatter) = self.of_records;

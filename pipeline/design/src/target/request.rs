@@ -7,7 +7,7 @@ use uplift_hazard::rate_from_probability;
 use uplift_job::alarm::Alarm;
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::{
-    Implausible, PROBABILITY, RETURN_PERIOD, Range, THRESHOLD, USUAL_TARGET, USUAL_THRESHOLD, YEARS,
+    Implausible, PROBABILITY, RETURN_PERIOD, Range, SAFETY_FACTOR, THRESHOLD, USUAL_TARGET, USUAL_THRESHOLD, YEARS,
 };
 use uplift_structure::Quantity;
 
@@ -28,8 +28,8 @@ const DISPERSION: Range = Range { least: 1e-3, most: 5.0, unit: "", hint: "of ln
 pub enum TargetEvent {
     /// The structure overturns.
     Overturning,
-    /// It goes beyond its own displacement capacity, whatever that is at the value tried.
-    BeyondCapacity,
+    /// It goes beyond its own displacement capacity, whatever that is at the value tried, over this safety factor.
+    BeyondCapacity(f64),
     /// It goes beyond so many metres.
     Beyond(f64),
 }
@@ -39,7 +39,8 @@ impl TargetEvent {
     pub fn words(self) -> String {
         match self {
             Self::Overturning => "overturning".to_owned(),
-            Self::BeyondCapacity => "exceeding the capacity".to_owned(),
+            Self::BeyondCapacity(1.0) => "exceeding the capacity".to_owned(),
+            Self::BeyondCapacity(safety_factor) => format!("exceeding the capacity over {safety_factor}"),
             Self::Beyond(displacement_m) => format!("exceeding {displacement_m} m"),
         }
     }
@@ -133,7 +134,7 @@ impl TargetOptions {
     pub(super) fn doubtful(&self) -> Vec<Alarm> {
         let displacement_m = match self.event {
             TargetEvent::Beyond(displacement_m) => Some(displacement_m),
-            TargetEvent::Overturning | TargetEvent::BeyondCapacity => None,
+            TargetEvent::Overturning | TargetEvent::BeyondCapacity(_) => None,
         };
         let per_year = match self.frequency {
             TargetFrequency::PerYear(per_year) => Some(per_year),
@@ -150,8 +151,10 @@ impl TargetOptions {
         let mut asked: Vec<(Range, &'static str, f64)> = vec![(TOLERANCE, "--tolerance", self.tolerance)];
         asked.extend(self.from.map(|from| (VALUE, "--from", from)));
         asked.extend(self.to.map(|to| (VALUE, "--to", to)));
-        if let TargetEvent::Beyond(displacement_m) = self.event {
-            asked.push((THRESHOLD, "--exceed", displacement_m));
+        match self.event {
+            TargetEvent::Beyond(displacement_m) => asked.push((THRESHOLD, "--exceed", displacement_m)),
+            TargetEvent::BeyondCapacity(factor) => asked.push((SAFETY_FACTOR, "--safety-factor", factor)),
+            TargetEvent::Overturning => {}
         }
         match self.frequency {
             TargetFrequency::PerYear(per_year) => asked.push((PER_YEAR, "the target", per_year)),
@@ -184,7 +187,9 @@ mod tests {
         assert!(beyond.len() == 1 && beyond[0].starts_with("--exceed is 300 m; usual is"), "{beyond:?}");
         let often = asked(TargetEvent::Overturning, 5.0);
         assert!(often.len() == 1 && often[0].contains("frequency is 5 1/yr"), "{often:?}");
-        assert!(asked(TargetEvent::Beyond(0.3), 2e-4).is_empty() && asked(TargetEvent::BeyondCapacity, 0.1).is_empty());
+        assert!(
+            asked(TargetEvent::Beyond(0.3), 2e-4).is_empty() && asked(TargetEvent::BeyondCapacity(2.5), 0.1).is_empty()
+        );
     }
 
     #[test]

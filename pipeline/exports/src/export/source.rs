@@ -1,7 +1,7 @@
 //! What is exported of a result, as every format takes it.
 
 use uplift_alarms::alarms;
-use uplift_hazard::rate_from_probability;
+use uplift_hazard::return_period_from_probability;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_questions::efficiency::Figure;
@@ -77,7 +77,7 @@ impl Export {
         let head = file.head()?;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let provenance = provenance_of(&head, &name);
-        let return_period = |&poe: &f64| Ok(1.0 / rate_from_probability(poe, spectra.years)?);
+        let return_period = |&poe: &f64| Ok(return_period_from_probability(poe, spectra.years)?);
         Ok(Self {
             return_periods: spectra.poes.iter().map(return_period).collect::<Result<_, ExportsError>>()?,
             study: file.stored_study()?,

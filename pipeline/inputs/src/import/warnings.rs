@@ -156,7 +156,8 @@ fn synchronisation(
         add(
             KIND,
             format!(
-                "its components have {} and {} points and no start times: not for RotD50, RotD100 and azimuths",
+                "its components have {} and {} points and no start times: check them before you use RotD50, RotD100 \
+                 or azimuths",
                 h1.len(),
                 h2.len()
             ),

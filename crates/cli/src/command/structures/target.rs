@@ -46,6 +46,12 @@ pub(crate) struct TargetArguments {
     /// Target displacement, m, or `capacity`, instead of overturning
     #[arg(long, value_name = "M|capacity", allow_negative_numbers = true)]
     exceed: Option<String>,
+    /// Safety factor by which `--exceed capacity` divides the capacity
+    #[arg(
+        long, value_name = "FS", allow_negative_numbers = true, value_parser = number,
+        default_value_t = 1.0
+    )]
+    safety_factor: f64,
     /// Target annual rate
     #[arg(long, value_name = "PER_YEAR", allow_negative_numbers = true, value_parser = number)]
     per_year: Option<f64>,
@@ -111,8 +117,13 @@ pub(crate) struct TargetArguments {
 impl TargetArguments {
     fn options(&self) -> Result<TargetOptions, CommandError> {
         let event = match self.exceed.as_deref() {
+            Some("capacity") => TargetEvent::BeyondCapacity(self.safety_factor),
+            _ if self.safety_factor != 1.0 => {
+                return Err(CommandError::Usage(
+                    "--safety-factor divides a capacity: give --exceed capacity".to_owned(),
+                ));
+            }
             None => TargetEvent::Overturning,
-            Some("capacity") => TargetEvent::BeyondCapacity,
             Some(text) => TargetEvent::Beyond(
                 number(text)
                     .map_err(|error| CommandError::Usage(format!("--exceed {text}: {error}, or `capacity`")))?,
