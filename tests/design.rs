@@ -377,6 +377,30 @@ fn differences_from_the_study_are_reported() {
     assert_ne!(found["exact"]["zero_stiffness_demand_m"], found["exact"]["zero_stiffness_demand_of_spectrum_m"]);
 }
 
+/// The first line has one verdict for all measures that agree, and theirs where they do not.
+#[test]
+fn a_verdict_is_that_of_rules_measures_and_own_demand() {
+    let study = study();
+    let said = |factor: &str| {
+        let asked = ["design", "block.toml", "--urs", "r.h5", "--safety-factor", factor];
+        let told = study.uplift(&asked).ok().stdout;
+        let json: Value =
+            serde_json::from_str(&study.uplift(&[&asked[..], &["--json", "-q"]].concat()).ok().stdout).unwrap();
+        let own = json["own_check"]["satisfied"].as_bool().unwrap();
+        (told.lines().next().unwrap().to_owned(), told.lines().nth(1).unwrap().to_owned(), own)
+    };
+    let (first, second, own) = said("2.5");
+    assert!(first.ends_with(": satisfied; safety factor 2.5 (Eq. 3.15)") && own, "{first}");
+    assert!(second.contains("), 2.5 times its own demand (") && !second.contains("NOT"), "{second}");
+    let (first, second, own) = said("100");
+    assert!(first.ends_with(", NOT satisfied; safety factor 100 (Eq. 3.15)") && !own, "{first}");
+    assert!(second.contains(": NOT satisfied by equal displacement (") && !second.contains("; "), "{second}");
+    let between = (10..40).map(|factor| said(&factor.to_string())).find(|(first, ..)| first.contains("partly"));
+    let (first, second, _) = between.unwrap();
+    assert!(first.contains(" partly satisfied; safety factor "), "{first}");
+    assert!(second.contains(": satisfied by ") && second.contains("; NOT satisfied by "), "{second}");
+}
+
 /// Stockier than the spectrum's strengths: the verdict says that it is not the spectrum's.
 #[test]
 fn a_spectrum_without_a_value_is_said_beside_the_verdict() {
@@ -606,7 +630,7 @@ fn a_design_sheet_says_what_the_design_says() {
     assert!(
         std::fs::read_to_string(study.path().join("sheet.html"))
             .unwrap()
-            .contains(&format!("By its own demand {doubt}."))
+            .contains(&format!("Its own demand is {doubt}."))
     );
 
     study.write("notes.html", "mine");

@@ -67,7 +67,7 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
 
     let said = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
     let pasted = line.replace("pgv.levels", "Proposed: [pgv] levels");
-    let high = "There, PGV, 10 % (3 more): displacements too large (96.2 % of the risk below 5 cm/s)";
+    let high = "There, PGV, 10 % (4 cases): displacements too large (96.2 % of the risk below 5 cm/s)";
     for words in
         ["Levels    PGV, at the strengths tried (0.100, 0.2", "up to 96.2 % of the risk lies below", high, &pasted]
     {
@@ -111,12 +111,15 @@ fn default_levels_reach_as_far_as_the_curves_of_all_sites() {
     let study = without_levels();
     study.write("here-pgv.csv", "iml,maf\n0.3,2\n1,0.4\n10,0.01\n64.2,3e-4\n");
     let check = study.uplift(&["check", "study.toml", "--details", "--print-study"]).ok().stdout;
+    let note = "default levels of PGV cut to 0.5 to 64.2 cm/s by the hazard curves of There and Here";
+    let details = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
+    assert!(details.contains(note), "{details}");
     let levels = "levels_cm_s = [\"0.5:0.1:0.9\", \"1:0.5:20\", \"25:5:60\", 64.2]";
     assert!(check.contains(levels), "{check}");
     // the same study in one run, in shards, and with these levels written
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let again = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
-    assert!(again.stdout.contains("done already") || again.stderr.contains("done already"), "{again:?}");
+    assert!(again.stdout.contains("done already"), "{again:?}");
     for (shard, part) in [("1/2", "one"), ("2/2", "two")] {
         study.uplift(&["run", "study.toml", "-o", part, "-q", "--shard", shard]).ok();
     }
@@ -126,9 +129,22 @@ fn default_levels_reach_as_far_as_the_curves_of_all_sites() {
     assert!(csv("r.urs.csv") == csv("s.urs.csv") && csv("r.urs.csv") == csv("w.urs.csv"));
     let swept = study.uplift(&["sweep", "study.toml", "--over", "oscillator.restitution=0.9,0.95", "-o", "sweep"]).ok();
     assert!(study.path().join("sweep/comparison.csv").is_file(), "{}", swept.stderr);
-    // levels that the study gives are not left out behind its back
+    // other levels than the default ones are not left out behind its back
     let own = ["check", "study.toml", "--set", "pgv.levels_cm_s=[0.1, 1, 10]"];
     study.uplift(&own).fails(4, &["the curve begins at 0.3 cm/s, the levels at 0.1 cm/s"]);
+}
+
+#[test]
+fn what_is_wrong_with_one_curve_is_not_said_of_the_others() {
+    let study = without_levels();
+    study.write("here-pgv.csv", "iml,maf\n0.3,2\n1,0.4\nten,0.01\n");
+    let failed = study.uplift(&["check", "study.toml"]).fails(4, &["here-pgv.csv", "ten"]);
+    assert!(!failed.stderr.contains("There"), "{}", failed.stderr);
+    // nor are default levels cut where curves are extrapolated beyond their ends
+    study.write("here-pgv.csv", "iml,maf\n0.3,2\n1,0.4\n64.2,3e-4\n");
+    let whole = ["check", "study.toml", "--print-study", "--set", "risk.extrapolate=loglog"];
+    let printed = study.uplift(&whole).ok().stdout;
+    assert!(printed.contains("levels_cm_s = [\"0.1:0.1:0.9\", \"1:0.5:20\", \"25:5:200\"]"), "{printed}");
 }
 
 #[test]
@@ -136,7 +152,7 @@ fn a_curve_much_shorter_than_the_default_levels_has_those_that_it_covers_named()
     let study = without_levels();
     let check = ["check", "study.toml"];
     study.write("here-pgv.csv", "iml,maf\n2,0.4\n10,0.01\n300,1e-6\n");
-    let levels = "begins at 2 cm/s, the levels at 0.1 cm/s. In [pgv] write: levels_cm_s = [\"2:0.5:20\", \"25:5:200\"]";
+    let levels = "begins at 2 cm/s, the levels at 0.5 cm/s. In [pgv] write: levels_cm_s = [\"2:0.5:20\", \"25:5:200\"]";
     study.uplift(&check).fails(4, &["Here", levels, "risk.extrapolate = \"loglog\""]);
     // in m/s, and read as cm/s: as good a curve as one that ends soon
     study.write("here-pgv.csv", "iml,maf\n0.005,2\n0.01,0.4\n0.1,0.01\n1.5,1e-5\n");
@@ -146,7 +162,7 @@ fn a_curve_much_shorter_than_the_default_levels_has_those_that_it_covers_named()
     // rows without a rate are why it begins there
     study.write("here-pgv.csv", "iml,PoE in 1 year\n0.1,1\n0.2,1\n3,0.9\n10,0.1\n300,1e-5\n");
     let dropped =
-        "the curve begins at 3 cm/s (2 rows of probability 1 dropped), the levels at 0.1 cm/s. In [pgv] write:";
+        "the curve begins at 3 cm/s (2 rows of probability 1 dropped), the levels at 0.5 cm/s. In [pgv] write:";
     study
         .uplift(&["check", "study.toml", "--set", "sites.Here.pgv.kind=poe", "--set", "sites.Here.pgv.years=1"])
         .fails(4, &[dropped]);

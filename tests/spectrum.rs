@@ -84,7 +84,9 @@ fn on_the_strengths_of_the_result_it_is_its_ordinate_and_between_them_on_a_line(
         }
     }
     // the same numbers as comma-separated values, to the last digit
-    let csv = ask(&study, &["--strength", "0.125,0.2", "--csv"]).ok().stdout;
+    let printed = ask(&study, &["--strength", "0.125,0.2", "--csv"]).ok();
+    assert!(printed.stderr.contains("Warnings\n  Synthetic records"), "{}", printed.stderr);
+    let csv = printed.stdout;
     let mut lines = csv.lines();
     assert_eq!(lines.next(), Some("site,im,strength,poe,years,return_period_years,u_m,lower_m,upper_m"));
     let rows: Vec<Vec<String>> = lines.map(|line| line.split(',').map(str::to_owned).collect()).collect();

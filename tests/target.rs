@@ -77,7 +77,7 @@ fn a_safety_factor_sizes_what_a_design_then_passes() {
     let study = study();
     let ask = ["--exceed", "capacity", "--safety-factor", "2.5", "--poe", "10%", "--years", "50", "--vary", "width"];
     let found = json(&study, &[&ask[..], &["--tolerance", "0.02"]].concat());
-    assert_eq!(found["event"], "exceeding the capacity over 2.5");
+    assert_eq!(found["event"], "exceeding the capacity divided by 2.5");
     let is_satisfied = |width_m: f64| {
         study.write("other.toml", &frame(width_m));
         let ask = ["design", "other.toml", "--urs", "r.h5", "--poe", "10%", "--proxy", "--json", "-q"];

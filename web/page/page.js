@@ -745,8 +745,10 @@ const say = (text) => { $("state").textContent = text; };
 const LARGEST = 64e6;
 const bytes = async (file) => new Uint8Array(await file.arrayBuffer());
 const starts = async (file, letters) => [...await bytes(file.slice(0, letters.length))].every((own, place) => own === letters.charCodeAt(place));
-// reads files one after another and shows what is wrong with each
-async function each(files, work) {
+// reads files one after another, drop after drop, and shows what is wrong with each
+let reading = Promise.resolve();
+const each = (files, work) => (reading = reading.then(() => readEach(files, work)));
+async function readEach(files, work) {
   const wrong = [];
   for (const file of files) {
     try {
@@ -873,7 +875,7 @@ const rereadRecords = async () => {
     if (unread.length) await takeRecords(unread.splice(0));
   } catch (error) { complain("own-mistake", error.message); }
 };
-for (const id of ["record-unit", "record-step"]) $(id).onchange = () => { reread = reread.then(rereadRecords); };
+for (const id of ["record-unit", "record-step"]) $(id).onchange = () => { reread = reread.then(() => reading).then(rereadRecords); };
 chosen("files-stripes", (files) => each(files, takeStripes));
 $("take-paste").onclick = () => each([new File([$("paste").value], "pasted curve")], (file) => takeCurves(file));
 const ownSite = (of) => ask({ ask: "site", name: OWN_SITE, curves: of.map((own) => own.place), extrapolate: state.extrapolate });

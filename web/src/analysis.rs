@@ -237,12 +237,13 @@ fn event(
     let band = inferred_rate(demand, weights, units, (threshold_m, CONFIDENCE)).map_err(refused)?;
     // as the program raises it
     let outside = if risk.upper_tail_share >= risk.lower_tail_share {
-        (risk.upper_tail_share, format!("above the last level, {last} {unit}: a lower bound"))
+        (risk.upper_tail_share, "too low", format!("above the last level, {last} {unit}"))
     } else {
-        (risk.lower_tail_share, format!("below the first level, {first} {unit}: too large"))
+        (risk.lower_tail_share, "too high", format!("below the first level, {first} {unit}"))
     };
-    let (share, place) = outside;
-    let alarm = (share > TAIL_SHARE_LIMIT).then(|| format!("{} of the risk is {place}", per_cent(share)));
+    let (share, error, beyond) = outside;
+    let alarm =
+        (share > TAIL_SHARE_LIMIT).then(|| format!("rate {error} ({} of the risk lies {beyond})", per_cent(share)));
     let mut told = serde_json::to_value(risk).map_err(refused)?;
     told["alarm"] = json!(alarm);
     told["may_happen"] = may_happen.into();

@@ -5,7 +5,7 @@
 //! | `records` | `[records]` |
 //! | `oscillator` | `[oscillator]` |
 //! | `uncertainty` | `[uncertainty]`: what of the oscillator is not known exactly |
-//! | `measures`, `lower_levels` | `[pgv]`, `[pga]`, `[measures.…]`, and where their levels could begin |
+//! | `measures`, `default_levels`, `lower_levels` | `[pgv]`, `[pga]`, `[measures.…]`, their levels and lower ones |
 //! | `risk` | `[risk]` |
 //! | `hazard` | `[hazard]` |
 //! | `sites`, `curve`, `branches` | `[[sites]]`, the hazard curves of one, their weighted alternatives |
@@ -18,6 +18,7 @@ mod bootstrap;
 mod branches;
 mod consistency;
 mod curve;
+mod default_levels;
 mod hazard;
 mod lower_levels;
 mod measures;

@@ -32,7 +32,7 @@ pub(super) fn result_alarms(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError
         alarms.extend(question.as_ref().and_then(few_earthquakes));
     }
     let noticed = head.warnings.iter().filter(|line| !line.is_empty());
-    alarms.extend(noticed.map(|line| Alarm::new(Severity::Note, "inputs", "Inputs", line.clone(), "")));
+    alarms.extend(noticed.map(|line| Alarm::new(Severity::Note, NOTICED, "Inputs", line.clone(), "")));
     Ok(alarms)
 }
 
@@ -137,6 +137,9 @@ pub fn few(records: usize, pairs: usize) -> Option<Alarm> {
         )
     })
 }
+
+/// The kind of what was noticed while the inputs were read.
+pub(super) const NOTICED: &str = "inputs";
 
 /// Fewer earthquakes than this have no band that holds (`make coverage`; docs/confidence-bands.md).
 const FEW_EARTHQUAKES: usize = 5;

@@ -49,9 +49,9 @@ pub use structure::{OwnRisk, own_risk_alarms, safety_factor_alarm, structure_ala
 use uplift_result::{Kind, ResultFile};
 pub use uplift_risk::COMPARED_FROM_M;
 
-/// The alarms in the order in which they should be read.
+/// The alarms in the order in which they should be read: the worst first, and what was noticed of the inputs last.
 pub fn ranked(mut alarms: Vec<Alarm>) -> Vec<Alarm> {
-    alarms.sort_by_key(|alarm| alarm.severity);
+    alarms.sort_by_key(|alarm| (alarm.severity, alarm.kind == inputs::NOTICED));
     alarms
 }
 
@@ -164,7 +164,7 @@ mod tests {
         };
         let cases = vec![case(2.0, Severity::Note, "Here"), case(3.0, Severity::Caution, "There")];
         let found = Alarm::from_cases("off", cases).into_iter().collect::<Vec<_>>();
-        assert_eq!(found[0].to_string(), "There (1 more): is off by 3");
+        assert_eq!(found[0].to_string(), "There (2 cases): is off by 3");
         assert_eq!((found[0].severity, &found[0].also[..]), (Severity::Caution, &["Here".to_owned()][..]));
         assert_eq!(Alarm::from_cases("off", Vec::new()), None);
 

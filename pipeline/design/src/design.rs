@@ -7,6 +7,7 @@
 //! the spectrum was made from.
 
 mod analysis;
+mod verdict;
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +19,7 @@ use uplift_ida::Shard;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
-use uplift_job::text::{rounded, spectrum_words, two_digits};
+use uplift_job::text::rounded;
 use uplift_job::typed::number;
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::PostUplift;
@@ -34,9 +35,7 @@ use super::opening::{Place, job_name, records_and_pairs, restitution};
 use super::own_frame::{FrameReport, OwnFrame, STOPPED, of_frame};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
-use super::rules::{
-    MeasureVerdict, OwnCheck, RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve, verdicts_in_words,
-};
+use super::rules::{MeasureVerdict, OwnCheck, RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
 use super::spectrum::SpectrumDemand;
 use super::uncertain::UncertaintyReport;
 use super::weights::{RepairedWeights, SiteWeights};
@@ -133,7 +132,7 @@ pub struct DesignReport {
     pub unread: Option<String>,
     /// What the structure's own analysis says; none where there is none.
     pub exact: Option<ExactDemand>,
-    /// Its capacity held against that; none without a capacity.
+    /// Whether its capacity is at least the safety factor times that demand; none without a capacity.
     pub own_check: Option<OwnCheck>,
     /// Whether the structure describes a frame that can wobble.
     pub wobbles: bool,
@@ -165,63 +164,6 @@ pub struct DesignReport {
     pub assumed: Vec<String>,
     /// What to know before using the numbers, the worst first.
     pub alarms: Vec<Alarm>,
-}
-
-impl DesignReport {
-    /// How many times as far as its proxy, the equivalent oscillator, the wobbling frame goes; none without a frame, or
-    /// where either overturns more often than the target.
-    pub fn frame_over_proxy(&self) -> Option<f64> {
-        let ratio = self.frame.as_ref()?.wobbling().demand_m / self.exact.as_ref()?.demand_m;
-        Some(ratio).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
-    }
-
-    /// Whether the verdict on the wobbling frame is another than that of a rule on its proxy; none without a verdict on
-    /// each.
-    pub fn verdicts_differ(&self) -> Option<bool> {
-        let own = self.frame.as_ref()?.wobbling().check?;
-        let mut checks = self.rules.iter().filter_map(RuleOutcome::check).peekable();
-        checks.peek()?;
-        Some(checks.any(|check| check.satisfied != own.satisfied))
-    }
-
-    /// The verdicts by the spectrum's measure: `by PGV: satisfied by equal displacement (requires 0.48 m); NOT
-    /// satisfied by equal energy (requires 0.62 m), its own demand (requires 0.60 m)`; none where no rule applies.
-    pub fn verdicts(&self) -> Option<String> {
-        let verdicts = verdicts_in_words(&self.rules, self.own_check)?;
-        Some(format!("by {}: {verdicts}", self.spectrum_words()))
-    }
-
-    /// The same by other measures, but those by which all rules are satisfied as here.
-    pub fn verdicts_by_other_measures(&self) -> Vec<String> {
-        let is_satisfied = |rules: &[RuleOutcome]| rules.iter().filter_map(RuleOutcome::check).all(|of| of.satisfied);
-        let told = self.by_other_measures.iter().filter_map(|of| {
-            let verdicts = verdicts_in_words(&of.rules, None)?;
-            let is_silent = is_satisfied(&of.rules) && is_satisfied(&self.rules);
-            (!is_silent).then(|| format!("by {}: {verdicts}", of.im))
-        });
-        told.collect()
-    }
-
-    /// Where the structure's own demand is satisfied, and is not at the upper limit of its band: `not satisfied at the
-    /// upper limit of the demand's band, 0.50 m (requires 1.25 m)`.
-    pub fn unsafe_upper_limit(&self) -> Option<String> {
-        let capacity_m = self.structure.capacity_m?;
-        let [_, upper_m] = self.exact.as_ref()?.bands.as_ref()?.demand_m.quoted();
-        let required_m = self.required_safety_factor * upper_m;
-        (self.own_check.is_some_and(|own| own.satisfied) && required_m > capacity_m).then(|| {
-            if required_m.is_finite() {
-                let upper = two_digits(upper_m);
-                format!("not satisfied at the upper limit of the demand's band, {upper} m (requires {required_m:.2} m)")
-            } else {
-                "not satisfied at the upper limit of the demand's band, where it overturns".to_owned()
-            }
-        })
-    }
-
-    /// By which spectrum, in words: `PGV`, or `PGV, repaired`.
-    pub fn spectrum_words(&self) -> String {
-        spectrum_words(self.im, self.repaired)
-    }
 }
 
 /// Designs `structure` by a spectrum of the result at `result`, and tests the design by the structure's own risk.

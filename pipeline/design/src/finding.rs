@@ -140,6 +140,8 @@ impl DesignReport {
                 rows.push(row(format!("safety factor by {rule}"), check.safety_factor, "1"));
             }
         }
+        let times = format!("{} times the demand", self.required_safety_factor);
+        rows.extend(self.own_check.map(|own| row(times, own.required_capacity_m, "m")));
         if let Some(exact) = self.exact.as_ref().filter(|_| self.structure.capacity_m.is_some()) {
             let [beyond, overturning] = [
                 exact.bands.and_then(|bands| bands.beyond_capacity_per_year),

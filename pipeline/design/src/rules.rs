@@ -68,6 +68,18 @@ impl OwnCheck {
     }
 }
 
+impl OwnCheck {
+    /// `2.5 times its own demand (0.77 m)`: of the structure as it is, where a rule knows that another capacity would
+    /// change the demand.
+    pub fn in_words(&self, safety_factor: f64) -> String {
+        if self.required_capacity_m.is_finite() {
+            format!("{safety_factor} times its own demand ({:.2} m)", self.required_capacity_m)
+        } else {
+            "its own demand (overturns)".to_owned()
+        }
+    }
+}
+
 impl RuleOutcome {
     /// The check that counts: from the spectrum, or where that cannot be read from the exact demand.
     pub fn check(&self) -> Option<&RuleCheck> {
@@ -77,18 +89,18 @@ impl RuleOutcome {
 
 /// `satisfied by equal displacement (requires 0.48 m); NOT satisfied by equal energy (requires 0.62 m)`; none without a
 /// check.
-pub(super) fn verdicts_in_words(rules: &[RuleOutcome], own: Option<OwnCheck>) -> Option<String> {
-    let requires = |by: &str, required_m: f64, if_infinite: &str| {
-        let required =
-            if required_m.is_finite() { format!("requires {required_m:.2} m") } else { if_infinite.to_owned() };
-        format!("{by} ({required})")
-    };
+pub(super) fn verdicts_in_words(rules: &[RuleOutcome], own: Option<(OwnCheck, f64)>) -> Option<String> {
     let by_rules = rules.iter().filter_map(|outcome| {
         let check = outcome.check()?;
-        let words = requires(outcome.rule.words(), check.required_capacity_m, "no capacity suffices");
-        Some((check.satisfied, words))
+        let required_m = check.required_capacity_m;
+        let required = if required_m.is_finite() {
+            format!("requires {required_m:.2} m")
+        } else {
+            "no capacity suffices".to_owned()
+        };
+        Some((check.satisfied, format!("{} ({required})", outcome.rule.words())))
     });
-    let own = own.map(|own| (own.satisfied, requires("its own demand", own.required_capacity_m, "overturns")));
+    let own = own.map(|(own, safety_factor)| (own.satisfied, own.in_words(safety_factor)));
     let verdicts: Vec<(bool, String)> = by_rules.chain(own).collect();
     let told = [true, false].map(|wanted| {
         let of: Vec<&str> =
@@ -224,8 +236,8 @@ mod tests {
         let overturns = OwnCheck::new(1.2, f64::INFINITY, 2.5);
         assert!(!overturns.satisfied);
         let told = |own| verdicts_in_words(&[], own);
-        assert_eq!(told(Some(check)).as_deref(), Some("satisfied by its own demand (requires 1.00 m)"));
-        assert_eq!(told(Some(overturns)).as_deref(), Some("NOT satisfied by its own demand (overturns)"));
+        assert_eq!(told(Some((check, 2.5))).as_deref(), Some("satisfied by 2.5 times its own demand (1.00 m)"));
+        assert_eq!(told(Some((overturns, 2.5))).as_deref(), Some("NOT satisfied by its own demand (overturns)"));
         assert_eq!(told(None), None);
     }
 

@@ -1,23 +1,23 @@
-//! Default levels, which reach as far as the hazard curves of the sites do.
+//! Default levels, which are cut to what the hazard curves of the sites cover.
 
 use std::path::Path;
 
-use uplift_hazard::Extrapolation;
+use uplift_hazard::{Extrapolation, HazardCurve};
 
-use uplift_study::{AnyStudy, MeasurePlan, Study, StudyError, UniformRiskStudy};
+use uplift_study::{AnyStudy, MeasurePlan, Study, StudyError, UniformRiskStudy, usual_top_level};
 
-use super::hazard::{are_interchanged, curve_of};
+use super::hazard::{SiteHazard, are_interchanged, curve_of};
 use super::other_unit::of_outside;
 
-/// How many times the first default level a curve may begin at, and how many times below the last one it may end: one
-/// that is shorter is more likely of another unit, and is refused.
+/// How many times the first default level a curve may begin at, and how many times the last one be that at which it
+/// ends: a shorter one is more likely of another unit, and is refused.
 const SHORTER_WITHIN: [f64; 2] = [10.0, 4.0];
 
-/// Reads a study file of any kind, as [`Study::load_any`]; levels that it leaves out, or gives as they are by default,
-/// are those that the curves of all its sites cover.
+/// Reads a study file of any kind, as [`Study::load_any`]; default levels, named or left out, are cut to what the
+/// curves of all `[[sites]]` cover.
 ///
 /// # Errors
-/// As [`Study::load_any`]; of what is wrong with curves their reader tells.
+/// As [`Study::load_any`]. Mistakes in the curves are errors of [`read_hazard`](crate::read_hazard).
 pub fn load_study(file: &Path, overrides: &[String]) -> Result<AnyStudy, StudyError> {
     let mut study = Study::load_any(file, overrides)?;
     if let AnyStudy::UniformRisk(study) = &mut study {
@@ -43,25 +43,52 @@ fn shorten(study: &mut UniformRiskStudy) {
     }
 }
 
-/// The default levels that the curves of all sites cover; none where `plan` has others, where all are covered, and
-/// where a curve cannot be read or looks as if it were of another unit.
+/// The default levels that the curves of all sites cover; none where `plan` has others, and where all are covered.
+/// Curves that cannot be read, or look as if they were of another unit, cut nothing: they are refused.
 fn shortened(study: &UniformRiskStudy, plan: &MeasurePlan) -> Option<MeasurePlan> {
     if !plan.is_default() {
         return None;
     }
-    let (mut least, mut most) = (0.0_f64, f64::INFINITY);
+    let (first, last) = (plan.levels.first()?, plan.levels.last()?);
+    let (mut least, mut most) = (*first, *last);
     for site in &study.sites {
-        let file = site.curve(plan.measure)?;
-        for path in file.files() {
-            let curve = curve_of(study, file, path)?;
-            let is_of_another_unit = of_outside(study, (&site.name, file), plan, &curve).is_some();
-            if is_of_another_unit || are_interchanged(study, &site.name, file, plan).unwrap_or(false) {
-                return None;
-            }
+        let Some(file) = site.curve(plan.measure) else { continue };
+        let is_doubtful = |curve: &HazardCurve| {
+            let end = curve.last().im;
+            *first * SHORTER_WITHIN[0] < curve.first().im
+                || end * SHORTER_WITHIN[1] < *last
+                || usual_top_level(plan.measure).is_some_and(|(_, usual)| !usual.contains(end))
+                || of_outside(study, (&site.name, file), plan, curve).is_some()
+                || are_interchanged(study, &site.name, file, plan).unwrap_or(false)
+        };
+        let curves = file.files().filter_map(|path| curve_of(study, file, path));
+        for curve in curves.filter(|curve| !is_doubtful(curve)) {
             (least, most) = (least.max(curve.first().im), most.min(curve.last().im));
         }
     }
-    let (first, last) = (plan.levels.first()?, plan.levels.last()?);
-    let is_near = least <= SHORTER_WITHIN[0] * first && *last <= SHORTER_WITHIN[1] * most;
-    is_near.then(|| MeasurePlan::default_within(plan.measure, least, most))?
+    MeasurePlan::default_within(plan.measure, least, most)
+}
+
+/// That the levels of `plan` are the default ones that the curves of all `sites` cover, and whose curves cut them; none
+/// where they are not.
+pub(super) fn shortened_note(plan: &MeasurePlan, sites: &[SiteHazard]) -> Option<String> {
+    let spans = sites.iter().flat_map(|site| {
+        let branches = site.branches.iter().map(|branch| &branch.input);
+        let curves = std::iter::once(&site.curve).chain(branches).map(|input| &input.curve);
+        curves.map(|curve| (site.site.as_str(), curve.first().im, curve.last().im))
+    });
+    let from = spans.clone().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let to = spans.min_by(|a, b| a.2.total_cmp(&b.2))?;
+    let cut = MeasurePlan::default_within(plan.measure, from.1, to.2);
+    (cut.as_ref() == Some(plan)).then(|| {
+        let (first, last) = (plan.levels.first().copied(), plan.levels.last().copied());
+        let whose = if from.0 == to.0 { from.0.to_owned() } else { format!("{} and {}", from.0, to.0) };
+        format!(
+            "default levels of {} cut to {} to {} {} by the hazard curves of {whose}",
+            plan.measure.label(),
+            first.unwrap_or_default(),
+            last.unwrap_or_default(),
+            plan.measure.unit()
+        )
+    })
 }

@@ -12,6 +12,7 @@ use uplift_study::{
     CurveFile, CurveKind, MeasurePlan, UniformRiskStudy, definition_of, levels_key, levels_place, usual_top_level,
 };
 
+use super::default_levels::shortened_note;
 use super::other_unit::{curve_line, file_of, of_outside, with_remedy};
 use crate::error::InputsError;
 
@@ -74,6 +75,7 @@ pub fn read_hazard(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Ve
     }
     notes.extend(undefined_note(study, &undefined));
     notes.extend(extrapolated_note(study, &all));
+    notes.extend(study.measures.iter().zip(&all).filter_map(|(plan, sites)| shortened_note(plan, sites)));
     if mistakes.is_empty() { Ok((all, notes)) } else { Err(JobError::Inputs(mistakes).into()) }
 }
 
@@ -320,7 +322,10 @@ impl SiteReader<'_> {
                     || ". In".to_owned(),
                     |unlikely| {
                         let unit = curve_line(self.measure, !self.file.branches.is_empty(), "unit = …");
-                        format!(": {unlikely}. If so, write {unit}. If not, in")
+                        format!(
+                            ": {unlikely}. If so, write {unit} (and in the head of the file, if it says another). If \
+                             not, in"
+                        )
                     },
                 );
             format!(
@@ -347,7 +352,7 @@ pub(super) fn are_interchanged(
     let other_file = file_of(study, site, other)?;
     let other_plan = study.measures.iter().find(|plan| plan.measure == other)?;
     let covers = |path: Option<&PathBuf>, file: &CurveFile, plan: &MeasurePlan| {
-        let curve = read_path(path?, &csv_options(file)).ok()?.curve.in_field_units(study.gravity_m_s2).ok()?;
+        let curve = curve_of(study, file, path?)?;
         Some(curve.first().im <= *plan.levels.first()? && *plan.levels.last()? <= curve.last().im)
     };
     let this_covers_others = covers(file.file.as_ref(), other_file, other_plan)?;

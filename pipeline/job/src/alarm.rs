@@ -62,11 +62,11 @@ impl Alarm {
 }
 
 impl fmt::Display for Alarm {
-    /// `Athens, PGV, 2 % (3 more): what was found`.
+    /// `Athens, PGV, 2 % (4 cases): what was found`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let also = match self.also.len() {
             0 => String::new(),
-            more => format!(" ({more} more)"),
+            others => format!(" ({} cases)", others + 1),
         };
         write!(formatter, "{}{also}: {}", self.subject, self.what)
     }

@@ -46,8 +46,8 @@ pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumRepo
     };
     let strengths = between(&axes.strengths, &asked.strengths);
     let (measure, repaired) = (Some(found.measure), found.repaired);
-    let rarest = found.displacements.iter().map(|own| own.poe).reduce(f64::min);
-    let only = rarest.filter(|only| found.displacements.iter().all(|own| own.poe == *only));
+    let mut printed = found.displacements.iter().map(|own| own.poe);
+    let only = printed.next().filter(|first| printed.all(|other| other == *first));
     let poe = axes.poes.iter().position(|own| Some(*own) == only);
     let mut alarms = alarms_of(&file, &Scope { site, measure, poe, strengths, repaired })?;
     // of risks asked for, what the printed numbers rest on comes before what is true of the whole set

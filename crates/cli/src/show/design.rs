@@ -110,8 +110,8 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
         rows.push([
             "proxy, oscillator".to_owned(),
             demand(exact.demand_m, bands),
-            dash(),
-            dash(),
+            report.own_check.map_or_else(dash, |check| required(check.required_capacity_m)),
+            report.own_check.map_or_else(dash, |check| verdict_word(check.satisfied).to_owned()),
             risk(&exact.overturning, overturning),
         ]);
     }
@@ -148,7 +148,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     let whose = if report.wobbles { ", by its proxy alone" } else { "" };
     let is_doubted = report.alarms.iter().any(|alarm| alarm.severity == Severity::Mistake);
     let doubt = if is_doubted { "if its numbers are right (mistake? below), " } else { "" };
-    writeln!(out, "Verdict   {name}{whose}, {has}: {doubt}{}", overall(report))?;
+    writeln!(out, "Verdict   {name}{whose}, {has}: {doubt}{}", report.verdict())?;
     if let Some(verdicts) = report.verdicts() {
         writeln!(out, "          {verdicts}")?;
     }
@@ -197,20 +197,6 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         writeln!(out, "Demand    {demand} by the spectrum at strength {:.4}", spectrum.strength)?;
     }
     Ok(())
-}
-
-/// How many of the rules and of its own demand, by every measure, the structure satisfies.
-fn overall(report: &DesignReport) -> String {
-    let by_others = report.by_other_measures.iter().flat_map(|of| &of.rules);
-    let rules = report.rules.iter().chain(by_others).filter_map(RuleOutcome::check).map(|check| check.satisfied);
-    let checks: Vec<bool> = rules.chain(report.own_check.map(|own| own.satisfied)).collect();
-    let verdict = match checks.iter().filter(|satisfied| **satisfied).count() {
-        _ if checks.is_empty() => return "no rule applies".to_owned(),
-        count if count == checks.len() => verdict_word(true).to_owned(),
-        0 => verdict_word(false).to_owned(),
-        count => format!("satisfied by {count} of {} checks", checks.len()),
-    };
-    format!("{verdict}, with a safety factor of {} (Eq. 3.15)", report.required_safety_factor)
 }
 
 fn print_details(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
@@ -339,7 +325,19 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
     if rows.is_empty() {
         return Ok(());
     }
-    let header = ["rule", "demand, m", "required capacity, m", "capacity, m", "margin, m", "safety factor", "verdict"];
+    if let (Some(own), Some(exact), Some(capacity_m)) = (report.own_check, &report.exact, report.structure.capacity_m) {
+        let if_stands = |text: String| if exact.overturns { "-".to_owned() } else { text };
+        rows.push(vec![
+            "its own demand".to_owned(),
+            metres(exact.demand_m),
+            if_stands(format!("{:.4}", own.required_capacity_m)),
+            format!("{capacity_m:.4}"),
+            if_stands(format!("{:+.4}", capacity_m - own.required_capacity_m)),
+            if_stands(format!("{:.2}", own.safety_factor)),
+            verdict_word(own.satisfied).to_owned(),
+        ]);
+    }
+    let header = ["by", "demand, m", "required capacity, m", "capacity, m", "margin, m", "safety factor", "verdict"];
     writeln!(
         out,
         "\nRequired capacity with a safety factor of {} (Eq. 3.15)\n{}",

@@ -86,7 +86,12 @@ pub(super) fn print_displacements(out: &mut impl Write, report: &DisplacementRep
     Ok(writeln!(out, "{table}")?)
 }
 
-/// The displacements as CSV, with all their digits.
-pub(crate) fn print_spectrum_csv(report: &DisplacementReport) -> Result<(), CommandError> {
-    Ok(output().write_all(&report.csv()?)?)
+/// The displacements as CSV, with all their digits; the warnings where they are in nobody's way.
+pub(crate) fn print_spectrum_csv(
+    report: &SpectrumReport,
+    result: &Path,
+    terminal: &Terminal,
+) -> Result<(), CommandError> {
+    output().write_all(&report.found.csv()?)?;
+    print_result_warnings(&mut std::io::stderr(), &report.alarms, result, terminal)
 }

@@ -76,7 +76,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     if !report.kept.is_empty() {
         writeln!(
             out,
-            "Assumed   {} at every {quantity}: give the structure that you choose its own, and run uplift overturning",
+            "Assumed   {} at every {quantity}: recompute them at the {quantity} you choose, and run uplift design",
             report.kept
         )?;
     }
@@ -88,7 +88,11 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     }
     if report.least_met < report.missed_at {
         let [met, missed] = [report.least_met, report.missed_at].map(|value| unit(value.to_string()));
-        writeln!(out, "Scatter   the rate does not fall steadily: {met} meets the target, {missed} misses it")?;
+        writeln!(
+            out,
+            "Scatter   the rate does not fall steadily: {met} meets the target, {missed} misses it; from the best \
+             estimate on every trial meets it"
+        )?;
     }
     let own = report
         .own_value

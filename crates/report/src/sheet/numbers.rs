@@ -66,13 +66,14 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
             say(format!("By {} it overturns.", rule.words()), Some("no"));
         }
     }
-    if let Some(own) = report.own_check.filter(|_| !report.wobbles) {
-        let required = if_finite(own.required_capacity_m, "any capacity", |m| format!("{} m", two_digits(m)));
+    let is_of_proxy = report.frame.is_some();
+    if let Some(own) = report.own_check.filter(|_| !is_of_proxy) {
         let class = if own.satisfied { "yes" } else { "no" };
-        say(format!("The structure's own demand requires {required}: {}.", verdict_word(own.satisfied)), Some(class));
+        let words = own.in_words(report.required_safety_factor);
+        say(format!("By {words}: {}.", verdict_word(own.satisfied)), Some(class));
     }
-    if let Some(words) = report.unsafe_upper_limit() {
-        say(format!("By its own demand {words}."), Some("no"));
+    if let Some(words) = report.unsafe_upper_limit().filter(|_| !is_of_proxy) {
+        say(format!("Its own demand is {words}."), Some("no"));
     }
     for verdict in report.verdicts_by_other_measures() {
         let class = if verdict.contains("NOT") { "no" } else { "yes" };
@@ -85,10 +86,10 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         let times =
             report.frame_over_proxy().map_or_else(String::new, |ratio| format!(", {ratio:.1} times that of its proxy"));
         let verdict = own.check.map_or_else(String::new, |check| {
-            let required = if_finite(check.required_capacity_m, "any capacity", |m| format!("{} m", two_digits(m)));
+            let required = if_finite(check.required_capacity_m, "", |m| format!(" it requires {} m:", two_digits(m)));
             let differ = if report.verdicts_differ() == Some(true) { "; the verdicts differ" } else { "" };
             let verdict = verdict_word(check.satisfied);
-            format!("; it requires {required}: {verdict}{differ}")
+            format!(";{required} {verdict}{differ}")
         });
         let class = own.check.map(|check| if check.satisfied { "yes" } else { "no" });
         say(format!("The wobbling frame itself has a demand of {demand}{times}{verdict}."), class);

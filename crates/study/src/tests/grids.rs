@@ -149,6 +149,19 @@ fn default_levels_cut_to_a_curve() {
     );
     assert_eq!(pgv(1.7, 200.0).as_deref(), Some("pgv.levels_cm_s = [1.7, \"2:0.5:20\", \"25:5:200\"]"));
     assert_eq!(pgv(500.0, 600.0), None);
+    // what a conversion leaves of an end is no level, and none lies outside the curve
+    let ends = |least, most| pgv(least, most).map(|line| line.replace("pgv.levels_cm_s = ", ""));
+    assert_eq!(ends(0.1, 0.57 * 100.0).as_deref(), Some("[\"0.1:0.1:0.9\", \"1:0.5:20\", \"25:5:55\", 56.9999]"));
+    assert_eq!(ends(0.1, 1.15 * 100.0).as_deref(), Some("[\"0.1:0.1:0.9\", \"1:0.5:20\", \"25:5:110\", 114.999]"));
+    assert_eq!(ends(0.1, 1.1 * 100.0).as_deref(), Some("[\"0.1:0.1:0.9\", \"1:0.5:20\", \"25:5:110\"]"));
+    // a single one of a range is a level, too
+    assert_eq!(ends(0.85, 27.0).as_deref(), Some("[0.85, 0.9, \"1:0.5:20\", 25, 27]"));
+    for hundredths in 50..200 {
+        let (least, most) = (f64::from(hundredths) / 100.0 * 0.3, f64::from(hundredths) / 100.0 * 100.0);
+        let plan = MeasurePlan::default_within(IntensityMeasure::Pgv, least, most).unwrap();
+        assert!(plan.levels.iter().all(|level| (least..=most).contains(level)), "{least} {most} {plan:?}");
+        assert!(plan.levels[0] < least * 1.000_01 && *plan.levels.last().unwrap() > most * 0.999_98, "{plan:?}");
+    }
     let line = within(IntensityMeasure::Pga, 0.00233, 1.997).unwrap();
     assert_eq!(
         line,

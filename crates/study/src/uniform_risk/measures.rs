@@ -128,57 +128,6 @@ pub(super) fn write<S: Serializer>(plans: &[MeasurePlan], serializer: S) -> Resu
     serializer.collect_map(own.chain(further))
 }
 
-impl MeasurePlan {
-    /// Whether the levels are those of a study that gives none.
-    pub fn is_default(&self) -> bool {
-        let default = MeasureKeys::from_measure(self.measure).levels.default_value();
-        default.is_some_and(|default| default[..] == self.levels[..])
-    }
-
-    /// The default levels of `measure` within a curve from `least` to `most`, and the ends of that curve if it cuts
-    /// them. None where all of them are within, or hardly any.
-    pub fn default_within(measure: IntensityMeasure, least: f64, most: f64) -> Option<Self> {
-        let levels = MeasureKeys::from_measure(measure).levels;
-        let mut parts = Vec::new();
-        let [mut lowest, mut highest] = [f64::INFINITY, 0.0_f64];
-        let (mut first, mut last) = (f64::INFINITY, 0.0_f64);
-        for text in levels.default().unwrap_or_default() {
-            let numbers: Vec<f64> = text.split(':').filter_map(|number| number.parse().ok()).collect();
-            let (start, step, stop) = match numbers[..] {
-                [value] => (value, 0.0, value),
-                [start, step, stop] => (start, step, stop),
-                _ => continue,
-            };
-            (first, last) = (first.min(start), last.max(stop));
-            // ends move by whole steps, so that the levels stay those of the default
-            let (from, to) = if step > 0.0 {
-                let from = ((least - start) / step).ceil().max(0.0);
-                (from, ((most.min(stop) - start) / step + 1e-9).floor())
-            } else {
-                (0.0, 0.0)
-            };
-            let at = |steps: f64| ((start + steps * step) * 1e6).round() / 1e6;
-            let is_range = from < to;
-            if is_range || (step == 0.0 && least <= start && start <= most) {
-                parts.push(if is_range { format!("{}:{step}:{}", at(from), at(to)) } else { text.to_string() });
-                (lowest, highest) = (lowest.min(at(from)), highest.max(at(to)));
-            }
-        }
-        let is_cut = first < least || most < last;
-        if !is_cut || !parts.iter().any(|part| part.contains(':')) {
-            return None;
-        }
-        // from end to end of the curve, so that `uplift check` proposes no others within it
-        if first < least && least < lowest {
-            parts.insert(0, least.to_string());
-        }
-        if most < last && highest < most {
-            parts.push(most.to_string());
-        }
-        Some(Self { measure, levels: parts.join(",").parse().ok()? })
-    }
-}
-
 /// The measures that keys of `section` are the names of, in their order; those of Chapter 4 whether they are there or
 /// not.
 pub(super) fn named(section: &Section<'_>) -> Vec<IntensityMeasure> {

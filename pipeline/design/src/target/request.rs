@@ -7,7 +7,8 @@ use uplift_hazard::rate_from_probability;
 use uplift_job::alarm::Alarm;
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::{
-    Implausible, PROBABILITY, RETURN_PERIOD, Range, SAFETY_FACTOR, THRESHOLD, USUAL_TARGET, USUAL_THRESHOLD, YEARS,
+    Implausible, PROBABILITY, RETURN_PERIOD, Range, SAFETY_FACTOR, THRESHOLD, USUAL_SAFETY_FACTOR, USUAL_TARGET,
+    USUAL_THRESHOLD, YEARS,
 };
 use uplift_structure::Quantity;
 
@@ -40,7 +41,7 @@ impl TargetEvent {
         match self {
             Self::Overturning => "overturning".to_owned(),
             Self::BeyondCapacity(1.0) => "exceeding the capacity".to_owned(),
-            Self::BeyondCapacity(safety_factor) => format!("exceeding the capacity over {safety_factor}"),
+            Self::BeyondCapacity(safety_factor) => format!("exceeding the capacity divided by {safety_factor}"),
             Self::Beyond(displacement_m) => format!("exceeding {displacement_m} m"),
         }
     }
@@ -132,9 +133,10 @@ impl TargetOptions {
 
     /// Numbers that can be, but are probably in another unit, or no annual frequency.
     pub(super) fn doubtful(&self) -> Vec<Alarm> {
-        let displacement_m = match self.event {
-            TargetEvent::Beyond(displacement_m) => Some(displacement_m),
-            TargetEvent::Overturning | TargetEvent::BeyondCapacity(_) => None,
+        let (displacement_m, safety_factor) = match self.event {
+            TargetEvent::Beyond(displacement_m) => (Some(displacement_m), None),
+            TargetEvent::BeyondCapacity(factor) => (None, Some(factor)),
+            TargetEvent::Overturning => (None, None),
         };
         let per_year = match self.frequency {
             TargetFrequency::PerYear(per_year) => Some(per_year),
@@ -142,7 +144,11 @@ impl TargetOptions {
         };
         number_alarms(
             "target",
-            &[(USUAL_THRESHOLD, "--exceed", displacement_m), (USUAL_TARGET, "the allowed frequency", per_year)],
+            &[
+                (USUAL_THRESHOLD, "--exceed", displacement_m),
+                (USUAL_SAFETY_FACTOR, "--safety-factor", safety_factor),
+                (USUAL_TARGET, "the allowed frequency", per_year),
+            ],
         )
     }
 
@@ -185,6 +191,8 @@ mod tests {
         };
         let beyond = asked(TargetEvent::Beyond(300.0), 2e-4);
         assert!(beyond.len() == 1 && beyond[0].starts_with("--exceed is 300 m; usual is"), "{beyond:?}");
+        let percentage = asked(TargetEvent::BeyondCapacity(150.0), 2e-4);
+        assert!(percentage.len() == 1 && percentage[0].starts_with("--safety-factor is 150"), "{percentage:?}");
         let often = asked(TargetEvent::Overturning, 5.0);
         assert!(often.len() == 1 && often[0].contains("frequency is 5 1/yr"), "{often:?}");
         assert!(

@@ -42,7 +42,7 @@ pub(crate) fn spectrum(arguments: &SpectrumArguments, terminal: &Terminal) -> Re
     let report = read(&result, &asked)?;
     match (arguments.json, arguments.csv) {
         (true, _) => print_json(&report),
-        (_, true) => print_spectrum_csv(&report.found),
+        (_, true) => print_spectrum_csv(&report, &result, terminal),
         _ => print_spectrum(&report, &result, terminal),
     }
 }

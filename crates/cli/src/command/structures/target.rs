@@ -46,7 +46,7 @@ pub(crate) struct TargetArguments {
     /// Target displacement, m, or `capacity`, instead of overturning
     #[arg(long, value_name = "M|capacity", allow_negative_numbers = true)]
     exceed: Option<String>,
-    /// Safety factor by which `--exceed capacity` divides the capacity
+    /// Divide the capacity of `--exceed capacity` by this safety factor
     #[arg(
         long, value_name = "FS", allow_negative_numbers = true, value_parser = number,
         default_value_t = 1.0

@@ -1,0 +1,92 @@
+//! What a design says of a structure: whether it is good enough, by rules, measures, its own demand and its frame.
+
+use uplift_job::text::{spectrum_words, two_digits};
+
+use super::DesignReport;
+use crate::rules::{RuleOutcome, verdict_word, verdicts_in_words};
+
+impl DesignReport {
+    /// How many times as far as its proxy, the equivalent oscillator, the wobbling frame goes; none without a frame, or
+    /// where either overturns more often than the target.
+    pub fn frame_over_proxy(&self) -> Option<f64> {
+        let ratio = self.frame.as_ref()?.wobbling().demand_m / self.exact.as_ref()?.demand_m;
+        Some(ratio).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
+    }
+
+    /// Whether the verdict on the wobbling frame is another than that of a rule on its proxy; none without a verdict on
+    /// each.
+    pub fn verdicts_differ(&self) -> Option<bool> {
+        let own = self.frame.as_ref()?.wobbling().check?;
+        let mut checks = self.rules.iter().filter_map(RuleOutcome::check).peekable();
+        checks.peek()?;
+        Some(checks.any(|check| check.satisfied != own.satisfied))
+    }
+
+    /// Whether the structure satisfies both rules and its own demand, by each measure where they differ:
+    /// `satisfied by PGV, partly satisfied by PGA; safety factor 2.5 (Eq. 3.15)`.
+    pub fn verdict(&self) -> String {
+        let checks = |rules: &[RuleOutcome]| -> Vec<bool> {
+            rules.iter().filter_map(RuleOutcome::check).map(|check| check.satisfied).collect()
+        };
+        let mut own = checks(&self.rules);
+        own.extend(self.own_check.map(|own| own.satisfied));
+        let others = self.by_other_measures.iter().map(|of| (of.im.to_owned(), checks(&of.rules)));
+        let by_measure: Vec<(String, &str)> = std::iter::once((self.spectrum_words(), own))
+            .chain(others)
+            .filter_map(|(measure, checks)| {
+                let first = *checks.first()?;
+                let is_part = checks.iter().any(|satisfied| *satisfied != first);
+                Some((measure, if is_part { "partly satisfied" } else { verdict_word(first) }))
+            })
+            .collect();
+        let Some((_, first)) = by_measure.first() else { return "no rule applies".to_owned() };
+        let verdict = if by_measure.iter().all(|(_, verdict)| verdict == first) {
+            (*first).to_owned()
+        } else {
+            let each = by_measure.iter().map(|(measure, verdict)| format!("{verdict} by {measure}"));
+            each.collect::<Vec<_>>().join(", ")
+        };
+        format!("{verdict}; safety factor {} (Eq. 3.15)", self.required_safety_factor)
+    }
+
+    /// The verdicts by the spectrum's measure: `by PGV: satisfied by equal displacement (requires 0.48 m); NOT
+    /// satisfied by equal energy (requires 0.62 m), 2.5 times its own demand (0.60 m)`; none where no rule applies.
+    pub fn verdicts(&self) -> Option<String> {
+        let own = self.own_check.map(|own| (own, self.required_safety_factor));
+        let verdicts = verdicts_in_words(&self.rules, own)?;
+        Some(format!("by {}: {verdicts}", self.spectrum_words()))
+    }
+
+    /// The same by other measures. A measure by which every rule is satisfied is left out where every rule is satisfied
+    /// here, too.
+    pub fn verdicts_by_other_measures(&self) -> Vec<String> {
+        let is_satisfied = |rules: &[RuleOutcome]| rules.iter().filter_map(RuleOutcome::check).all(|of| of.satisfied);
+        let told = self.by_other_measures.iter().filter_map(|of| {
+            let verdicts = verdicts_in_words(&of.rules, None)?;
+            let is_silent = is_satisfied(&of.rules) && is_satisfied(&self.rules);
+            (!is_silent).then(|| format!("by {}: {verdicts}", of.im))
+        });
+        told.collect()
+    }
+
+    /// Where the structure's own demand is satisfied, and is not at the upper limit of its band: `not satisfied at the
+    /// upper limit of the demand's band, 0.50 m (requires 1.25 m)`.
+    pub fn unsafe_upper_limit(&self) -> Option<String> {
+        let capacity_m = self.structure.capacity_m?;
+        let [_, upper_m] = self.exact.as_ref()?.bands.as_ref()?.demand_m.quoted();
+        let required_m = self.required_safety_factor * upper_m;
+        (self.own_check.is_some_and(|own| own.satisfied) && required_m > capacity_m).then(|| {
+            if required_m.is_finite() {
+                let upper = two_digits(upper_m);
+                format!("not satisfied at the upper limit of the demand's band, {upper} m (requires {required_m:.2} m)")
+            } else {
+                "not satisfied at the upper limit of the demand's band, where it overturns".to_owned()
+            }
+        })
+    }
+
+    /// By which spectrum, in words: `PGV`, or `PGV, repaired`.
+    pub fn spectrum_words(&self) -> String {
+        spectrum_words(self.im, self.repaired)
+    }
+}
