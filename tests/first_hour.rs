@@ -65,7 +65,10 @@ fn the_curve_of_the_readme_says_what_it_is() {
     let line = readme.lines().find(|line| line.starts_with("printf") && line.ends_with("> pgv.csv")).unwrap();
     study.write("pgv.csv", &line.split('\'').nth(1).unwrap().replace("\\n", "\n"));
     let shown = study.uplift(&["hazard", "show", "pgv.csv"]).ok().stdout;
-    assert!(shown.contains("PGV [cm/s]"), "{shown}");
+    assert!(shown.contains("PGV [cm/s]") && shown.contains("5 levels, read as annual rates, source:"), "{shown}");
+    study.write("poe.csv", "PGV cm/s,probability of exceedance in 50 years\n1,0.9\n10,0.2\n100,0.001\n");
+    let shown = study.uplift(&["hazard", "show", "poe.csv"]).ok().stdout;
+    assert!(shown.contains("3 levels, read as probabilities of exceedance in 50 years, source:"), "{shown}");
     study.write("unsaid.csv", "iml,maf\n1,0.4\n10,0.01\n");
     study
         .uplift(&["hazard", "show", "unsaid.csv"])

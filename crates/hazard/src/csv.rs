@@ -150,6 +150,8 @@ impl CsvOptions {
 pub struct CsvCurve {
     /// The curve, in the declared unit.
     pub curve: HazardCurve,
+    /// What the second column was taken for: `annual rates`, `probabilities in 50 years`.
+    pub read_as: String,
     /// Rows at the end with a rate or probability of zero, which exporters write where the curve has run out.
     pub dropped_zeros: usize,
     /// Rows at the beginning with a probability of 1, to which no rate belongs.
@@ -197,10 +199,14 @@ pub fn read_csv(text: &str, name: &str, options: &CsvOptions) -> Result<CsvCurve
     let Table { rows, content, years, source, component } = Table::parse(text, name, options)?;
     let place = |line: usize| Place::Line { file: name.to_owned(), line };
     let AnnualRates { rows, dropped_zeros, dropped_certain } = annual_rates(rows, content, years, name, place)?;
+    let read_as = match (content, years) {
+        (SecondColumn::Probability, Some(years)) => format!("{} in {years} years", content.name()),
+        _ => content.name().to_owned(),
+    };
     let Declared { measure, unit } = options.declared.clone();
     let (im, maf) = rows.iter().map(|row| (row.im, row.value)).unzip();
     let curve = HazardCurve::new_at(measure, unit, source, im, maf, |index| place(rows[index].at))?;
-    Ok(CsvCurve { curve: curve.with_component(component), dropped_zeros, dropped_certain })
+    Ok(CsvCurve { curve: curve.with_component(component), read_as, dropped_zeros, dropped_certain })
 }
 
 /// Lines that a message names; a file of another kind has many.

@@ -66,9 +66,7 @@ impl OwnCheck {
         let satisfied = capacity_m >= required_capacity_m;
         Self { required_capacity_m, safety_factor: capacity_m / demand_m, satisfied }
     }
-}
 
-impl OwnCheck {
     /// `2.5 times its own demand (0.77 m)`: of the structure as it is, where a rule knows that another capacity would
     /// change the demand.
     pub fn in_words(&self, safety_factor: f64) -> String {

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use uplift_hazard::{Extrapolation, HazardCurve};
-
 use uplift_study::{AnyStudy, MeasurePlan, Study, StudyError, UniformRiskStudy, usual_top_level};
 
 use super::hazard::{SiteHazard, are_interchanged, curve_of};

@@ -44,7 +44,8 @@ pub(crate) fn print_curves(report: &HazardReport) -> Result<(), CommandError> {
     }
     if let [curve] = curves.as_slice() {
         let component = curve.component.as_deref().unwrap_or("not given");
-        writeln!(out, "Horizontal components: {component}\n{} levels, source:", curve.points)?;
+        let read_as = curve.read_as.as_ref().map_or_else(String::new, |read_as| format!(", read as {read_as}"));
+        writeln!(out, "Horizontal components: {component}\n{} levels{read_as}, source:", curve.points)?;
         for line in curve.source.lines() {
             writeln!(out, "  {line}")?;
         }

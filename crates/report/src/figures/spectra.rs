@@ -42,7 +42,7 @@ pub(super) fn hazard(source: &FigureSource) -> Figure {
 /// Curves from files, a panel for each measure and unit.
 pub fn hazard_figure(curves: &[NamedCurve]) -> Figure {
     let mut panels: Vec<Panel> = Vec::new();
-    for (index, NamedCurve { name, curve }) in curves.iter().enumerate() {
+    for (index, NamedCurve { name, curve, .. }) in curves.iter().enumerate() {
         let label = format!("{}, {}", curve.measure(), curve.unit());
         let points = curve.points().map(|point| (point.im, point.maf)).collect();
         let series = Series::line(name, points, Tone::Distinct(index));

@@ -58,7 +58,7 @@ impl MeasurePlan {
 /// A positive `value` to six digits; where that is not inside, one more or less of the last digit, as `step` says.
 #[expect(clippy::cast_possible_truncation, reason = "the decade of a finite number")]
 fn rounded_inside(value: f64, step: f64, is_inside: impl Fn(f64) -> bool) -> f64 {
-    let scale = 10_f64.powi(DIGITS - 1 - value.log10().floor() as i32);
+    let scale = 10_f64.powi((DIGITS - 1).saturating_sub(value.log10().floor() as i32));
     let nearest = (value * scale).round();
     [nearest, nearest + step].map(|digits| digits / scale).into_iter().find(|level| is_inside(*level)).unwrap_or(value)
 }

@@ -29,7 +29,8 @@ const DISPERSION: Range = Range { least: 1e-3, most: 5.0, unit: "", hint: "of ln
 pub enum TargetEvent {
     /// The structure overturns.
     Overturning,
-    /// It goes beyond its own displacement capacity, whatever that is at the value tried, over this safety factor.
+    /// It goes beyond its own displacement capacity, whatever that is at the value tried, divided by this
+    /// safety factor.
     BeyondCapacity(f64),
     /// It goes beyond so many metres.
     Beyond(f64),

@@ -39,6 +39,8 @@ pub struct NamedCurve {
     pub name: String,
     /// The curve.
     pub curve: HazardCurve,
+    /// What the second column of a table was taken for; none of an export, which says so itself.
+    pub read_as: Option<String>,
 }
 
 /// The curves of `files`, each read once: those of an export, or the one of a table with two columns.
@@ -88,7 +90,8 @@ pub(super) fn read_file(
     let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
     let folder = path.parent().and_then(Path::file_name).map(|folder| format!("{}/", folder.to_string_lossy()));
     let curve = read.curve.in_field_units(STANDARD_GRAVITY_M_S2)?;
-    Ok(vec![NamedCurve { name: format!("{}{stem}", folder.unwrap_or_default()), curve }])
+    let name = format!("{}{stem}", folder.unwrap_or_default());
+    Ok(vec![NamedCurve { name, curve, read_as: Some(read.read_as) }])
 }
 
 /// The curves of an export; of all sites those that have one, the others are reported.
@@ -127,7 +130,7 @@ fn named(path: &Path, exported: ExportedCurve) -> NamedCurve {
         Statistic::Unspecified => path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
         kind => kind.to_string(),
     };
-    NamedCurve { name: format!("{place}, {kind}"), curve: exported.curve }
+    NamedCurve { name: format!("{place}, {kind}"), curve: exported.curve, read_as: None }
 }
 
 /// The files given, each once.

@@ -42,6 +42,8 @@ pub struct ShownCurve {
     pub levels: Vec<Option<f64>>,
     /// Number of levels of the curve.
     pub points: usize,
+    /// What the second column of a table was taken for; none of an export.
+    pub read_as: Option<String>,
     /// Its lowest level.
     pub lowest: f64,
     /// Its highest level.
@@ -63,13 +65,14 @@ pub fn show(file: &Path, options: &CurveOptions, events: &dyn Events) -> Result<
     Ok(HazardReport { probabilities: PROBABILITIES.to_vec(), years: YEARS, curves: curves.iter().map(shown).collect() })
 }
 
-fn shown(NamedCurve { name, curve }: &NamedCurve) -> ShownCurve {
+fn shown(NamedCurve { name, curve, read_as }: &NamedCurve) -> ShownCurve {
     ShownCurve {
         name: name.clone(),
         measure: curve.measure().to_owned(),
         unit: curve.unit().to_string(),
         levels: PROBABILITIES.iter().map(|&probability| level(curve, probability)).collect(),
         points: curve.len(),
+        read_as: read_as.clone(),
         lowest: curve.first().im,
         highest: curve.last().im,
         component: curve.component().map(|component| component.to_string()),
