@@ -7,7 +7,7 @@ use uplift_fragility::Stripes as Stripe;
 use uplift_ida::{Plan, StripeRecord, System, Unwatched, analyse};
 use uplift_motion::IntensityMeasure;
 use uplift_oscillator::Oscillator;
-use uplift_risk::{EventRisk, PooledDemand, RiskCurve, StripeWeights, TAIL_SHARE_LIMIT, at_most_per_year};
+use uplift_risk::{EventRisk, PooledDemand, RiskCurve, StripeWeights, at_most_per_year};
 use uplift_structure::{Check, Rule};
 use uplift_study::{Structure, UniformRiskStudy};
 
@@ -235,15 +235,7 @@ fn event(
         risk.at_most_per_year = Some(at_most_per_year(weights, units.len() as f64));
     }
     let band = inferred_rate(demand, weights, units, (threshold_m, CONFIDENCE)).map_err(refused)?;
-    // as the program raises it
-    let outside = if risk.upper_tail_share >= risk.lower_tail_share {
-        (risk.upper_tail_share, "too low", format!("above the last level, {last} {unit}"))
-    } else {
-        (risk.lower_tail_share, "too high", format!("below the first level, {first} {unit}"))
-    };
-    let (share, error, beyond) = outside;
-    let alarm =
-        (share > TAIL_SHARE_LIMIT).then(|| format!("rate {error} ({} of the risk lies {beyond})", per_cent(share)));
+    let alarm = risk.outside_levels((first, last), unit, per_cent).map(|(_, told)| told);
     let mut told = serde_json::to_value(risk).map_err(refused)?;
     told["alarm"] = json!(alarm);
     told["may_happen"] = may_happen.into();

@@ -39,6 +39,26 @@ impl EventRisk {
     pub fn is_lower_bound(&self) -> bool {
         self.upper_tail_share > TAIL_SHARE_LIMIT && self.upper_tail_share >= self.lower_tail_share
     }
+
+    /// The larger of both shares outside the levels, and what it does to the rate: `rate too low (3 % of the risk lies
+    /// above the last level, 200 cm/s)`; none where it is at most [`TAIL_SHARE_LIMIT`].
+    ///
+    /// - `levels`: the first and the last, in `unit`.
+    /// - `in_words`: a share in words.
+    pub fn outside_levels(
+        &self,
+        (first, last): (f64, f64),
+        unit: &str,
+        in_words: impl Fn(f64) -> String,
+    ) -> Option<(f64, String)> {
+        let (share, error, beyond) = if self.upper_tail_share >= self.lower_tail_share {
+            (self.upper_tail_share, "too low", format!("above the last level, {last}"))
+        } else {
+            (self.lower_tail_share, "too high", format!("below the first level, {first}"))
+        };
+        let told = || format!("rate {error} ({} of the risk lies {beyond} {unit})", in_words(share));
+        (share > TAIL_SHARE_LIMIT).then(|| (share, told()))
+    }
 }
 
 /// Confidence of the bound on the share of motions at the last level.

@@ -47,14 +47,13 @@ fn verdict_by(times: f64) -> &'static str {
 /// How many times the site's level the records have: on average, `1.6`; where that is near 1, at the rates compared,
 /// `0.5 to 2.1`.
 fn in_words(consistency: &StoredConsistency, site: usize, times: f64) -> String {
+    if verdict_by(times) == Verdict::Inconsistent.key() {
+        return format!("{times:.1}");
+    }
     let [implied, own] = [&consistency.implied_level, &consistency.site_level].map(|level| level.block([site]));
     let ratios = implied.iter().zip(own).map(|(implied, own)| implied / own).filter(|ratio| ratio.is_finite());
     let (least, most) = ratios.fold((times, times), |(least, most), ratio| (least.min(ratio), most.max(ratio)));
-    if verdict_by(times) == Verdict::Inconsistent.key() {
-        format!("{times:.1}")
-    } else {
-        format!("{least:.1} to {most:.1}")
-    }
+    format!("{least:.1} to {most:.1}")
 }
 
 /// Whether an alarm within the scope, of the curves or of the records, already explains that the spectrum by PGA is

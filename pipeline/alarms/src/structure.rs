@@ -4,7 +4,7 @@ use uplift_job::alarm::{Alarm, Case, Severity};
 use uplift_job::text::{per_cent, rate, records_in_words, share as share_in_words};
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::USUAL_SAFETY_FACTOR;
-use uplift_risk::{DECISIVE_SHARE, TAIL_SHARE_LIMIT};
+use uplift_risk::DECISIVE_SHARE;
 use uplift_structure::Warning;
 use uplift_study::{Structure, levels_key};
 use uplift_uniform_risk::{BOUND_CONFIDENCE, EventRisk};
@@ -69,18 +69,12 @@ pub fn own_risk_alarms(risks: &[OwnRisk]) -> Vec<Alarm> {
 }
 
 fn outside_levels(own: &OwnRisk) -> Option<Case> {
-    let EventRisk { lower_tail_share, upper_tail_share, .. } = own.risk;
-    let (first, last) = own.levels;
-    let (share, beyond, error) = if upper_tail_share >= lower_tail_share {
-        (upper_tail_share, format!("above the last level, {last}"), "too low")
-    } else {
-        (lower_tail_share, format!("below the first level, {first}"), "too high")
-    };
-    (share > TAIL_SHARE_LIMIT).then(|| Case {
+    let (share, what) = own.risk.outside_levels(own.levels, own.measure.unit(), share_in_words)?;
+    Some(Case {
         severity: if share > DECISIVE_SHARE { Severity::Caution } else { Severity::Note },
         badness: share,
         subject: own.subject.clone(),
-        what: format!("rate {error} ({} of the risk lies {beyond} {})", share_in_words(share), own.measure.unit()),
+        what,
         what_to_do: format!("Extend {}, and the hazard curve if it ends there", levels_key(own.measure)),
     })
 }

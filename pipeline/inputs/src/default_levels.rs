@@ -8,9 +8,11 @@ use uplift_study::{AnyStudy, MeasurePlan, Study, StudyError, UniformRiskStudy, u
 use super::hazard::{SiteHazard, are_interchanged, curve_of};
 use super::other_unit::of_outside;
 
-/// How many times the first default level a curve may begin at, and how many times the last one be that at which it
-/// ends: a shorter one is more likely of another unit, and is refused.
-const SHORTER_WITHIN: [f64; 2] = [10.0, 4.0];
+/// At how many times the first default level a curve may begin: one that begins later is more likely of another unit,
+/// and is refused.
+const LATER_WITHIN: f64 = 10.0;
+/// How many times the end of a curve the last default level may be.
+const SHORTER_WITHIN: f64 = 4.0;
 
 /// Reads a study file of any kind, as [`Study::load_any`]; default levels, named or left out, are cut to what the
 /// curves of all `[[sites]]` cover.
@@ -54,14 +56,16 @@ fn shortened(study: &UniformRiskStudy, plan: &MeasurePlan) -> Option<MeasurePlan
         let Some(file) = site.curve(plan.measure) else { continue };
         let is_doubtful = |curve: &HazardCurve| {
             let end = curve.last().im;
-            *first * SHORTER_WITHIN[0] < curve.first().im
-                || end * SHORTER_WITHIN[1] < *last
+            *first * LATER_WITHIN < curve.first().im
+                || end * SHORTER_WITHIN < *last
                 || usual_top_level(plan.measure).is_some_and(|(_, usual)| !usual.contains(end))
                 || of_outside(study, (&site.name, file), plan, curve).is_some()
                 || are_interchanged(study, &site.name, file, plan).unwrap_or(false)
         };
-        let curves = file.files().filter_map(|path| curve_of(study, file, path));
-        for curve in curves.filter(|curve| !is_doubtful(curve)) {
+        // most curves cut nothing, and whether they are doubtful takes further files to say
+        let cuts = |curve: &HazardCurve| *first < curve.first().im || curve.last().im < *last;
+        let curves = file.files().filter_map(|path| curve_of(study, (&site.name, file), path));
+        for curve in curves.filter(|curve| cuts(curve) && !is_doubtful(curve)) {
             (least, most) = (least.max(curve.first().im), most.min(curve.last().im));
         }
     }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_hazard::{CsvOptions, HazardCurve, SecondColumn, read_path};
+use uplift_hazard::{CsvCurve, CsvOptions, HazardCurve, SecondColumn, read_path};
 use uplift_job::JobError;
 use uplift_job::checksum::checksum_of_file;
 use uplift_job::text::{counted, rounded};
@@ -255,8 +255,7 @@ impl SiteReader<'_> {
 
     /// The curve of a file for the records' definition of the measure.
     fn read_file(&mut self, path: &Path) -> Result<ReadCurve, String> {
-        let read = read_path(path, &csv_options(self.file));
-        let read = read.map_err(|error| with_remedy(&error, self.study, self.site, self.file))?;
+        let (read, is_defined) = read_converted(self.study, (self.site, self.file), path)?;
         for (count, what) in
             [(read.dropped_zeros, "zeros at the end"), (read.dropped_certain, "probabilities of 1 at the start")]
         {
@@ -268,15 +267,11 @@ impl SiteReader<'_> {
                 ));
             }
         }
-        let curve = read.curve.in_field_units(self.study.gravity_m_s2).map_err(|error| error.to_string())?;
-        let converted = of_the_records_definition(self.study, self.measure, &curve)
-            .map_err(|reason| format!("{}: {reason}", path.display()))?;
-        if converted.is_none() {
+        if !is_defined {
             self.undefined.push(format!("{}, {}", self.site, self.measure.label()));
         }
-        let curve = converted.unwrap_or(curve);
         let checksum = checksum_of_file(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(ReadCurve { curve, checksum, dropped_certain: read.dropped_certain })
+        Ok(ReadCurve { curve: read.curve, checksum, dropped_certain: read.dropped_certain })
     }
 
     fn weights(
@@ -352,19 +347,31 @@ pub(super) fn are_interchanged(
     let other_file = file_of(study, site, other)?;
     let other_plan = study.measures.iter().find(|plan| plan.measure == other)?;
     let covers = |path: Option<&PathBuf>, file: &CurveFile, plan: &MeasurePlan| {
-        let curve = curve_of(study, file, path?)?;
+        let curve = curve_of(study, (site, file), path?)?;
         Some(curve.first().im <= *plan.levels.first()? && *plan.levels.last()? <= curve.last().im)
     };
     let this_covers_others = covers(file.file.as_ref(), other_file, other_plan)?;
     Some(this_covers_others && covers(other_file.file.as_ref(), file, plan)?)
 }
 
-/// The curve at `path` that a study says as `file`, for the records' definition of the measure where its own is known;
-/// none where something is wrong with it.
-pub(super) fn curve_of(study: &UniformRiskStudy, file: &CurveFile, path: &Path) -> Option<HazardCurve> {
-    let curve = read_path(path, &csv_options(file)).ok()?.curve.in_field_units(study.gravity_m_s2).ok()?;
-    let converted = of_the_records_definition(study, file.measure, &curve).ok()?;
-    Some(converted.unwrap_or(curve))
+/// What is at `path`, which the study says as the `file` of a `site`: in field units, for the records' definition of
+/// the measure; and whether its own definition is known, without which it stays as it is.
+fn read_converted(
+    study: &UniformRiskStudy,
+    (site, file): (&str, &CurveFile),
+    path: &Path,
+) -> Result<(CsvCurve, bool), String> {
+    let read = read_path(path, &csv_options(file)).map_err(|error| with_remedy(&error, study, site, file))?;
+    let curve = read.curve.in_field_units(study.gravity_m_s2).map_err(|error| error.to_string())?;
+    let converted = of_the_records_definition(study, file.measure, &curve)
+        .map_err(|reason| format!("{}: {reason}", path.display()))?;
+    let is_defined = converted.is_some();
+    Ok((CsvCurve { curve: converted.unwrap_or(curve), ..read }, is_defined))
+}
+
+/// The curve at `path`, as a study uses it; none where something is wrong with it.
+pub(super) fn curve_of(study: &UniformRiskStudy, of: (&str, &CurveFile), path: &Path) -> Option<HazardCurve> {
+    Some(read_converted(study, of, path).ok()?.0.curve)
 }
 
 /// How the numbers of a file are read that a study says as `file`.

@@ -24,7 +24,7 @@ use uplift_job::text::counted;
 use uplift_labelled::hexadecimal;
 use uplift_result::{ResultFile, flag_word};
 use uplift_studies::uniform_risk::Inputs;
-use uplift_study::{AnyStudy, StudyError, UniformRiskStudy};
+use uplift_study::{AnyStudy, Study, StudyError, UniformRiskStudy};
 use uplift_uniform_risk::{BandOf, Displacement, DisplacementOptions, DisplacementReport, displacements};
 
 use crate::error::UpliftError;
@@ -133,7 +133,7 @@ pub fn sweep_folder(options: &SweepOptions) -> Result<PathBuf, UpliftError> {
     if let Some(folder) = &options.folder {
         return Ok(folder.clone());
     }
-    let study = load_uniform_risk(&options.study_file, &options.overrides)?;
+    let study = Study::load(&options.study_file, &options.overrides)?;
     Ok(outputs::beside(&study.output.file, "sweep"))
 }
 
@@ -144,7 +144,7 @@ pub fn sweep_folder(options: &SweepOptions) -> Result<PathBuf, UpliftError> {
 /// would replace something else; as [`run`](crate::run()) of any of them: what is finished stays, and the same sweep
 /// goes on from there.
 pub fn sweep(options: &SweepOptions, events: &dyn Events) -> Result<SweepReport, UpliftError> {
-    let study = load_uniform_risk(&options.study_file, &options.overrides)?;
+    let study = Study::load(&options.study_file, &options.overrides)?;
     let folder = sweep_folder(options)?;
     let table = folder.join("comparison.csv");
     let ready = ready(options, &folder)?;
