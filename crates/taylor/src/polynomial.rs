@@ -12,6 +12,9 @@ pub const DEGREE: usize = 25;
 /// How far one bound must be above another for roundings not to matter.
 const CERTAIN: f64 = 1.0 + 1e-12;
 
+/// What may be zero but for roundings, in parts of the sum of all terms.
+const ROUNDING: f64 = 1e-12;
+
 /// Halvings of the interval before two roots are one touch.
 const DEPTH: u32 = 48;
 
@@ -37,8 +40,35 @@ pub fn sign_changes(c: &[f64], visit: &mut impl FnMut(f64) -> ControlFlow<()>) -
     if c.len() < 2 {
         return ControlFlow::Continue(());
     }
+    let end = value(c, 1.0);
+    match crosses(c, end) {
+        Some(true) => return visit(solve(c, [0.0, 1.0], [c[0], end], c[0].signum())),
+        Some(false) => return ControlFlow::Continue(()),
+        None => {}
+    }
     let bernstein = to_bernstein(c);
     search(c, &bernstein[..c.len()], [0.0, 1.0], DEPTH, visit)
+}
+
+/// Whether the polynomial, which is `end` at 1, changes sign once in (0, 1), or not at all, if its own coefficients say
+/// so. Where it bends to one side throughout, or rises or falls, so do its Bernstein coefficients. If those at the ends
+/// are not zero but for roundings, they then change sign once if the ends have different signs.
+fn crosses(c: &[f64], end: f64) -> Option<bool> {
+    let [mut size, mut slope, mut bend] = [c[0].abs() + c[1].abs(), 0.0, 0.0];
+    for (k, c) in (0_u32..).zip(c).skip(2) {
+        let (order, c) = (f64::from(k), c.abs());
+        size += c;
+        slope += order * c;
+        bend += order * (order - 1.0) * c;
+    }
+    if c[0].abs().min(end.abs()) <= ROUNDING * size {
+        return None;
+    }
+    let second = c.get(2).map_or(0.0, |c| 2.0 * c);
+    let is_monotonic = c[1].abs() > CERTAIN * slope;
+    let is_bent = second.abs() > CERTAIN * (bend - second.abs());
+    let crosses = c[0].is_sign_positive() != end.is_sign_positive();
+    (is_monotonic || is_bent && (crosses || c[0] * second < 0.0)).then_some(crosses)
 }
 
 fn search(
@@ -50,7 +80,10 @@ fn search(
 ) -> ControlFlow<()> {
     match variations(bernstein) {
         0 => return ControlFlow::Continue(()),
-        1 => return visit(solve(c, lo, hi, leading_sign(bernstein.iter()))),
+        1 => {
+            let values = [lo, hi].map(|s| value(c, s));
+            return visit(solve(c, [lo, hi], values, leading_sign(bernstein.iter())));
+        }
         _ if depth == 0 => return ControlFlow::Continue(()),
         _ => {}
     }
@@ -128,7 +161,7 @@ pub fn first_zero(c: &[f64]) -> Option<f64> {
     let bend: f64 = c.iter().enumerate().skip(2).map(|(k, c)| k as f64 * c.abs()).sum();
     let end = value(c, 1.0);
     match (c.len() > 1 && c[1].abs() > CERTAIN * bend, c[0] * end) {
-        (true, product) if product < 0.0 => Some(solve(c, 0.0, 1.0, c[0].signum())),
+        (true, product) if product < 0.0 => Some(solve(c, [0.0, 1.0], [c[0], end], c[0].signum())),
         (true, product) if product > 0.0 => None,
         _ => first_sign_change(c),
     }
@@ -139,10 +172,10 @@ pub fn leading_sign<'a>(mut c: impl Iterator<Item = &'a f64>) -> f64 {
     c.find(|c| **c != 0.0).map_or(0.0, |c| c.signum())
 }
 
-/// The root between `lo` and `hi`, where the sign changes once, from `sign`: Newton, kept inside by bisection.
-fn solve(c: &[f64], mut lo: f64, mut hi: f64, sign: f64) -> f64 {
+/// The root between `lo` and `hi`, where the sign changes once, from `sign`, and the values are `at_lo` and `at_hi`:
+/// Newton, kept inside by bisection.
+fn solve(c: &[f64], [mut lo, mut hi]: [f64; 2], [at_lo, at_hi]: [f64; 2], sign: f64) -> f64 {
     let mut s = {
-        let (at_lo, at_hi) = (value(c, lo), value(c, hi));
         let chord = lo + (hi - lo) * at_lo / (at_lo - at_hi);
         if chord > lo && chord < hi { chord } else { 0.5 * (lo + hi) }
     };
@@ -193,6 +226,24 @@ mod tests {
             }
             next
         })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        #[test]
+        fn what_the_coefficients_say_is_what_the_search_finds(
+            c in prop::collection::vec(-1.0..1.0_f64, 2..12),
+            decay in 0.01..1.0_f64,
+        ) {
+            let c: Vec<f64> = (0..).zip(&c).map(|(k, c)| c * decay.powi(k)).collect();
+            let mut found = Vec::new();
+            let _ = search(&c, &to_bernstein(&c)[..c.len()], [0.0, 1.0], DEPTH, &mut |s| {
+                found.push(s);
+                ControlFlow::Continue(())
+            });
+            prop_assert_eq!(all(&c), found);
+        }
     }
 
     #[test]

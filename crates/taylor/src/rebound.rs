@@ -23,6 +23,9 @@
 
 use crate::forcing::Forcing;
 
+/// How far one bound must be above another for roundings not to matter.
+const CERTAIN: f64 = 1.0 + 1e-12;
+
 /// A body that leaves the ground after an impact.
 #[derive(Debug, Clone, Copy)]
 pub struct Rebound {
@@ -47,6 +50,10 @@ impl Rebound {
         let &Self { p_squared, tangent, cosine, restitution, velocity: v, peak } = self;
         let slack = cosine * (tangent * (1.0 + vertical.value(0.0)) - horizontal.value(0.0).abs());
         if slack <= 0.0 || restitution >= 1.0 {
+            return false;
+        }
+        // under the least that the bounds can be it would last longer: most rebounds are too high by far
+        if 4.0 * v > CERTAIN * step_s * p_squared * slack * (1.0 - restitution) {
             return false;
         }
         // the time that it takes under constant shaking, with a margin for the bounds to be wider
