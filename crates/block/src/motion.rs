@@ -28,6 +28,27 @@ pub(crate) enum Ending {
     PeakPassed,
 }
 
+/// A segment of the excitation, and how far the motion has come in it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Segment {
+    start_s: f64,
+    length_s: f64,
+    offset_s: f64,
+    impacts_before: u64,
+}
+
+impl Segment {
+    /// One of `length_s` at the begin of which, at `start_s`, the motion has had so many `impacts`.
+    pub(crate) const fn new(start_s: f64, length_s: f64, impacts: u64) -> Self {
+        Self { start_s, length_s, offset_s: 0.0, impacts_before: impacts }
+    }
+
+    /// Whether the motion is at its begin.
+    pub(crate) fn is_new(&self) -> bool {
+        self.offset_s == 0.0
+    }
+}
+
 /// State of a block in motion, in the frame of the corner it stands on.
 #[derive(Debug)]
 pub(crate) struct Motion<'a, O> {
@@ -108,32 +129,44 @@ impl<'a, O: Observer> Motion<'a, O> {
         until_peak: bool,
         shaking: impl Fn(f64, f64) -> Forcing,
     ) -> ControlFlow<Ending> {
+        let mut segment = Segment::new(start_s, length_s, self.impacts);
+        while let Some((forcing, step_s)) = self.next(&mut segment, &shaking) {
+            self.expand(series, &forcing, step_s);
+            self.take(&mut segment, series, until_peak)?;
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// The shaking on the next step, in units of g and in the frame of the corner, and the longest that this may be;
+    /// none if the segment is over.
+    pub(crate) fn next(
+        &mut self,
+        segment: &mut Segment,
+        shaking: impl Fn(f64, f64) -> Forcing,
+    ) -> Option<(Forcing, f64)> {
         let gravity = self.block.gravity_m_s2();
-        let mut offset = 0.0;
-        let impacts_before = self.impacts;
-        while offset < length_s {
+        while segment.offset_s < segment.length_s {
             let mut starts_at_threshold = false;
             if self.resting {
-                let remaining = length_s - offset;
-                let forcing = shaking(offset, remaining).times(1.0 / gravity);
-                let Some((s, side)) = first_uplift(&forcing, self.tangent) else { break };
+                let remaining = segment.length_s - segment.offset_s;
+                let forcing = shaking(segment.offset_s, remaining).times(1.0 / gravity);
+                let (s, side) = first_uplift(&forcing, self.tangent)?;
                 starts_at_threshold = s > 0.0;
-                offset += s * remaining;
+                segment.offset_s += s * remaining;
                 (self.side, self.x, self.v) = (side, 0.0, 0.0);
-                if offset >= length_s {
-                    break; // at the very end: the next segment finds it
+                if segment.offset_s >= segment.length_s {
+                    return None; // at the very end: the next segment finds it
                 }
             }
 
-            let longest = (length_s - offset).min(self.longest_step_s());
-            let mut step = longest;
-            let mut forcing = shaking(offset, step).times(self.side / gravity);
+            let mut step = (segment.length_s - segment.offset_s).min(self.longest_step_s());
+            let mut forcing = shaking(segment.offset_s, step).times(self.side / gravity);
             if starts_at_threshold {
                 forcing = forcing.beginning_at(-self.tangent);
             }
             if self.x == 0.0 && self.v > 0.0 {
                 if self.rest_rule.comes_to_rest(&self.rebound(), &forcing, step) {
-                    self.come_to_rest(start_s + offset);
+                    self.come_to_rest(segment.start_s + segment.offset_s);
                     continue;
                 }
                 // a rebound is over in 2v over the acceleration that draws it down, if that stays
@@ -144,29 +177,39 @@ impl<'a, O: Observer> Motion<'a, O> {
                     step = rebound;
                 }
             }
-            series.expand(self.x, self.v, &forcing, step, self.p * self.p, self.block.slenderness_rad());
-            let leaves = leading_sign(series.x().iter()) > 0.0;
-            if self.resting || !leaves {
-                if !leaves {
-                    // shaking above the threshold by a rounding only
-                    self.resting = true;
-                    offset += 1e-9 * length_s;
-                    continue;
-                }
-                self.resting = false;
-                self.uplift_s.get_or_insert(start_s + offset);
-                self.observe(start_s + offset, Moment::Uplift);
-            }
+            return Some((forcing, step));
+        }
+        None
+    }
 
-            let begin = offset;
-            offset = if series.step_s >= length_s - begin { length_s } else { begin + series.step_s };
-            if let Some(s) = self.step(series, |s| start_s + (begin + s * series.step_s), until_peak)? {
-                offset = begin + s * series.step_s;
-                if !self.resting && self.impacts - impacts_before >= u64::from(MOST_IMPACTS) {
-                    self.was_cut = true;
-                    self.come_to_rest(start_s + offset);
-                    break;
-                }
+    /// Makes `series` the motion on the next step, or on as much of it as it converges on.
+    pub(crate) fn expand(&self, series: &mut Series, forcing: &Forcing, step_s: f64) {
+        series.expand(self.x, self.v, forcing, step_s, self.p * self.p, self.block.slenderness_rad());
+    }
+
+    /// Takes the step of which `series` is the motion, up to an impact if there is one.
+    pub(crate) fn take(&mut self, segment: &mut Segment, series: &Series, until_peak: bool) -> ControlFlow<Ending> {
+        let (start_s, length_s, begin) = (segment.start_s, segment.length_s, segment.offset_s);
+        let leaves = leading_sign(series.x().iter()) > 0.0;
+        if self.resting || !leaves {
+            if !leaves {
+                // shaking above the threshold by a rounding only
+                self.resting = true;
+                segment.offset_s += 1e-9 * length_s;
+                return ControlFlow::Continue(());
+            }
+            self.resting = false;
+            self.uplift_s.get_or_insert(start_s + begin);
+            self.observe(start_s + begin, Moment::Uplift);
+        }
+
+        segment.offset_s = if series.step_s >= length_s - begin { length_s } else { begin + series.step_s };
+        if let Some(s) = self.step(series, |s| start_s + (begin + s * series.step_s), until_peak)? {
+            segment.offset_s = begin + s * series.step_s;
+            if !self.resting && self.impacts - segment.impacts_before >= u64::from(MOST_IMPACTS) {
+                self.was_cut = true;
+                self.come_to_rest(start_s + segment.offset_s);
+                segment.offset_s = length_s;
             }
         }
         ControlFlow::Continue(())

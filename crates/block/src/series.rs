@@ -18,11 +18,13 @@
 //! E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, Section I.8 (recursive
 //! Taylor coefficients).
 
+pub(crate) mod side_by_side;
+
 use crate::sine::sine_and_cosine;
 use uplift_taylor::{DEGREE, Forcing, LEAST_ORDER, ORDER, TRUNCATION, stretch, value};
 
 /// 1/(k + 1).
-pub(crate) const INVERSE: [f64; ORDER + 1] = {
+const INVERSE: [f64; ORDER + 1] = {
     let mut table = [1.0; ORDER + 1];
     let mut k = 0;
     while k <= ORDER {

@@ -1,37 +1,31 @@
 //! One block under one record at many scale factors, several motions side by side, each at its own time.
 //!
-//! Of twelve sample intervals in which a block rocks some eleven hold no impact, and no peak that could be the largest.
-//! Such intervals are computed together in vectors, by the [series](crate::series) that a single motion has, operation
-//! by operation; all others, and what comes before uplift and after the record, by the [motion](crate::motion) itself.
-//! So every response has the bits of [`respond`](crate::respond).
+//! All motions take their next steps together: the [series](crate::series) are expanded in vectors, operation by
+//! operation as that of a single motion. Of twelve steps through a sample interval in which a block rocks some eleven
+//! hold no impact, and no peak that could be the largest; they end in vectors, too. What else is on a step, the
+//! [motion](crate::motion) itself finds in the series, as it says what the next step is. What comes before uplift and
+//! after the record, and series of a high order, are left to it altogether. So every response has the bits of
+//! [`respond`](crate::respond).
 
 use std::array::from_fn;
 use std::ops::ControlFlow;
 
-use uplift_instructions::{Instructions, Vectors, Work, by_halves, larger, smaller};
+use uplift_instructions::{Instructions, Numbers, Vectors, Work};
 use uplift_motion::Accelerogram;
-use uplift_taylor::{LEAST_ORDER, TRUNCATION};
+use uplift_taylor::Forcing;
 
 use crate::block::{LYING_RAD, RockingBlock};
 use crate::error::BlockError;
 use crate::excitation::{check_acceleration, line};
-use crate::motion::{Ending, Motion};
+use crate::motion::{Motion, Segment};
 use crate::observer::Unobserved;
 use crate::response::{BlockResponse, FreeRocking, check_duration, rock_on};
 use crate::rest::RestRule;
-use crate::series::{INVERSE, Series};
-use crate::sine::sine_and_cosine;
-
-/// Motions side by side.
-const LANES: usize = 8;
-
-/// Highest power in the series of a velocity: 5 to 10 suffice for the sample intervals of a record.
-const MOST: usize = 12;
+use crate::series::Series;
+use crate::series::side_by_side::{Begins, Constants, LANES, Lanes, Outcome, SeriesOfAll, Step};
 
 /// How far a bound must be from what it decides, relatively, for roundings not to matter.
 const MARGIN: f64 = 1e-12;
-
-type Lanes = [f64; LANES];
 
 /// Responses of `block`, at rest before, to `record` times each of `scales`: those of [`respond`](crate::respond) to
 /// the bit, in a fraction of the time.
@@ -69,34 +63,13 @@ struct Sweep<'a> {
     free: FreeRocking,
     /// Of every sample interval what [`Forcing::bound`](uplift_taylor::Forcing::bound) is of, at a scale of one.
     bounds_m_s2: Vec<f64>,
-    interval: Interval,
-}
-
-/// A whole sample interval as a step: what its series needs.
-struct Interval {
-    /// Whether a step may be as long.
-    is_step: bool,
-    slenderness_rad: f64,
-    /// −p² dt/(k + 1).
-    of_moment: [f64; MOST + 1],
-    /// dt/(k + 1).
-    of_rate: [f64; MOST + 1],
 }
 
 impl<'a> Sweep<'a> {
     fn new(block: &'a RockingBlock, record: &'a Accelerogram, free: FreeRocking) -> Self {
         let (samples_m_s2, dt_s) = (record.acceleration_m_s2(), record.dt_s());
-        let motion = Motion::new(block, RestRule::Proven, Unobserved);
-        let p_squared = block.frequency_parameter_rad_s().powi(2);
-        let of_rate = from_fn(|k| dt_s * INVERSE[k]);
-        let interval = Interval {
-            is_step: dt_s <= motion.longest_step_s(),
-            slenderness_rad: block.slenderness_rad(),
-            of_moment: of_rate.map(|rate| -p_squared * rate),
-            of_rate,
-        };
         let bounds_m_s2 = samples_m_s2.windows(2).map(|pair| pair[0].abs() + (pair[1] - pair[0]).abs()).collect();
-        Self { block, samples_m_s2, dt_s, free, bounds_m_s2, interval }
+        Self { block, samples_m_s2, dt_s, free, bounds_m_s2 }
     }
 
     fn intervals(&self) -> usize {
@@ -113,9 +86,17 @@ impl Work for Following<'_> {
     type Output = Vec<BlockResponse>;
 
     #[inline(always)]
-    fn run<V: Vectors>(self, _: V) -> Self::Output {
-        follow(self.sweep, self.scales)
+    fn run<V: Vectors>(self, vectors: V) -> Self::Output {
+        follow(vectors.few(), self.sweep, self.scales)
     }
+}
+
+/// What a motion asks for.
+enum Next {
+    /// A step.
+    Step(Step),
+    /// Nothing more.
+    End(BlockResponse),
 }
 
 /// A motion, and where in the record it is.
@@ -123,22 +104,35 @@ struct Run<'a> {
     index: usize,
     scale: f64,
     motion: Motion<'a, Unobserved>,
-    series: Series,
     interval: usize,
+    /// The sample interval as a segment; none before the motion has entered it.
+    segment: Option<Segment>,
 }
 
 impl<'a> Run<'a> {
     fn new(sweep: &Sweep<'a>, index: usize, scale: f64) -> Self {
         let motion = Motion::new(sweep.block, RestRule::Proven, Unobserved);
-        Self { index, scale, motion, series: Series::EMPTY, interval: 0 }
+        Self { index, scale, motion, interval: 0, segment: None }
     }
 
-    /// Goes on alone, through one interval at least if it `must`, until the block rocks at the begin of an interval;
-    /// its response if it is over before.
+    fn enter(&mut self, sweep: &Sweep<'a>) -> &mut Segment {
+        let begin_s = self.interval as f64 * sweep.dt_s;
+        self.segment.insert(Segment::new(begin_s, sweep.dt_s, self.motion.impacts))
+    }
+
+    /// Goes on to the next step on which the record shakes the block.
     #[inline(never)]
-    fn go_on(&mut self, sweep: &Sweep<'a>, mut must: bool) -> Option<BlockResponse> {
+    fn next(&mut self, sweep: &Sweep<'a>, series: &mut Series) -> Next {
         let n = sweep.intervals();
         loop {
+            if let Some(segment) = &mut self.segment {
+                let samples = [self.interval, self.interval + 1].map(|i| self.scale * sweep.samples_m_s2[i]);
+                let shaking = |offset_s, step_s| line(samples, sweep.dt_s, offset_s, step_s);
+                if let Some((forcing, step_s)) = self.motion.next(segment, shaking) {
+                    return Next::Step(Step { ground: straight(&forcing), length_s: step_s });
+                }
+                self.interval += 1;
+            }
             if self.motion.resting {
                 // what the ground cannot lift; the motion itself says so where it is close
                 let threshold = sweep.block.uplift_acceleration_m_s2() / self.scale.abs() * (1.0 - MARGIN);
@@ -146,239 +140,188 @@ impl<'a> Run<'a> {
                 self.interval = quiet.map_or(n, |quiet| self.interval + quiet);
             }
             if self.interval == n {
-                let ending = rock_on(&mut self.motion, &mut self.series, n as f64 * sweep.dt_s, sweep.free);
-                return Some(BlockResponse::from_motion(&self.motion, ending));
+                let ending = rock_on(&mut self.motion, series, n as f64 * sweep.dt_s, sweep.free);
+                return Next::End(BlockResponse::from_motion(&self.motion, ending));
             }
-            if !must && sweep.interval.is_step && !self.motion.resting && self.motion.x > 0.0 {
-                return None;
-            }
-            must = false;
-            if let ControlFlow::Break(ending) = self.advance(sweep) {
-                return Some(BlockResponse::from_motion(&self.motion, Some(ending)));
-            }
+            self.enter(sweep);
         }
     }
+}
 
-    /// Through one interval.
-    fn advance(&mut self, sweep: &Sweep<'a>) -> ControlFlow<Ending> {
-        let samples = [self.interval, self.interval + 1].map(|i| self.scale * sweep.samples_m_s2[i]);
-        let shaking = |offset_s, step_s| line(samples, sweep.dt_s, offset_s, step_s);
-        let begin_s = self.interval as f64 * sweep.dt_s;
-        self.interval += 1;
-        self.motion.advance(&mut self.series, begin_s, sweep.dt_s, false, shaking)
+/// The coefficients of a straight line.
+fn straight(forcing: &Forcing) -> [f64; 2] {
+    match *forcing.coefficients() {
+        [begin, change, ..] => [begin, change],
+        [begin] => [begin, 0.0],
+        [] => [0.0; 2],
     }
 }
 
 #[inline(always)]
-fn follow(sweep: &Sweep<'_>, scales: &[f64]) -> Vec<BlockResponse> {
+fn follow<N: Numbers<LANES>>(numbers: N, sweep: &Sweep<'_>, scales: &[f64]) -> Vec<BlockResponse> {
     let mut pending = scales.iter().enumerate();
     let mut responses = vec![None; scales.len()];
+    let constants = Constants::new(sweep.block);
+    let (mut steps, mut series, mut alone) = (Steps::NONE, SeriesOfAll::new(numbers), Series::EMPTY);
     let mut runs: [Option<Run<'_>>; LANES] = [const { None }; LANES];
-    let (mut states, mut series) = (States::AT_REST, SeriesOfAll::EMPTY);
-    let mut stopped = [true; LANES];
+    let (mut goes, mut ended) = (0, 0);
     loop {
-        for (lane, run) in runs.iter_mut().enumerate().filter(|(lane, _)| stopped[*lane]) {
-            let mut must = true;
-            if let Some(run) = run {
-                states.take(lane, &mut run.motion);
-            }
+        let stay = !(goes | ended);
+        for (lane, run) in runs.iter_mut().enumerate().filter(|(lane, _)| stay >> lane & 1 != 0) {
+            let mut next = run.as_mut().map(|run| steps.take(lane, run, sweep, &series, &mut alone));
             loop {
-                if run.is_none() {
-                    *run = pending.next().map(|(index, scale)| Run::new(sweep, index, *scale));
-                    must = false;
-                }
-                let Some(going) = run else { break };
-                match going.go_on(sweep, must) {
-                    None => {
-                        states.put(lane, &going.motion);
+                match (&mut *run, next) {
+                    (Some(run), Some(Next::Step(step))) => {
+                        steps.put(lane, run, sweep, &step);
                         break;
                     }
-                    Some(response) => {
-                        responses[going.index] = Some(response);
-                        *run = None;
-                    }
+                    (Some(run), Some(Next::End(response))) => responses[run.index] = Some(response),
+                    _ => {}
                 }
-            }
-        }
-        if runs.iter().all(Option::is_none) {
-            return responses.into_iter().flatten().collect();
-        }
-        stopped = rock_together(sweep, &mut runs, &mut states, &mut series);
-    }
-}
-
-/// All runs through whole intervals, until something else than rocking on is in the next interval of one; of which.
-#[inline(always)]
-fn rock_together(
-    sweep: &Sweep<'_>,
-    runs: &mut [Option<Run<'_>>; LANES],
-    states: &mut States,
-    series: &mut SeriesOfAll,
-) -> [bool; LANES] {
-    let n = sweep.intervals();
-    let mut interval: [usize; LANES] = from_fn(|i| runs[i].as_ref().map_or(0, |run| run.interval));
-    let scale: Lanes = from_fn(|i| runs[i].as_ref().map_or(0.0, |run| run.scale));
-    let is_empty: [bool; LANES] = from_fn(|i| runs[i].is_none());
-    let to_g: Lanes = from_fn(|i| states.side[i] / sweep.block.gravity_m_s2());
-    let stopped = loop {
-        let begin: Lanes = from_fn(|i| scale[i] * sweep.samples_m_s2[interval[i]]);
-        let end: Lanes = from_fn(|i| scale[i] * sweep.samples_m_s2[interval[i] + 1]);
-        let ground = [from_fn(|i| begin[i] * to_g[i]), from_fn(|i| (end[i] - begin[i]) * to_g[i])];
-        let time_s = from_fn(|i| interval[i] as f64 * sweep.dt_s + sweep.dt_s);
-        let rocks_on = states.rock_on(series, &sweep.interval, &ground, &time_s);
-        let mut stopped = [false; LANES];
-        let mut any = false;
-        for i in 0..LANES {
-            if is_empty[i] {
-                interval[i] = 0;
-                continue;
-            }
-            interval[i] += usize::from(rocks_on[i] != 0.0);
-            stopped[i] = rocks_on[i] == 0.0 || interval[i] == n;
-            any |= stopped[i];
-        }
-        if any {
-            break stopped;
-        }
-    };
-    for (i, run) in runs.iter_mut().enumerate() {
-        if let Some(run) = run {
-            run.interval = interval[i];
-        }
-    }
-    stopped
-}
-
-/// States of the motions.
-struct States {
-    x: Lanes,
-    v: Lanes,
-    side: Lanes,
-    peak: Lanes,
-    peak_s: Lanes,
-}
-
-impl States {
-    const AT_REST: Self =
-        Self { x: [0.0; LANES], v: [0.0; LANES], side: [1.0; LANES], peak: [0.0; LANES], peak_s: [0.0; LANES] };
-
-    fn put(&mut self, lane: usize, motion: &Motion<'_, Unobserved>) {
-        self.side[lane] = motion.side;
-        (self.x[lane], self.v[lane]) = (motion.x, motion.v);
-        (self.peak[lane], self.peak_s[lane]) = (motion.peak, motion.peak_s);
-    }
-
-    fn take(&self, lane: usize, motion: &mut Motion<'_, Unobserved>) {
-        (motion.x, motion.v) = (self.x[lane], self.v[lane]);
-        (motion.peak, motion.peak_s) = (self.peak[lane], self.peak_s[lane]);
-    }
-
-    /// Moves what rocks on, without an impact and without a peak inside that could be the largest, through a sample
-    /// interval that ends at `time_s`, with the ground acceleration begin + change·s in units of g: 1 of each that
-    /// does, 0 of the others, which stay.
-    #[inline(always)]
-    fn rock_on(&mut self, series: &mut SeriesOfAll, interval: &Interval, ground: &[Lanes; 2], time_s: &Lanes) -> Lanes {
-        series.expand(interval, &self.x, &self.v, ground);
-        let SeriesOfAll { order, x, v, open, .. } = series;
-        let order = *order;
-        let [mut x_end, mut v_end, mut reach, mut change] = [[0.0; LANES]; 4];
-        for k in (0..=order + 1).rev() {
-            x_end = from_fn(|i| x_end[i] + x[k][i]);
-        }
-        for k in (0..=order).rev() {
-            v_end = from_fn(|i| v_end[i] + v[k][i]);
-        }
-        for x in &x[..=order + 1] {
-            reach = from_fn(|i| reach[i] + x[i].abs());
-        }
-        for v in &v[1..=order] {
-            change = from_fn(|i| change[i] + v[i].abs());
-        }
-        let mut goes = [0.0; LANES];
-        for i in 0..LANES {
-            // x falls by less than the second term and all later ones together
-            let fall = x[1][i] - ((reach[i] - x[0][i]) - x[1][i].abs());
-            let lowest = x[0][i] + smaller(fall, 0.0);
-            let stays_up = lowest > MARGIN * reach[i] && x_end[i] > 0.0 && reach[i] < LYING_RAD;
-            let has_no_peak = reach[i] <= self.peak[i] || v[0][i].abs() > (1.0 + MARGIN) * change[i];
-            goes[i] = if stays_up && has_no_peak && open[i] == 0.0 { 1.0 } else { 0.0 };
-        }
-        for i in 0..LANES {
-            let is_peak = goes[i] != 0.0 && x_end[i] > self.peak[i];
-            self.x[i] = if goes[i] == 0.0 { self.x[i] } else { x_end[i] };
-            self.v[i] = if goes[i] == 0.0 { self.v[i] } else { v_end[i] };
-            self.peak[i] = if is_peak { x_end[i] } else { self.peak[i] };
-            self.peak_s[i] = if is_peak { time_s[i] } else { self.peak_s[i] };
-        }
-        goes
-    }
-}
-
-/// The [series](crate::series) of all motions over a sample interval. Beyond the order of its own, that of a motion is
-/// zero.
-struct SeriesOfAll {
-    x: [Lanes; MOST + 2],
-    v: [Lanes; MOST + 1],
-    sine: [Lanes; MOST + 1],
-    cosine: [Lanes; MOST + 1],
-    /// Zero of the motions of which no higher order is needed.
-    open: Lanes,
-    /// The highest of all.
-    order: usize,
-}
-
-impl SeriesOfAll {
-    const EMPTY: Self = Self {
-        order: 0,
-        x: [[0.0; LANES]; MOST + 2],
-        v: [[0.0; LANES]; MOST + 1],
-        sine: [[0.0; LANES]; MOST + 1],
-        cosine: [[0.0; LANES]; MOST + 1],
-        open: [0.0; LANES],
-    };
-
-    #[inline(always)]
-    fn expand(&mut self, interval: &Interval, x_begin: &Lanes, v_begin: &Lanes, [begin, change]: &[Lanes; 2]) {
-        let Self { x, v, sine, cosine, .. } = self;
-        (x[0], v[0]) = (*x_begin, *v_begin);
-        for i in 0..LANES {
-            (sine[0][i], cosine[0][i]) = sine_and_cosine(interval.slenderness_rad - x_begin[i]);
-        }
-        let mut largest: Lanes = v_begin.map(f64::abs);
-        let mut open = [1.0; LANES];
-        let mut drawn: Lanes = from_fn(|i| begin[i] * cosine[0][i]);
-        let mut order = 0;
-        while order < MOST {
-            let k = order;
-            let (of_moment, of_rate) = (interval.of_moment[k], interval.of_rate[k]);
-            let (mut falls, mut rises) = ([0.0; LANES], [0.0; LANES]);
-            for j in 0..=k {
-                falls = from_fn(|i| falls[i] - cosine[j][i] * v[k - j][i]);
-                rises = from_fn(|i| rises[i] + sine[j][i] * v[k - j][i]);
-            }
-            v[k + 1] = from_fn(|i| open[i] * (of_moment * (sine[k][i] + drawn[i])));
-            x[k + 1] = from_fn(|i| of_rate * v[k][i]);
-            sine[k + 1] = from_fn(|i| of_rate * falls[i]);
-            cosine[k + 1] = from_fn(|i| of_rate * rises[i]);
-            drawn = from_fn(|i| begin[i] * cosine[k + 1][i] + change[i] * cosine[k][i]);
-            largest = from_fn(|i| larger(v[k + 1][i].abs(), largest[i]));
-            order += 1;
-            if order >= LEAST_ORDER {
-                let tail: Lanes = from_fn(|i| larger(v[k + 1][i].abs(), v[k][i].abs()));
-                open = from_fn(|i| if tail[i] <= TRUNCATION * largest[i] { 0.0 } else { open[i] });
-                if sum(open) == 0.0 {
+                *run = pending.next().map(|(index, scale)| Run::new(sweep, index, *scale));
+                next = run.as_mut().map(|run| run.next(sweep, &mut alone));
+                if next.is_none() {
+                    steps.clear(lane);
+                    ended |= 1 << lane;
                     break;
                 }
             }
         }
-        x[order + 1] = from_fn(|i| interval.of_rate[order] * v[order][i]);
-        (self.order, self.open) = (order, open);
+        if ended == (1 << LANES) - 1 {
+            return responses.into_iter().flatten().collect();
+        }
+        let outcome = series.expand(&constants, &steps.begins);
+        goes = steps.rock_on(numbers, sweep, &outcome);
     }
 }
 
-#[inline(always)]
-fn sum(lanes: Lanes) -> f64 {
-    by_halves(lanes, |a, b| a + b)
+/// The steps that the motions are about to take.
+struct Steps {
+    begins: Begins,
+    /// 1 of steps through a whole sample interval, 0 of others.
+    is_whole: Lanes,
+    interval: [usize; LANES],
+    scale: Lanes,
+    /// From an acceleration of the ground to what the block feels, in units of g and in the frame of the corner.
+    to_g: Lanes,
+    peak: Lanes,
+    peak_s: Lanes,
+}
+
+impl Steps {
+    const NONE: Self = Self {
+        begins: Begins::NONE,
+        is_whole: [0.0; LANES],
+        interval: [0; LANES],
+        scale: [0.0; LANES],
+        to_g: [0.0; LANES],
+        peak: [0.0; LANES],
+        peak_s: [0.0; LANES],
+    };
+
+    fn clear(&mut self, lane: usize) {
+        self.begins.clear(lane);
+        (self.is_whole[lane], self.interval[lane]) = (0.0, 0);
+    }
+
+    fn put(&mut self, lane: usize, run: &Run<'_>, sweep: &Sweep<'_>, step: &Step) {
+        let motion = &run.motion;
+        self.begins.put(lane, (motion.x, motion.v), step);
+        let is_whole = step.length_s == sweep.dt_s && run.segment.as_ref().is_some_and(Segment::is_new);
+        (self.is_whole[lane], self.interval[lane]) = (f64::from(u8::from(is_whole)), run.interval);
+        (self.scale[lane], self.to_g[lane]) = (run.scale, motion.side / sweep.block.gravity_m_s2());
+        (self.peak[lane], self.peak_s[lane]) = (motion.peak, motion.peak_s);
+    }
+
+    /// Takes a step of a motion whose series is in `series`, and goes on to the next.
+    #[inline(always)]
+    fn take<'a, N: Numbers<LANES>>(
+        &self,
+        lane: usize,
+        run: &mut Run<'a>,
+        sweep: &Sweep<'a>,
+        series: &SeriesOfAll<N>,
+        alone: &mut Series,
+    ) -> Next {
+        let Begins { x, v, ground: [begin, change], length_s } = &self.begins;
+        let motion = &mut run.motion;
+        (motion.x, motion.v) = (x[lane], v[lane]);
+        (motion.peak, motion.peak_s) = (self.peak[lane], self.peak_s[lane]);
+        if self.is_whole[lane] != 0.0 {
+            run.interval = self.interval[lane];
+            run.segment = None;
+        }
+        if run.interval < sweep.intervals() {
+            if !series.write(lane, length_s[lane], alone) {
+                let mut forcing = Forcing::none();
+                forcing.set_line(begin[lane], change[lane]);
+                run.motion.expand(alone, &forcing, length_s[lane]);
+            }
+            if run.segment.is_none() {
+                run.enter(sweep);
+            }
+            if let Some(segment) = &mut run.segment
+                && let ControlFlow::Break(ending) = run.motion.take(segment, alone, false)
+            {
+                return Next::End(BlockResponse::from_motion(&run.motion, Some(ending)));
+            }
+        }
+        run.next(sweep, alone)
+    }
+
+    /// Moves what rocks on, without an impact and without a peak inside that could be the largest, through a sample
+    /// interval to the begin of the next: a bit each of which does, and has not come to the end of the record. The
+    /// others stay.
+    #[inline(always)]
+    fn rock_on<N: Numbers<LANES>>(&mut self, n: N, sweep: &Sweep<'_>, outcome: &Outcome<N::F64s>) -> u32 {
+        let one = n.splat(1.0);
+        let goes = self.rocks_on(n, outcome);
+        let choose = |new, old| n.if_at_most(one, goes, new, old);
+        let peak = n.load(&self.peak);
+        let end_s: Lanes = from_fn(|i| self.interval[i] as f64 * sweep.dt_s + sweep.dt_s);
+        let [old_s, end_s] = [&self.peak_s, &end_s].map(|own| n.load(own));
+        self.peak_s = n.store(n.if_at_most(outcome.x, peak, old_s, choose(end_s, old_s)));
+        self.peak = n.store(choose(n.larger(outcome.x, peak), peak));
+        self.begins.x = n.store(choose(outcome.x, n.load(&self.begins.x)));
+        self.begins.v = n.store(choose(outcome.v, n.load(&self.begins.v)));
+        let moved = n.at_most(one, goes);
+        let last = sweep.intervals() - 1;
+        self.interval = from_fn(|i| self.interval[i] + (moved >> i & 1) as usize);
+        let samples: [Lanes; 2] = [0, 1].map(|next| from_fn(|i| sweep.samples_m_s2[self.interval[i].min(last) + next]));
+        let (scale, to_g) = (n.load(&self.scale), n.load(&self.to_g));
+        let [begin, end] = samples.map(|own| n.mul(scale, n.load(&own)));
+        let [old_begin, old_change] = self.begins.ground.map(|own| n.load(&own));
+        let ground = [choose(n.mul(begin, to_g), old_begin), choose(n.mul(n.sub(end, begin), to_g), old_change)];
+        self.begins.ground = ground.map(|own| n.store(own));
+        (0..LANES).filter(|i| self.interval[*i] <= last).fold(0, |bits, i| bits | moved & (1 << i))
+    }
+
+    /// 1 of what rocks on through a whole sample interval without an impact and without a peak inside that could be the
+    /// largest, 0 of what perhaps does not.
+    #[inline(always)]
+    fn rocks_on<N: Numbers<LANES>>(&self, n: N, outcome: &Outcome<N::F64s>) -> N::F64s {
+        let &Outcome { x: x_end, v: v_end, reach, change, acceleration, bend, open, first } = outcome;
+        let [x, v] = [&self.begins.x, &self.begins.v].map(|own| n.load(own));
+        let (zero, margin) = (n.splat(0.0), n.splat(MARGIN));
+        // x falls by less than the second term and all later ones together
+        let fall = n.sub(first, n.sub(n.sub(reach, x), n.abs(first)));
+        let lowest = n.add(x, n.if_at_most(fall, zero, fall, zero));
+        // x rises by less than its positive terms
+        let top = n.add(n.mul(n.splat(0.5), n.add(x_end, reach)), n.mul(margin, reach));
+        let speed = n.abs(v);
+        let whole = n.load(&self.is_whole);
+        let is_one_way = n.if_at_most(n.mul(n.splat(1.0 + MARGIN), change), speed, whole, zero);
+        let has_no_peak = n.if_at_most(top, n.load(&self.peak), whole, is_one_way);
+        // a velocity that grows or falls all the time has the signs of its ends
+        let least = n.mul(margin, n.mul(speed, n.add(speed, change)));
+        let keeps_sign = n.if_at_most(least, n.mul(v, v_end), whole, zero);
+        let is_steady = n.if_at_most(n.mul(n.splat(1.0 + MARGIN), bend), n.abs(acceleration), keeps_sign, zero);
+        let has_no_peak = n.larger(has_no_peak, is_steady);
+        let stays_up = n.if_at_most(n.mul(margin, reach), lowest, has_no_peak, zero);
+        let ends_up = n.if_at_most(n.splat(f64::MIN_POSITIVE), x_end, stays_up, zero);
+        let stays = n.if_at_most(reach, n.splat(LYING_RAD * (1.0 - MARGIN)), ends_up, zero);
+        n.if_at_most(open, zero, stays, zero)
+    }
 }
 
 #[cfg(test)]

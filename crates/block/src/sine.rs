@@ -1,5 +1,7 @@
 //! Sine and cosine of the angles of a block, the same bits from any processor and C library, and in vectors.
 
+use uplift_instructions::Numbers;
+
 /// 1/n! with alternating signs, for n from `first` on in steps of two: −1/3!, 1/5!, … or −1/2!, 1/4!, …
 const fn alternating<const N: usize>(first: usize) -> [f64; N] {
     let mut coefficients = [0.0; N];
@@ -27,6 +29,17 @@ pub(crate) fn sine_and_cosine(angle_rad: f64) -> (f64, f64) {
     let square = angle_rad * angle_rad;
     let horner = |coefficients: &[f64]| coefficients.iter().rev().fold(0.0, |sum, c| sum * square + c);
     (angle_rad + angle_rad * (square * horner(&SINE)), 1.0 + square * horner(&COSINE))
+}
+
+/// The same of several angles, with the same bits.
+#[inline(always)]
+pub(crate) fn sines_and_cosines<const LANES: usize, N: Numbers<LANES>>(n: N, angles: N::F64s) -> (N::F64s, N::F64s) {
+    let squares = n.mul(angles, angles);
+    let horner = |coefficients: &[f64]| {
+        coefficients.iter().rev().fold(n.splat(0.0), |sums, c| n.add(n.mul(sums, squares), n.splat(*c)))
+    };
+    let sines = n.add(angles, n.mul(angles, n.mul(squares, horner(&SINE))));
+    (sines, n.add(n.splat(1.0), n.mul(squares, horner(&COSINE))))
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ use thiserror::Error;
 
 #[cfg(target_arch = "x86_64")]
 use vectors::{Avx2, Avx512};
-pub use vectors::{LANES, Portable, Vectors};
+pub use vectors::{FEW, LANES, Numbers, Portable, Vectors};
 
 /// The variable of the environment that names the set to be used, in place of the best one.
 pub const INSTRUCTIONS_VARIABLE: &str = "UPLIFT_INSTRUCTIONS";
