@@ -57,16 +57,17 @@ impl Excitation<'_> {
         }
     }
 
-    /// Ground acceleration \[m/s²\] in the segment `segment`, in powers of (time − `offset_s`)/`step_s`, with
-    /// times from its start.
-    pub(crate) fn taylor(&self, segment: usize, offset_s: f64, step_s: f64) -> Forcing {
+    /// Makes `forcing` the ground acceleration \[m/s²\] in the segment `segment`, in powers of
+    /// (time − `offset_s`)/`step_s`, with times from its start.
+    pub(crate) fn shake(&self, segment: usize, offset_s: f64, step_s: f64, forcing: &mut Forcing) {
         match self {
             Self::Record(record) => {
-                line([segment, segment + 1].map(|i| record.acceleration_m_s2()[i]), record.dt_s(), offset_s, step_s)
+                let samples = [segment, segment + 1].map(|i| record.acceleration_m_s2()[i]);
+                set_line(forcing, samples, record.dt_s(), offset_s, step_s);
             }
             Self::Pulse(pulse) => {
                 let t_s = pulse.start_s() + (segment as f64 * pulse.segment_s() + offset_s);
-                pulse.taylor(t_s, step_s)
+                *forcing = pulse.taylor(t_s, step_s);
             }
         }
     }
@@ -86,11 +87,9 @@ pub(crate) fn check_acceleration(acceleration_m_s2: f64) -> Result<(), BlockErro
     within("ground acceleration", acceleration_m_s2, "m/s2", range, "between -1e6 and 1e6 m/s2").map(|_| ())
 }
 
-/// The part of a straight line between two `samples` that begins at `offset_s` and lasts `step_s`, in powers of
-/// (time − `offset_s`)/`step_s`.
-pub(crate) fn line([begin, end]: [f64; 2], dt_s: f64, offset_s: f64, step_s: f64) -> Forcing {
+/// Makes `forcing` the part of a straight line between two samples that begins at `offset_s` and lasts `step_s`, in
+/// powers of (time − `offset_s`)/`step_s`.
+pub(crate) fn set_line(forcing: &mut Forcing, [begin, end]: [f64; 2], dt_s: f64, offset_s: f64, step_s: f64) {
     let change = end - begin;
-    let mut forcing = Forcing::default();
     forcing.set_line(begin + change * (offset_s / dt_s), change * (step_s / dt_s));
-    forcing
 }

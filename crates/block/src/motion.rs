@@ -43,9 +43,9 @@ impl Segment {
         Self { start_s, length_s, offset_s: 0.0, impacts_before: impacts }
     }
 
-    /// Whether the motion is at its begin.
-    pub(crate) fn is_new(&self) -> bool {
-        self.offset_s == 0.0
+    /// Where a step of `step_s` ends in it, if that is at its end.
+    pub(crate) fn end_s(&self, step_s: f64) -> Option<f64> {
+        (step_s >= self.length_s - self.offset_s).then_some(self.offset_s + step_s)
     }
 }
 
@@ -119,7 +119,7 @@ impl<'a, O: Observer> Motion<'a, O> {
     }
 
     /// Moves through a segment of `length_s` that begins at `start_s`, a step after the other in `series`; `shaking`
-    /// gives the ground acceleration \[m/s²\] from an offset in the segment on, in powers of (time − offset)/step. With
+    /// sets the ground acceleration \[m/s²\] from an offset in the segment on, in powers of (time − offset)/step. With
     /// `until_peak` it ends early, when |θ| has passed a maximum.
     pub(crate) fn advance(
         &mut self,
@@ -127,30 +127,32 @@ impl<'a, O: Observer> Motion<'a, O> {
         start_s: f64,
         length_s: f64,
         until_peak: bool,
-        shaking: impl Fn(f64, f64) -> Forcing,
+        shaking: impl Fn(f64, f64, &mut Forcing),
     ) -> ControlFlow<Ending> {
-        let mut segment = Segment::new(start_s, length_s, self.impacts);
-        while let Some((forcing, step_s)) = self.next(&mut segment, &shaking) {
+        let (mut segment, mut forcing) = (Segment::new(start_s, length_s, self.impacts), Forcing::none());
+        while let Some(step_s) = self.next(&mut segment, &mut forcing, &shaking) {
             self.expand(series, &forcing, step_s);
             self.take(&mut segment, series, until_peak)?;
         }
         ControlFlow::Continue(())
     }
 
-    /// The shaking on the next step, in units of g and in the frame of the corner, and the longest that this may be;
-    /// none if the segment is over.
+    /// The longest that the next step may be, none if the segment is over; makes `forcing` what shakes the block on it,
+    /// in units of g and in the frame of the corner. It is not handed over by value: it is long, and hardly filled.
     pub(crate) fn next(
         &mut self,
         segment: &mut Segment,
-        shaking: impl Fn(f64, f64) -> Forcing,
-    ) -> Option<(Forcing, f64)> {
+        forcing: &mut Forcing,
+        shaking: impl Fn(f64, f64, &mut Forcing),
+    ) -> Option<f64> {
         let gravity = self.block.gravity_m_s2();
         while segment.offset_s < segment.length_s {
             let mut starts_at_threshold = false;
             if self.resting {
                 let remaining = segment.length_s - segment.offset_s;
-                let forcing = shaking(segment.offset_s, remaining).times(1.0 / gravity);
-                let (s, side) = first_uplift(&forcing, self.tangent)?;
+                shaking(segment.offset_s, remaining, forcing);
+                forcing.scale(1.0 / gravity);
+                let (s, side) = first_uplift(forcing, self.tangent)?;
                 starts_at_threshold = s > 0.0;
                 segment.offset_s += s * remaining;
                 (self.side, self.x, self.v) = (side, 0.0, 0.0);
@@ -160,12 +162,13 @@ impl<'a, O: Observer> Motion<'a, O> {
             }
 
             let mut step = (segment.length_s - segment.offset_s).min(self.longest_step_s());
-            let mut forcing = shaking(segment.offset_s, step).times(self.side / gravity);
+            shaking(segment.offset_s, step, forcing);
+            forcing.scale(self.side / gravity);
             if starts_at_threshold {
-                forcing = forcing.beginning_at(-self.tangent);
+                forcing.begin_at(-self.tangent);
             }
             if self.x == 0.0 && self.v > 0.0 {
-                if self.rest_rule.comes_to_rest(&self.rebound(), &forcing, step) {
+                if self.rest_rule.comes_to_rest(&self.rebound(), forcing, step) {
                     self.come_to_rest(segment.start_s + segment.offset_s);
                     continue;
                 }
@@ -173,11 +176,11 @@ impl<'a, O: Observer> Motion<'a, O> {
                 let down = self.p * self.p * self.cosine * (self.tangent + forcing.value(0.0));
                 let rebound = 2.5 * self.v / down;
                 if down > 0.0 && rebound < step {
-                    forcing = forcing.stretched(rebound / step);
+                    forcing.stretch(rebound / step);
                     step = rebound;
                 }
             }
-            return Some((forcing, step));
+            return Some(step);
         }
         None
     }

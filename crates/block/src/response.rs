@@ -178,7 +178,7 @@ fn follow<O: Observer>(
         motion.observe(start_s, Moment::Sample);
         for segment in 0..excitation.segments() {
             let begin_s = start_s + segment as f64 * length_s;
-            let shaking = |offset, step| excitation.taylor(segment, offset, step);
+            let shaking = |offset, step, forcing: &mut Forcing| excitation.shake(segment, offset, step, forcing);
             if let ControlFlow::Break(ending) = motion.advance(&mut series, begin_s, length_s, false, shaking) {
                 return Some(ending);
             }
@@ -214,7 +214,7 @@ pub(crate) fn rock_on<O: Observer>(
         }
         let length_s = step_s.min(last_s - begin_s);
         if let ControlFlow::Break(ending) =
-            motion.advance(series, end_s + begin_s, length_s, until_peak, |_, _| Forcing::none())
+            motion.advance(series, end_s + begin_s, length_s, until_peak, |_, _, forcing| forcing.set_none())
         {
             return Some(ending);
         }

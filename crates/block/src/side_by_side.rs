@@ -1,9 +1,9 @@
 //! One block under one record at many scale factors, several motions side by side, each at its own time.
 //!
 //! All motions take their next steps together: the [series](crate::series) are expanded in vectors, operation by
-//! operation as that of a single motion. Of twelve steps through a sample interval in which a block rocks some eleven
-//! hold no impact, and no peak that could be the largest; they end in vectors, too. What else is on a step, the
-//! [motion](crate::motion) itself finds in the series, as it says what the next step is. What comes before uplift and
+//! operation as that of a single motion. Of ten steps some nine go on to the end of a sample interval without an
+//! impact, and without a peak that could be the largest; they end in vectors, too. What else is on a step, the
+//! [motion](crate::motion) itself finds in the series, and it says what the next step is. What comes before uplift and
 //! after the record, and series of a high order, are left to it altogether. So every response has the bits of
 //! [`respond`](crate::respond).
 
@@ -16,7 +16,7 @@ use uplift_taylor::Forcing;
 
 use crate::block::{LYING_RAD, RockingBlock};
 use crate::error::BlockError;
-use crate::excitation::{check_acceleration, line};
+use crate::excitation::{check_acceleration, set_line};
 use crate::motion::{Motion, Segment};
 use crate::observer::Unobserved;
 use crate::response::{BlockResponse, FreeRocking, check_duration, rock_on};
@@ -61,6 +61,8 @@ struct Sweep<'a> {
     samples_m_s2: &'a [f64],
     dt_s: f64,
     free: FreeRocking,
+    /// Whether a step may be as long as a sample interval.
+    is_step: bool,
     /// Of every sample interval what [`Forcing::bound`](uplift_taylor::Forcing::bound) is of, at a scale of one.
     bounds_m_s2: Vec<f64>,
 }
@@ -69,7 +71,8 @@ impl<'a> Sweep<'a> {
     fn new(block: &'a RockingBlock, record: &'a Accelerogram, free: FreeRocking) -> Self {
         let (samples_m_s2, dt_s) = (record.acceleration_m_s2(), record.dt_s());
         let bounds_m_s2 = samples_m_s2.windows(2).map(|pair| pair[0].abs() + (pair[1] - pair[0]).abs()).collect();
-        Self { block, samples_m_s2, dt_s, free, bounds_m_s2 }
+        let is_step = dt_s <= Motion::new(block, RestRule::Proven, Unobserved).longest_step_s();
+        Self { block, samples_m_s2, dt_s, free, is_step, bounds_m_s2 }
     }
 
     fn intervals(&self) -> usize {
@@ -123,12 +126,14 @@ impl<'a> Run<'a> {
     /// Goes on to the next step on which the record shakes the block.
     #[inline(never)]
     fn next(&mut self, sweep: &Sweep<'a>, series: &mut Series) -> Next {
-        let n = sweep.intervals();
+        let (n, mut forcing) = (sweep.intervals(), Forcing::none());
         loop {
             if let Some(segment) = &mut self.segment {
                 let samples = [self.interval, self.interval + 1].map(|i| self.scale * sweep.samples_m_s2[i]);
-                let shaking = |offset_s, step_s| line(samples, sweep.dt_s, offset_s, step_s);
-                if let Some((forcing, step_s)) = self.motion.next(segment, shaking) {
+                let shaking = |offset_s, step_s, forcing: &mut Forcing| {
+                    set_line(forcing, samples, sweep.dt_s, offset_s, step_s);
+                };
+                if let Some(step_s) = self.motion.next(segment, &mut forcing, shaking) {
                     return Next::Step(Step { ground: straight(&forcing), length_s: step_s });
                 }
                 self.interval += 1;
@@ -198,8 +203,10 @@ fn follow<N: Numbers<LANES>>(numbers: N, sweep: &Sweep<'_>, scales: &[f64]) -> V
 /// The steps that the motions are about to take.
 struct Steps {
     begins: Begins,
-    /// 1 of steps through a whole sample interval, 0 of others.
-    is_whole: Lanes,
+    /// 1 of steps to the end of a sample interval of a block that rocks, 0 of others.
+    goes_on: Lanes,
+    /// From the begin of the interval to the end of the step.
+    end_s: Lanes,
     interval: [usize; LANES],
     scale: Lanes,
     /// From an acceleration of the ground to what the block feels, in units of g and in the frame of the corner.
@@ -211,7 +218,8 @@ struct Steps {
 impl Steps {
     const NONE: Self = Self {
         begins: Begins::NONE,
-        is_whole: [0.0; LANES],
+        goes_on: [0.0; LANES],
+        end_s: [0.0; LANES],
         interval: [0; LANES],
         scale: [0.0; LANES],
         to_g: [0.0; LANES],
@@ -221,14 +229,16 @@ impl Steps {
 
     fn clear(&mut self, lane: usize) {
         self.begins.clear(lane);
-        (self.is_whole[lane], self.interval[lane]) = (0.0, 0);
+        (self.goes_on[lane], self.interval[lane]) = (0.0, 0);
     }
 
     fn put(&mut self, lane: usize, run: &Run<'_>, sweep: &Sweep<'_>, step: &Step) {
         let motion = &run.motion;
         self.begins.put(lane, (motion.x, motion.v), step);
-        let is_whole = step.length_s == sweep.dt_s && run.segment.as_ref().is_some_and(Segment::is_new);
-        (self.is_whole[lane], self.interval[lane]) = (f64::from(u8::from(is_whole)), run.interval);
+        let end_s = run.segment.as_ref().and_then(|segment| segment.end_s(step.length_s));
+        let goes_on = end_s.is_some() && !motion.resting && sweep.is_step;
+        (self.goes_on[lane], self.end_s[lane]) = (f64::from(u8::from(goes_on)), end_s.unwrap_or(0.0));
+        self.interval[lane] = run.interval;
         (self.scale[lane], self.to_g[lane]) = (run.scale, motion.side / sweep.block.gravity_m_s2());
         (self.peak[lane], self.peak_s[lane]) = (motion.peak, motion.peak_s);
     }
@@ -247,7 +257,7 @@ impl Steps {
         let motion = &mut run.motion;
         (motion.x, motion.v) = (x[lane], v[lane]);
         (motion.peak, motion.peak_s) = (self.peak[lane], self.peak_s[lane]);
-        if self.is_whole[lane] != 0.0 {
+        if run.interval != self.interval[lane] {
             run.interval = self.interval[lane];
             run.segment = None;
         }
@@ -269,21 +279,24 @@ impl Steps {
         run.next(sweep, alone)
     }
 
-    /// Moves what rocks on, without an impact and without a peak inside that could be the largest, through a sample
-    /// interval to the begin of the next: a bit each of which does, and has not come to the end of the record. The
-    /// others stay.
+    /// Moves what rocks on, without an impact and without a peak inside that could be the largest, to the end of the
+    /// sample interval, the begin of the next: a bit each of which does, and has not come to the end of the record.
+    /// The others stay.
     #[inline(always)]
     fn rock_on<N: Numbers<LANES>>(&mut self, n: N, sweep: &Sweep<'_>, outcome: &Outcome<N::F64s>) -> u32 {
         let one = n.splat(1.0);
         let goes = self.rocks_on(n, outcome);
         let choose = |new, old| n.if_at_most(one, goes, new, old);
         let peak = n.load(&self.peak);
-        let end_s: Lanes = from_fn(|i| self.interval[i] as f64 * sweep.dt_s + sweep.dt_s);
+        let end_s: Lanes = from_fn(|i| self.interval[i] as f64 * sweep.dt_s + self.end_s[i]);
         let [old_s, end_s] = [&self.peak_s, &end_s].map(|own| n.load(own));
         self.peak_s = n.store(n.if_at_most(outcome.x, peak, old_s, choose(end_s, old_s)));
         self.peak = n.store(choose(n.larger(outcome.x, peak), peak));
         self.begins.x = n.store(choose(outcome.x, n.load(&self.begins.x)));
         self.begins.v = n.store(choose(outcome.v, n.load(&self.begins.v)));
+        let dt_s = n.splat(sweep.dt_s);
+        self.end_s = n.store(choose(dt_s, n.load(&self.end_s)));
+        self.begins.length_s = n.store(choose(dt_s, n.load(&self.begins.length_s)));
         let moved = n.at_most(one, goes);
         let last = sweep.intervals() - 1;
         self.interval = from_fn(|i| self.interval[i] + (moved >> i & 1) as usize);
@@ -296,7 +309,7 @@ impl Steps {
         (0..LANES).filter(|i| self.interval[*i] <= last).fold(0, |bits, i| bits | moved & (1 << i))
     }
 
-    /// 1 of what rocks on through a whole sample interval without an impact and without a peak inside that could be the
+    /// 1 of what rocks on to the end of a sample interval without an impact and without a peak inside that could be the
     /// largest, 0 of what perhaps does not.
     #[inline(always)]
     fn rocks_on<N: Numbers<LANES>>(&self, n: N, outcome: &Outcome<N::F64s>) -> N::F64s {
@@ -309,15 +322,18 @@ impl Steps {
         // x rises by less than its positive terms
         let top = n.add(n.mul(n.splat(0.5), n.add(x_end, reach)), n.mul(margin, reach));
         let speed = n.abs(v);
-        let whole = n.load(&self.is_whole);
-        let is_one_way = n.if_at_most(n.mul(n.splat(1.0 + MARGIN), change), speed, whole, zero);
-        let has_no_peak = n.if_at_most(top, n.load(&self.peak), whole, is_one_way);
+        let goes = n.load(&self.goes_on);
+        let is_one_way = n.if_at_most(n.mul(n.splat(1.0 + MARGIN), change), speed, goes, zero);
+        let has_no_peak = n.if_at_most(top, n.load(&self.peak), goes, is_one_way);
         // a velocity that grows or falls all the time has the signs of its ends
         let least = n.mul(margin, n.mul(speed, n.add(speed, change)));
-        let keeps_sign = n.if_at_most(least, n.mul(v, v_end), whole, zero);
+        let keeps_sign = n.if_at_most(least, n.mul(v, v_end), goes, zero);
         let is_steady = n.if_at_most(n.mul(n.splat(1.0 + MARGIN), bend), n.abs(acceleration), keeps_sign, zero);
         let has_no_peak = n.larger(has_no_peak, is_steady);
-        let stays_up = n.if_at_most(n.mul(margin, reach), lowest, has_no_peak, zero);
+        let least = n.mul(margin, reach);
+        // from the ground it rises if no later terms can outweigh the first
+        let leaves = n.if_at_most(x, zero, n.if_at_most(least, fall, has_no_peak, zero), zero);
+        let stays_up = n.if_at_most(least, lowest, has_no_peak, leaves);
         let ends_up = n.if_at_most(n.splat(f64::MIN_POSITIVE), x_end, stays_up, zero);
         let stays = n.if_at_most(reach, n.splat(LYING_RAD * (1.0 - MARGIN)), ends_up, zero);
         n.if_at_most(open, zero, stays, zero)

@@ -137,8 +137,8 @@ mod x86_64 {
     /// The vectors of a set of instructions; there is a value of `$token` only where the processor has the set.
     macro_rules! vectors {
         (
-            $token:ident, $vector:ty, $width:literal, $load:ident, $store:ident, $splat:ident, $add:ident, $sub:ident,
-            $mul:ident, $larger:ident, $and_not:ident, |$a:ident, $b:ident| $at_most:expr,
+            $token:ident, [$($lanes:ident),*], $vector:ty, $width:literal, $load:ident, $store:ident, $splat:ident,
+            $add:ident, $sub:ident, $mul:ident, $larger:ident, $and_not:ident, |$a:ident, $b:ident| $at_most:expr,
             |$c:ident, $d:ident, $x:ident, $y:ident| $if_at_most:expr
         ) => {
             #[derive(Debug, Clone, Copy)]
@@ -161,142 +161,107 @@ mod x86_64 {
                 }
             }
 
-            vectors!(
-                $token,
-                LANES,
-                $vector,
-                $width,
-                $load,
-                $store,
-                $splat,
-                $add,
-                $sub,
-                $mul,
-                $larger,
-                $and_not,
-                |$a, $b| $at_most,
-                |$c, $d, $x, $y| $if_at_most
-            );
-            vectors!(
-                $token,
-                FEW,
-                $vector,
-                $width,
-                $load,
-                $store,
-                $splat,
-                $add,
-                $sub,
-                $mul,
-                $larger,
-                $and_not,
-                |$a, $b| $at_most,
-                |$c, $d, $x, $y| $if_at_most
-            );
-        };
-        (
-            $token:ident, $lanes:ident, $vector:ty, $width:literal, $load:ident, $store:ident, $splat:ident, $add:ident,
-            $sub:ident, $mul:ident, $larger:ident, $and_not:ident, |$a:ident, $b:ident| $at_most:expr,
-            |$c:ident, $d:ident, $x:ident, $y:ident| $if_at_most:expr
-        ) => {
-            // SAFETY of each block: `self` says that the processor has the set; `$width` divides the array's `$lanes`
-            // numbers.
-            impl Numbers<$lanes> for $token {
-                type F64s = [$vector; $lanes / $width];
+            $(
+                // SAFETY of each block: `self` says that the processor has the set; `$width` divides `$lanes`, the
+                // numbers of the array.
+                impl Numbers<$lanes> for $token {
+                    type F64s = [$vector; $lanes / $width];
 
-                #[inline(always)]
-                fn load(self, from: &[f64; $lanes]) -> Self::F64s {
-                    let mut to = Numbers::<$lanes>::splat(self, 0.0);
-                    for i in 0..$lanes / $width {
-                        to[i] = unsafe { $load(from.as_ptr().add($width * i)) };
+                    #[inline(always)]
+                    fn load(self, from: &[f64; $lanes]) -> Self::F64s {
+                        let mut to = Numbers::<$lanes>::splat(self, 0.0);
+                        for i in 0..$lanes / $width {
+                            to[i] = unsafe { $load(from.as_ptr().add($width * i)) };
+                        }
+                        to
                     }
-                    to
-                }
 
-                #[inline(always)]
-                fn store(self, from: Self::F64s) -> [f64; $lanes] {
-                    let mut to = [0.0; $lanes];
-                    for i in 0..$lanes / $width {
-                        unsafe { $store(to.as_mut_ptr().add($width * i), from[i]) };
+                    #[inline(always)]
+                    fn store(self, from: Self::F64s) -> [f64; $lanes] {
+                        let mut to = [0.0; $lanes];
+                        for i in 0..$lanes / $width {
+                            unsafe { $store(to.as_mut_ptr().add($width * i), from[i]) };
+                        }
+                        to
                     }
-                    to
-                }
 
-                #[inline(always)]
-                fn number(self, from: &Self::F64s, place: usize) -> f64 {
-                    assert!(place < $lanes);
-                    unsafe { from.as_ptr().cast::<f64>().add(place).read() }
-                }
-
-                #[inline(always)]
-                fn splat(self, number: f64) -> Self::F64s {
-                    [unsafe { $splat(number) }; $lanes / $width]
-                }
-
-                #[inline(always)]
-                fn add(self, mut a: Self::F64s, b: Self::F64s) -> Self::F64s {
-                    for i in 0..$lanes / $width {
-                        a[i] = unsafe { $add(a[i], b[i]) };
+                    #[inline(always)]
+                    fn number(self, from: &Self::F64s, place: usize) -> f64 {
+                        assert!(place < $lanes);
+                        unsafe { from.as_ptr().cast::<f64>().add(place).read() }
                     }
-                    a
-                }
 
-                #[inline(always)]
-                fn sub(self, mut a: Self::F64s, b: Self::F64s) -> Self::F64s {
-                    for i in 0..$lanes / $width {
-                        a[i] = unsafe { $sub(a[i], b[i]) };
+                    #[inline(always)]
+                    fn splat(self, number: f64) -> Self::F64s {
+                        [unsafe { $splat(number) }; $lanes / $width]
                     }
-                    a
-                }
 
-                #[inline(always)]
-                fn mul(self, mut a: Self::F64s, b: Self::F64s) -> Self::F64s {
-                    for i in 0..$lanes / $width {
-                        a[i] = unsafe { $mul(a[i], b[i]) };
+                    #[inline(always)]
+                    fn add(self, mut a: Self::F64s, b: Self::F64s) -> Self::F64s {
+                        for i in 0..$lanes / $width {
+                            a[i] = unsafe { $add(a[i], b[i]) };
+                        }
+                        a
                     }
-                    a
-                }
 
-                #[inline(always)]
-                fn abs(self, mut a: Self::F64s) -> Self::F64s {
-                    for i in 0..$lanes / $width {
-                        a[i] = unsafe { $and_not($splat(-0.0), a[i]) };
+                    #[inline(always)]
+                    fn sub(self, mut a: Self::F64s, b: Self::F64s) -> Self::F64s {
+                        for i in 0..$lanes / $width {
+                            a[i] = unsafe { $sub(a[i], b[i]) };
+                        }
+                        a
                     }
-                    a
-                }
 
-                #[inline(always)]
-                fn larger(self, mut a: Self::F64s, b: Self::F64s) -> Self::F64s {
-                    for i in 0..$lanes / $width {
-                        a[i] = unsafe { $larger(a[i], b[i]) };
+                    #[inline(always)]
+                    fn mul(self, mut a: Self::F64s, b: Self::F64s) -> Self::F64s {
+                        for i in 0..$lanes / $width {
+                            a[i] = unsafe { $mul(a[i], b[i]) };
+                        }
+                        a
                     }
-                    a
-                }
 
-                #[inline(always)]
-                fn if_at_most(self, a: Self::F64s, b: Self::F64s, x: Self::F64s, mut y: Self::F64s) -> Self::F64s {
-                    for i in 0..$lanes / $width {
-                        let ($c, $d, $x, $y) = (a[i], b[i], x[i], y[i]);
-                        y[i] = unsafe { $if_at_most };
+                    #[inline(always)]
+                    fn abs(self, mut a: Self::F64s) -> Self::F64s {
+                        for i in 0..$lanes / $width {
+                            a[i] = unsafe { $and_not($splat(-0.0), a[i]) };
+                        }
+                        a
                     }
-                    y
-                }
 
-                #[inline(always)]
-                fn at_most(self, a: Self::F64s, b: Self::F64s) -> u32 {
-                    let mut bits = 0;
-                    for i in 0..$lanes / $width {
-                        let ($a, $b) = (a[i], b[i]);
-                        bits |= unsafe { $at_most } << ($width * i);
+                    #[inline(always)]
+                    fn larger(self, mut a: Self::F64s, b: Self::F64s) -> Self::F64s {
+                        for i in 0..$lanes / $width {
+                            a[i] = unsafe { $larger(a[i], b[i]) };
+                        }
+                        a
                     }
-                    bits
+
+                    #[inline(always)]
+                    fn if_at_most(self, a: Self::F64s, b: Self::F64s, x: Self::F64s, mut y: Self::F64s) -> Self::F64s {
+                        for i in 0..$lanes / $width {
+                            let ($c, $d, $x, $y) = (a[i], b[i], x[i], y[i]);
+                            y[i] = unsafe { $if_at_most };
+                        }
+                        y
+                    }
+
+                    #[inline(always)]
+                    fn at_most(self, a: Self::F64s, b: Self::F64s) -> u32 {
+                        let mut bits = 0;
+                        for i in 0..$lanes / $width {
+                            let ($a, $b) = (a[i], b[i]);
+                            bits |= unsafe { $at_most } << ($width * i);
+                        }
+                        bits
+                    }
                 }
-            }
+            )*
         };
     }
 
     vectors!(
         Avx2,
+        [LANES, FEW],
         __m256d,
         4,
         _mm256_loadu_pd,
@@ -312,6 +277,7 @@ mod x86_64 {
     );
     vectors!(
         Avx512,
+        [LANES, FEW],
         __m512d,
         8,
         _mm512_loadu_pd,

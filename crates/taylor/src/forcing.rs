@@ -47,6 +47,19 @@ impl Forcing {
         }
     }
 
+    /// Multiplies it in place: [`times`](Self::times).
+    #[inline]
+    pub fn scale(&mut self, factor: f64) {
+        self.c[..self.len].iter_mut().for_each(|c| *c *= factor);
+    }
+
+    /// Makes it begin at another value in place: [`beginning_at`](Self::beginning_at).
+    #[inline]
+    pub fn begin_at(&mut self, value: f64) {
+        self.len = self.len.max(1);
+        self.c[0] = value;
+    }
+
     /// Stretches it in place: [`stretched`](Self::stretched).
     #[inline]
     pub fn stretch(&mut self, ratio: f64) {
@@ -78,7 +91,7 @@ impl Forcing {
     #[must_use]
     #[inline]
     pub fn times(mut self, factor: f64) -> Self {
-        self.c[..self.len].iter_mut().for_each(|c| *c *= factor);
+        self.scale(factor);
         self
     }
 
@@ -94,8 +107,7 @@ impl Forcing {
     #[must_use]
     #[inline]
     pub fn beginning_at(mut self, value: f64) -> Self {
-        self.len = self.len.max(1);
-        self.c[0] = value;
+        self.begin_at(value);
         self
     }
 

@@ -42,6 +42,11 @@ pub(crate) struct Step {
     pub(crate) length_s: f64,
 }
 
+impl Step {
+    /// One that takes no time.
+    pub(crate) const NONE: Self = Self { ground: [0.0; 2], length_s: 0.0 };
+}
+
 /// What steps begin with, and what shakes the block on them.
 #[derive(Debug)]
 pub(crate) struct Begins {
@@ -63,7 +68,7 @@ impl Begins {
     }
 
     pub(crate) fn clear(&mut self, lane: usize) {
-        self.put(lane, (0.0, 0.0), &Step { ground: [0.0; 2], length_s: 0.0 });
+        self.put(lane, (0.0, 0.0), &Step::NONE);
     }
 }
 
