@@ -36,7 +36,8 @@ pub(crate) fn sine_and_cosine(angle_rad: f64) -> (f64, f64) {
 pub(crate) fn sines_and_cosines<const LANES: usize, N: Numbers<LANES>>(n: N, angles: N::F64s) -> (N::F64s, N::F64s) {
     let squares = n.mul(angles, angles);
     let horner = |coefficients: &[f64]| {
-        coefficients.iter().rev().fold(n.splat(0.0), |sums, c| n.add(n.mul(sums, squares), n.splat(*c)))
+        let terms = coefficients.iter().rev().map(|c| n.splat(*c));
+        terms.reduce(|sums, c| n.add(n.mul(sums, squares), c)).unwrap_or(squares)
     };
     let sines = n.add(angles, n.mul(angles, n.mul(squares, horner(&SINE))));
     (sines, n.add(n.splat(1.0), n.mul(squares, horner(&COSINE))))
