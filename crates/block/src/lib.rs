@@ -32,8 +32,8 @@
 //! # Accuracy and cost
 //! On the reference cases of the tests the peak rotation, its time, the peak displacement and the time of uplift
 //! deviate by about 2e-15 at most, relatively; energy between impacts is constant to 1e-15. A rocking block takes about
-//! 8 to 13 µs per second of record at dt = 0.01 s on one core, a third to a half of that where 32 scale factors are
-//! followed [side by side](respond_at_scales), a block at rest next to nothing, a point of a pulse spectrum about 40
+//! 6 to 11 µs per second of record at dt = 0.01 s on one core, a quarter to a third of that where 32 scale factors are
+//! followed [side by side](respond_at_scales), a block at rest next to nothing, a point of a pulse spectrum about 30
 //! µs.
 //!
 //! The motion itself is sensitive: it amplifies roundings along with everything else, and close to a block that just
