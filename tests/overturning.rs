@@ -65,10 +65,11 @@ fn a_case_known_by_hand() {
         near("per_year", expected);
         near("probability", -(-50.0 * expected).exp_m1());
         near("upper_tail_share", share * rate(0.8) / expected);
-        // rates r, 0, r of the records, r = 3/2 of their mean: s = r/√3, γ = −√3 and a = −1, κ = 1.5 and two degrees of
-        // freedom, t = 2.919986: T = −3 ((1 + t − 1/6)^⅓ − 1) = −1.662224 above, and far below nothing
+        // rates r, 0, r of the records, r = 3/2 of their mean: s = r/√3, γ = −√3 and a = −1; three records show no
+        // kurtosis, so one degree of freedom, t = 6.313752: T = −3 ((1 + t − 1/6)^⅓ − 1) = −2.778710 above, and far
+        // below nothing
         let limits = &site["bands"]["by_record"];
-        let upper = expected + 1.662_224 * 1.5 * expected / 3.0;
+        let upper = expected + 2.778_710 * 1.5 * expected / 3.0;
         assert!((limits[1].as_f64().unwrap() / upper - 1.0).abs() < 1e-5, "{name}: {limits} {upper}");
         assert_eq!(limits[0], 0.0);
         assert_eq!(site["lower_tail_share"], 0.0);

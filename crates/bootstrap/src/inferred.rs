@@ -3,7 +3,7 @@
 use uplift_risk::{PooledDemand, RiskError, RunWeights, StripeWeights};
 
 use crate::shared_rates::SharedRates;
-use crate::skewed_mean::{Deviates, LEAST_FREEDOM, SkewedMean, StudentQuantiles};
+use crate::skewed_mean::{Deviates, SkewedMean, StudentQuantiles};
 use crate::unit_rates::UnitRates;
 
 /// Where the deviate of a target is less, that of a larger target is below −1, whatever rounding leaves of either.
@@ -150,7 +150,7 @@ fn searches<const KINDS: usize>(
     let mut rising: Vec<(f64, usize)> = targets_per_year.iter().copied().zip(0..).collect();
     rising.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let least_target = rising.first().map_or(0.0, |own| own.0);
-    let [smallest_quantile, largest_quantile] = [all - 1, LEAST_FREEDOM.min(all - 1)].map(|at| quantiles.at(at));
+    let [smallest_quantile, largest_quantile] = [all - 1, 1].map(|at| quantiles.at(at));
     let mut look = |rates: &Rates, from_m: f64, to_m: f64| {
         // a fall begins far above every band, where the mean alone tells; with other sizes it does not
         if KINDS == 1 && rates.is_far_below(least_target, largest_quantile) {
@@ -167,7 +167,9 @@ fn searches<const KINDS: usize>(
                     continue;
                 }
                 let deviate = deviates.of(target);
-                is_clear = deviate.abs() < smallest_quantile - MARGIN || deviate.abs() > largest_quantile + MARGIN;
+                is_clear = deviate.abs() < smallest_quantile - MARGIN
+                    || deviate > smallest_quantile + MARGIN
+                    || deviate < -largest_quantile - MARGIN;
                 if !is_clear {
                     break;
                 }
@@ -182,11 +184,11 @@ fn searches<const KINDS: usize>(
             }
         }
         let mean = rates.mean();
-        let of_units = |units: usize, root| (mean.deviates(root), 1.0 / quantiles.at(mean.degrees_of_freedom(units)));
+        let of_units = |units: usize, root| (mean.deviates(root), mean.quantiles(&quantiles, units).map(f64::recip));
         let of_set = (KINDS > 1).then(|| of_units(all, root_of_all));
         let mut is_open = false;
         for (place, &(size, root, wider)) in of_sizes.iter().enumerate() {
-            let of_another = of_set.map(|(deviates, per_quantile)| (deviates, per_quantile / wider));
+            let of_another = of_set.map(|(deviates, per_quantile)| (deviates, per_quantile.map(|per| per / wider)));
             for (kind, (deviates, per_quantile)) in
                 [Some(of_units(size, root)), of_another].into_iter().flatten().enumerate()
             {
@@ -195,7 +197,8 @@ fn searches<const KINDS: usize>(
                     if search.was_beyond {
                         continue;
                     }
-                    let deviate = deviates.of(target) * per_quantile;
+                    let deviate = deviates.of(target);
+                    let deviate = deviate * per_quantile[usize::from(deviate < 0.0)];
                     search.see(deviate, from_m, to_m);
                     is_open |= !search.was_beyond;
                     if deviate < SURELY_BELOW {
@@ -332,7 +335,7 @@ impl Rates {
     }
 
     fn weighted(weights: &RunWeights, units: &[Vec<usize>]) -> Self {
-        Self::Shared(SharedRates::new(units, weights.shares()).with_leverage())
+        Self::Shared(SharedRates::new(units, weights.shares()).with_effective_units())
     }
 
     pub(crate) fn add(&mut self, record: usize, level: usize, per_year: f64) {

@@ -133,8 +133,9 @@ impl Mixture {
             if mean.deviation == 0.0 {
                 return f64::from(u8::from(mean.mean <= value));
             }
-            let freedom = mean.degrees_of_freedom(mean.units).min(self.students.len());
-            self.students[freedom - 1].cdf(-mean.deviate(value, mean.units))
+            let deviate = mean.deviate(value, mean.units);
+            let freedom = mean.degrees_of_freedom(mean.units)[usize::from(deviate < 0.0)];
+            self.students[freedom.min(self.students.len()) - 1].cdf(-deviate)
         };
         self.weights.iter().zip(means).map(|(weight, mean)| weight * of_curve(mean)).sum()
     }
@@ -142,11 +143,8 @@ impl Mixture {
     /// Where a target rate lies in what `means` leave open: within −1 and 1 where it may be the truth, above 1 where
     /// they are too large for it.
     fn place(&self, means: &[SkewedMean], target_per_year: f64) -> f64 {
-        let of_curve = |mean: &SkewedMean| {
-            mean.deviate(target_per_year, mean.units) / self.quantiles.at(mean.degrees_of_freedom(mean.units))
-        };
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-        for place in means.iter().map(of_curve) {
+        for place in means.iter().map(|mean| mean.place(target_per_year, &self.quantiles)) {
             (least, most) = (least.min(place), most.max(place));
         }
         // where all curves agree there is nothing to weigh
@@ -216,7 +214,7 @@ mod tests {
             assert!((found - expected).abs() <= 1e-12 * expected, "{found} {expected}");
         }
         for target in [0.05, 0.2, 0.5, 1.0, 4.0] {
-            let alone = of_curve.deviate(target, 6) / twice.quantiles.at(of_curve.degrees_of_freedom(6));
+            let alone = of_curve.place(target, &twice.quantiles);
             assert_eq!(twice.place(&[of_curve; 2], target).abs() <= 1.0, alone.abs() <= 1.0, "{target}");
         }
     }

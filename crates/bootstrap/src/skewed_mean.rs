@@ -5,25 +5,27 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Fewest degrees of freedom, where there are units enough for so many: below, the quantile says nothing any more.
-pub(crate) const LEAST_FREEDOM: usize = 2;
 /// A scatter below this share of the mean is that of rounding.
 const ROUNDING: f64 = 1e-7;
 
 /// A mean over units (records, or earthquakes with all their records), with how the units scatter about it.
 ///
 /// The rate λ(c) at which a displacement is exceeded is such a mean, and a few records carry it: Student's interval,
-/// which takes the mean for normal, misses the truth on the side of those that were not drawn. Three things mend that:
+/// which takes the mean for normal, misses the truth on the side of those that were not drawn. Four things mend that:
 ///
 /// - the deviate T = (mean − value)/s is freed of the skewness γ of the units by a cubic that rises everywhere,
 ///   g(T) = T + γT²/(3√n) + γ²T³/(27n) + γ/(6√n) (Hall);
 /// - γ is the adjusted Fisher–Pearson coefficient, since a sample shows too little of it;
-/// - the quantile is Student's with as many degrees of freedom as the variance is known with, 2n/(κ − 1) − 1 for units
-///   of the kurtosis κ, rounded down, from 2 to n − 1: n − 1 where they are normal (Satterthwaite's matching of
-///   moments).
+/// - above the mean the quantile is Student's with as many degrees of freedom as the variance is known with,
+///   2n/(κ − 1) − 1 for units of the kurtosis κ, rounded down, from 1 to n − 1: n − 1 where they are normal
+///   (Satterthwaite's matching of moments); below it the quantile has n − 1, since a sample that holds the few large
+///   units shows their scatter too;
+/// - of κ a sample shows too little as well, and never more than n: it is the adjusted one, and at least 3 + 3γ²/2,
+///   that of a gamma distribution as skewed.
 ///
-/// Units that do not count alike tell less than their number: the degrees of freedom are at most those of so many units
-/// that count alike as have a variance known as well, less one (Carter, Schnepel and Steigerwald's effective clusters).
+/// Units that do not count alike tell less than their number: κ is adjusted for the number of units that count alike
+/// and whose variance is known as well, and there is one degree of freedom less than these, if that is less (Carter,
+/// Schnepel and Steigerwald's effective clusters).
 ///
 /// # Source
 /// P. Hall, J. R. Stat. Soc. B 54 (1992), 221–228; F. E. Satterthwaite, Biometrics Bulletin 2 (1946), 110–114; A. V.
@@ -85,16 +87,30 @@ impl SkewedMean {
         Deviates { mean: self.mean, per_error: root / self.deviation, a: self.skewness / root }
     }
 
-    /// Degrees of freedom of the variance of `units` such units.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and the number of units")]
-    pub fn degrees_of_freedom(&self, units: usize) -> usize {
-        let most = units.saturating_sub(1).max(1);
-        let own = 2.0 * units as f64 / (self.kurtosis - 1.0).max(f64::MIN_POSITIVE) - 1.0;
-        let alike = (own.clamp(0.0, most as f64) as usize).clamp(LEAST_FREEDOM.min(most), most);
-        let share = self.effective_units / self.units as f64;
+    /// Degrees of freedom of the quantiles of `units` such units, for values below and above the mean.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and the number of units")]
+    pub fn degrees_of_freedom(&self, units: usize) -> [usize; 2] {
+        let (n, excess) = (self.effective_units, self.kurtosis - 3.0);
+        // three units show none
+        let adjusted =
+            if n > 3.0 { (n - 1.0) * ((n + 1.0) * excess + 6.0) / ((n - 2.0) * (n - 3.0)) } else { f64::INFINITY };
+        let excess = adjusted.max(1.5 * self.skewness * self.skewness);
+        let above = 2.0 * units as f64 / (excess + 2.0) - 1.0;
         // 12 units that count alike are 12, whatever rounding leaves
-        let freedom = share * units as f64 - 1.0 + ROUNDING;
-        if share > 1.0 - ROUNDING { alike } else { alike.min(freedom.max(1.0) as usize) }
+        let most = n / self.units as f64 * units as f64 + ROUNDING - 1.0;
+        [units.saturating_sub(1).max(1), above.min(most).max(1.0) as usize]
+    }
+
+    /// The quantiles with those degrees of freedom.
+    pub(crate) fn quantiles(&self, of_freedom: &StudentQuantiles, units: usize) -> [f64; 2] {
+        self.degrees_of_freedom(units).map(|freedom| of_freedom.at(freedom))
+    }
+
+    /// How far the mean lies above `value`, over the quantile of that side: within −1 and 1 where it may be the mean of
+    /// all units there could be.
+    pub(crate) fn place(&self, value: f64, of_freedom: &StudentQuantiles) -> f64 {
+        let deviate = self.deviate(value, self.units);
+        deviate / self.quantiles(of_freedom, self.units)[usize::from(deviate < 0.0)]
     }
 
     /// The interval of the mean over all units there could be, at the level of `quantiles`; NaN of a single unit. The
@@ -108,8 +124,8 @@ impl SkewedMean {
         }
         let root = (self.units as f64).sqrt();
         let a = self.skewness / root;
-        let quantile = quantiles.at(self.degrees_of_freedom(self.units));
-        [quantile, -quantile].map(|deviate| {
+        let [below, above] = self.quantiles(quantiles, self.units);
+        [below, -above].map(|deviate| {
             // g(T) = ((1 + aT/3)³ − 1)/a + a/6, solved for T
             let t = if a.abs() < 1e-9 { deviate } else { 3.0 / a * ((1.0 + a * (deviate - a / 6.0)).cbrt() - 1.0) };
             (self.mean - t * self.deviation / root).max(0.0)
@@ -247,32 +263,37 @@ pub(crate) mod tests {
         let half = 2.131_847 * (2.5_f64 / 5.0).sqrt();
         let [low, high] = found.interval(&StudentQuantiles::new(0.9, 4));
         assert!((low - (3.0 - half)).abs() < 1e-6 && (high - (3.0 + half)).abs() < 1e-6, "{low} {high}");
-        assert_eq!(found.degrees_of_freedom(5), 4);
+        assert_eq!(found.degrees_of_freedom(5), [4, 4]);
     }
 
-    // 0, 0, 0, 4: mean 1, m2 = 3, m3 = 6, m4 = 21; s = 2, γ = 6/3^1.5 · √12/2 = 2, κ = 21/9, 2 · 4/(12/9) − 1 = 5 > 3.
-    // Of the value 2: T = −1, a = γ/√4 = 1, g = −1 + 1/3 − 1/27 + 1/6 = −0.537037.
+    // 0, 0, 0, 4: mean 1, m2 = 3, m3 = 6, m4 = 21; s = 2, γ = 6/3^1.5 · √12/2 = 2, κ = 3 + 3 · 4/2 = 9, more than the
+    // adjusted 3 + 3/2 · (5 (21/9 − 3) + 6) = 7. Of the value 2: T = −1, a = γ/√4 = 1, g = −1 + 1/3 − 1/27 + 1/6.
     #[test]
     fn a_skewed_mean_by_hand() {
         let found = of(&[0.0, 0.0, 0.0, 4.0]);
         assert!((found.skewness - 2.0).abs() < 1e-12 && (found.deviation - 2.0).abs() < 1e-12, "{found:?}");
         assert!((found.deviate(2.0, 4) - (-1.0 + 1.0 / 3.0 - 1.0 / 27.0 + 1.0 / 6.0)).abs() < 1e-12);
-        assert_eq!(found.degrees_of_freedom(4), 3);
-        // a mean of heavy tails knows its variance with fewer
-        let heavy = SkewedMean { kurtosis: 11.0, ..found };
-        assert_eq!((heavy.degrees_of_freedom(25), heavy.degrees_of_freedom(5)), (4, 2));
+        // 2 · 4/8 − 1 = 0, 2 · 25/8 − 1 = 5.25
+        assert_eq!((found.degrees_of_freedom(4), found.degrees_of_freedom(25)), ([3, 1], [24, 5]));
+        // κ = 5/2 is adjusted to 3 + 9/56 · (11 (5/2 − 3) + 6) = 3 + 9/112, and of that 2 · 10/2.08 − 1 = 8.61
+        let even = of(&[-1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0]);
+        assert_eq!(even.degrees_of_freedom(10), [9, 8]);
+        // for five effective units it is 3 + 4/6 · (6 (5/2 − 3) + 6) = 5, and 2 · 10/4 − 1 = 4; three show none
+        let carried = |effective_units: f64| SkewedMean { effective_units, ..even }.degrees_of_freedom(10);
+        assert_eq!([carried(5.0), carried(3.0)], [[9, 4], [9, 1]]);
     }
 
-    // 6, 2, 1, 1: (36 + 4 + 2)²/(1296 + 16 + 2) = 1764/1314 = 1.34; 2, 2, 1, 1: 100/34 = 2.94, one degree of freedom;
-    // in a sample of eight 5.88, four
+    // 6, 2, 1, 1: (36 + 4 + 2)²/(1296 + 16 + 2) = 1764/1314 = 1.34; 2, 2, 2, 1: 169/49 = 3.45, two degrees of freedom,
+    // in a sample of eight 6.90, five
     #[test]
     fn units_that_carry_more_leave_fewer_degrees_of_freedom() {
         let alike = of(&[1.0, 2.0, 3.0, 4.0]);
-        assert_eq!(alike.carried_by(&[0.3; 4]).degrees_of_freedom(4), alike.degrees_of_freedom(4));
+        assert_eq!(alike.carried_by(&[0.3; 4]).degrees_of_freedom(4), [3, 3]);
         let one = alike.carried_by(&[6.0, 2.0, 1.0, 1.0]);
         assert!((one.effective_units - 1764.0 / 1314.0).abs() < 1e-12);
-        let two = alike.carried_by(&[2.0, 2.0, 1.0, 1.0]);
-        assert_eq!([one.degrees_of_freedom(4), two.degrees_of_freedom(4), two.degrees_of_freedom(8)], [1, 1, 4]);
+        let three = alike.carried_by(&[2.0, 2.0, 2.0, 1.0]);
+        let found = [one.degrees_of_freedom(4), three.degrees_of_freedom(4), three.degrees_of_freedom(8)];
+        assert_eq!(found, [[3, 1], [3, 2], [7, 5]]);
         assert_eq!(alike.carried_by(&[0.0; 4]), alike);
     }
 
@@ -280,11 +301,10 @@ pub(crate) mod tests {
     fn the_interval_is_where_the_deviate_is_within_the_quantiles() {
         let found = of(&[0.1, 0.2, 0.25, 0.4, 2.0, 0.3]);
         let quantiles = StudentQuantiles::new(0.9, 5);
-        let quantile = quantiles.at(found.degrees_of_freedom(6));
         let [low, high] = found.interval(&quantiles);
-        assert!((found.deviate(high, 6) + quantile).abs() < 1e-9, "{}", found.deviate(high, 6));
+        assert!((found.place(high, &quantiles) + 1.0).abs() < 1e-9, "{}", found.place(high, &quantiles));
         // the lower limit is not negative, and lies further from the mean than Student's would not
-        assert!(low >= 0.0 && found.deviate(low, 6) <= quantile + 1e-9);
+        assert!(low >= 0.0 && found.place(low, &quantiles) <= 1.0 + 1e-9);
         assert!(high - found.mean > found.mean - low, "{low} {high}");
     }
 

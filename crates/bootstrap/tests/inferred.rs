@@ -51,10 +51,12 @@ fn plain_limits(edp_m: &[f64], units: &[Vec<usize>], target: f64, (size, confide
         let mean = SkewedMean::new(mean, [2, 3, 4].map(moment), units.len());
         let mean = if is_alike { mean } else { mean.carried_by(&carried) };
         let wider = (1.0 + units.len() as f64 / size as f64).sqrt();
-        [
-            mean.deviate(target, size) / quantiles.at(mean.degrees_of_freedom(size)),
-            mean.deviate(target, units.len()) / quantiles.at(mean.degrees_of_freedom(units.len())) / wider,
-        ]
+        let place = |size: usize| {
+            let deviate = mean.deviate(target, size);
+            let [below, above] = mean.degrees_of_freedom(size);
+            deviate / quantiles.at(if deviate < 0.0 { above } else { below })
+        };
+        [place(size), place(units.len()) / wider]
     };
     let limits = |which: usize| {
         let found: Vec<f64> = places.iter().map(|&c_m| deviates(c_m)[which]).collect();

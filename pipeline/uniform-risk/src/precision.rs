@@ -37,7 +37,7 @@ pub struct Precision {
     /// Half of the 90 % band of the truth over the ordinate, as the records tell it, one by one: the middle one, the
     /// least and the most, of the sites and the strengths 0.1, 0.2 and 0.4.
     pub half_width: [f64; 3],
-    /// The middle one as their earthquakes tell it.
+    /// The middle one as their earthquakes tell it; infinite where most bands have no upper limit.
     pub half_width_by_event: Option<f64>,
     /// Records of the same kind that would halve it.
     pub records_for_half: usize,
@@ -84,7 +84,8 @@ pub fn precision(
         all.sort_by(f64::total_cmp);
         Ok(all)
     };
-    let by_record = widths(&pairs)?;
+    let mut by_record = widths(&pairs)?;
+    by_record.retain(|width| width.is_finite());
     let [Some(&least), Some(&most)] = [by_record.first(), by_record.last()] else { return Ok(None) };
     let is_shared = question.shares_earthquakes();
     let by_event = if is_shared { widths(&earthquakes)? } else { Vec::new() };
@@ -102,10 +103,11 @@ pub fn precision(
     }))
 }
 
-/// Half of the band over the ordinate; none where one of them is censored, the ordinate 0, and of a single unit.
+/// Half of the band over the ordinate, infinite of a band without an upper limit; none where the ordinate is 0 or
+/// censored, and of a single unit.
 fn half_width(ordinate_m: f64, [lower_m, upper_m]: [f64; 2]) -> Option<f64> {
     let width = 0.5 * (upper_m - lower_m) / ordinate_m;
-    (ordinate_m > 0.0 && width.is_finite()).then_some(width)
+    (ordinate_m > 0.0 && ordinate_m.is_finite() && !width.is_nan()).then_some(width)
 }
 
 impl Precision {
@@ -116,8 +118,11 @@ impl Precision {
         let events = self.events.zip(self.effective_events).map_or_else(String::new, |(events, effective)| {
             format!(" of {events} earthquakes (effective {effective:.0})")
         });
-        let by_event =
-            self.half_width_by_event.map_or_else(String::new, |width| format!("; ±{} % by earthquake", percent(width)));
+        let by_event = match self.half_width_by_event {
+            Some(width) if width.is_finite() => format!("; ±{} % by earthquake", percent(width)),
+            Some(_) => "; no upper limit by earthquake".to_owned(),
+            None => String::new(),
+        };
         format!(
             "{} records{events}: half-width of the {} band, {} by {}, ±{middle} % ({least} to {most} by site and \
              strength){by_event}; {} records would halve it",
@@ -137,7 +142,8 @@ mod tests {
     #[test]
     fn half_widths_by_hand() {
         assert_eq!(half_width(0.2, [0.15, 0.3]), Some(0.5 * 0.15 / 0.2));
-        assert_eq!(half_width(0.2, [0.15, f64::INFINITY]), None);
+        assert_eq!(half_width(0.2, [0.15, f64::INFINITY]), Some(f64::INFINITY));
+        assert_eq!(half_width(f64::INFINITY, [0.15, f64::INFINITY]), None);
         assert_eq!(half_width(0.0, [0.0, 0.1]), None);
         assert_eq!(half_width(0.2, [f64::NAN; 2]), None);
     }

@@ -87,7 +87,7 @@ fn print(population: &Population, tallies: &Tallies, drawn: &str) {
     );
     for ((band, size), tally) in tallies {
         println!("{size:11} {band:21} {}", tally.line(&rare));
-        if band.starts_with("repaired") && !band.ends_with("percentile") {
+        if (band.starts_with("plain") || band.starts_with("repaired")) && !band.ends_with("percentile") {
             let stored = &population.stored;
             for ([im, site, poe, strength], held) in tally.worst(&rare, 3) {
                 println!(
