@@ -280,8 +280,8 @@ impl Steps {
     }
 
     /// Moves what rocks on, without an impact and without a peak inside that could be the largest, to the end of the
-    /// sample interval, the begin of the next: a bit each of which does, and has not come to the end of the record.
-    /// The others stay.
+    /// sample interval, the begin of the next: a bit for each that does and has not reached the end of the record. The
+    /// others stay.
     #[inline(always)]
     fn rock_on<N: Numbers<LANES>>(&mut self, n: N, sweep: &Sweep<'_>, outcome: &Outcome<N::F64s>) -> u32 {
         let one = n.splat(1.0);

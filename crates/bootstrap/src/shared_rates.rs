@@ -12,10 +12,10 @@ use crate::unit_rates::unit_of;
 /// ratio. Linearised, one of U units deviates by U Σ w Σ p (1(u > c) − F), over the levels and the records of the unit.
 /// Shares that are all alike give the deviations of [`UnitRates`](crate::unit_rates::UnitRates).
 ///
-/// [`with_effective_units`](Self::with_effective_units) the scatter is known as well as by units that carry as much as
-/// λ has of them. A unit that has more of a level than others hides its own deviation, since F follows it. With
-/// [`with_leverage`](Self::with_leverage) it deviates by (1 − 1/U)/(1 − h) of that, h its share: what λ becomes without
-/// it (the jackknife of clusters).
+/// With [`with_effective_units`](Self::with_effective_units) the scatter counts as known from as many units as carry λ
+/// alike ([`SkewedMean::carried_by`]). A unit that has more of a level than others hides its own deviation, since F
+/// follows it. With [`with_leverage`](Self::with_leverage) it deviates by (1 − 1/U)/(1 − h) of that, h its share: what
+/// λ becomes without it (the jackknife of clusters).
 ///
 /// # Source
 /// J. G. `MacKinnon`, M. Ø. Nielsen, M. D. Webb, J. Appl. Econometrics 38 (2023), 671–694: the jackknife where clusters
@@ -52,13 +52,13 @@ impl SharedRates {
         Self { unit_of, shares: shares.to_vec(), of_units, leverage, carried: None, per_year: 0.0, deviations }
     }
 
-    /// The same of units that do not count alike.
+    /// The same, with the scatter known from fewer units than there are.
     pub(crate) fn with_effective_units(mut self) -> Self {
         self.carried = Some(vec![0.0; self.deviations.len()]);
         self
     }
 
-    /// The same of units that do not count alike, and of which one may have a level nearly alone.
+    /// The same of units of which one may have a level nearly alone.
     pub(crate) fn with_leverage(mut self) -> Self {
         let alike = 1.0 - 1.0 / self.deviations.len() as f64;
         // of a level that a unit has alone nothing is known without it: its ratio is its own

@@ -20,8 +20,8 @@ const ROUNDING: f64 = 1e-7;
 ///   2n/(κ − 1) − 1 for units of the kurtosis κ, rounded down, from 1 to n − 1: n − 1 where they are normal
 ///   (Satterthwaite's matching of moments); below it the quantile has n − 1, since a sample that holds the few large
 ///   units shows their scatter too;
-/// - of κ a sample shows too little as well, and never more than n: it is the adjusted one, and at least 3 + 3γ²/2,
-///   that of a gamma distribution as skewed.
+/// - a sample shows too little of κ as well, and never more than n: κ is adjusted for n, and at least 3 + 3γ²/2, that
+///   of a gamma distribution as skewed; three units show none, and leave one degree of freedom.
 ///
 /// Units that do not count alike tell less than their number: κ is adjusted for the number of units that count alike
 /// and whose variance is known as well, and there is one degree of freedom less than these, if that is less (Carter,
@@ -91,12 +91,15 @@ impl SkewedMean {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and the number of units")]
     pub fn degrees_of_freedom(&self, units: usize) -> [usize; 2] {
         let (n, excess) = (self.effective_units, self.kurtosis - 3.0);
-        // three units show none
-        let adjusted =
-            if n > 3.0 { (n - 1.0) * ((n + 1.0) * excess + 6.0) / ((n - 2.0) * (n - 3.0)) } else { f64::INFINITY };
+        // three units show none, whatever rounding leaves
+        let adjusted = if n > 3.0 + ROUNDING {
+            (n - 1.0) * ((n + 1.0) * excess + 6.0) / ((n - 2.0) * (n - 3.0))
+        } else {
+            f64::INFINITY
+        };
         let excess = adjusted.max(1.5 * self.skewness * self.skewness);
         let above = 2.0 * units as f64 / (excess + 2.0) - 1.0;
-        // 12 units that count alike are 12, whatever rounding leaves
+        // and 12 units that count alike are 12
         let most = n / self.units as f64 * units as f64 + ROUNDING - 1.0;
         [units.saturating_sub(1).max(1), above.min(most).max(1.0) as usize]
     }
@@ -258,7 +261,7 @@ pub(crate) mod tests {
 
     #[test]
     fn without_skewness_it_is_students_interval() {
-        // mean 3, s² = 2.5, κ = 1.7: 2 · 5/0.7 − 1 = 13.3 degrees of freedom, of which 4 are to be had; t = 2.131847
+        // mean 3, s² = 2.5, no skewness: κ = 3 at least, 2 · 5/2 − 1 = 4 degrees of freedom; t = 2.131847
         let found = of(&[1.0, 2.0, 3.0, 4.0, 5.0]);
         let half = 2.131_847 * (2.5_f64 / 5.0).sqrt();
         let [low, high] = found.interval(&StudentQuantiles::new(0.9, 4));

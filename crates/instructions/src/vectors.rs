@@ -1,8 +1,8 @@
 //! Several numbers at once, in the processor's own vectors.
 //!
 //! The compiler makes vectors of most loops over arrays by itself. It does not where a comparison of every number ends
-//! in one set of bits, which it takes apart number by number, nor of long chains of loops. For those the operations are
-//! named here. Every set of instructions rounds each operation alike, so the bits are the same.
+//! in one set of bits, which it takes apart number by number, nor from long chains of loops. For those the operations
+//! are named here. Every set of instructions rounds each operation alike, so the bits are the same.
 
 use std::array::from_fn;
 
@@ -163,7 +163,8 @@ mod x86_64 {
 
             $(
                 // SAFETY of each block: `self` says that the processor has the set; `$width` divides `$lanes`, the
-                // numbers of the array.
+                // numbers of the array; vectors hold their numbers one after another, and `number` asks whether there
+                // are so many.
                 impl Numbers<$lanes> for $token {
                     type F64s = [$vector; $lanes / $width];
 

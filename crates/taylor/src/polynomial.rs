@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 pub const DEGREE: usize = 25;
 
 /// How far one bound must be above another for roundings not to matter.
-const CERTAIN: f64 = 1.0 + 1e-12;
+pub(crate) const CERTAIN: f64 = 1.0 + 1e-12;
 
 /// What may be zero but for roundings, in parts of the sum of all terms.
 const ROUNDING: f64 = 1e-12;
@@ -51,8 +51,9 @@ pub fn sign_changes(c: &[f64], visit: &mut impl FnMut(f64) -> ControlFlow<()>) -
 }
 
 /// Whether the polynomial, which is `end` at 1, changes sign once in (0, 1), or not at all, if its own coefficients say
-/// so. Where it bends to one side throughout, or rises or falls, so do its Bernstein coefficients. If those at the ends
-/// are not zero but for roundings, they then change sign once if the ends have different signs.
+/// so. Where it rises, falls or bends to one side throughout, so do its Bernstein coefficients. Unless an end is zero
+/// to rounding, ends of different signs then mean one change; ends of one sign mean none if it rises or falls, or bends
+/// away from zero.
 fn crosses(c: &[f64], end: f64) -> Option<bool> {
     let [mut size, mut slope, mut bend] = [c[0].abs() + c[1].abs(), 0.0, 0.0];
     for (k, c) in (0_u32..).zip(c).skip(2) {

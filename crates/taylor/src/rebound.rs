@@ -22,9 +22,7 @@
 //! If that is no longer than w, the body is at rest by then, and stays so within w, as |A| < (1 + Z) tan α.
 
 use crate::forcing::Forcing;
-
-/// How far one bound must be above another for roundings not to matter.
-const CERTAIN: f64 = 1.0 + 1e-12;
+use crate::polynomial::CERTAIN;
 
 /// A body that leaves the ground after an impact.
 #[derive(Debug, Clone, Copy)]

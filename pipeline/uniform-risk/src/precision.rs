@@ -35,16 +35,17 @@ pub struct Precision {
     /// To how many earthquakes of equally many records these amount: 1/Σ (share of the records)².
     pub effective_events: Option<f64>,
     /// Half of the 90 % band of the truth over the ordinate, as the records tell it, one by one: the middle one, the
-    /// least and the most, of the sites and the strengths 0.1, 0.2 and 0.4.
+    /// least and the most, of the sites and the strengths 0.1, 0.2 and 0.4 at which the band has an upper limit.
     pub half_width: [f64; 3],
-    /// The middle one as their earthquakes tell it; infinite where most bands have no upper limit.
+    /// The middle one of the same bands as their earthquakes tell it; infinite where half of them or more have no upper
+    /// limit.
     pub half_width_by_event: Option<f64>,
     /// Records of the same kind that would halve it.
     pub records_for_half: usize,
 }
 
 /// The precision of the spectra by `measure`; none without sites, for a single record, and where no ordinate is finite
-/// and above 0.
+/// and above 0 with an upper limit.
 ///
 /// - `demand`: all demands of a strength, by its position.
 /// - `sites`: what the stripes weigh at each site.
@@ -69,7 +70,8 @@ pub fn precision(
     let target = uplift_hazard::rate_from_probability(poe, study.risk.years)?;
     let shown = nearest(&study.strengths, &SHOWN_STRENGTHS);
     let demands: Vec<PooledDemand> = shown.into_iter().map(demand).collect::<Result<_, _>>()?;
-    let widths = |units: &[Vec<usize>]| -> Result<Vec<f64>, UniformRiskError> {
+    // by strength and site
+    let widths = |units: &[Vec<usize>]| -> Result<Vec<Option<f64>>, UniformRiskError> {
         let of_site = |demand: &PooledDemand, weights: &StripeWeights| -> Result<Option<f64>, RiskError> {
             let ordinate = RiskCurve::new(demand, weights)?.exact_ordinate(target)?;
             let limits_m = truth_limits(demand, weights, units, &[target], CONFIDENCE)?;
@@ -79,16 +81,15 @@ pub fn precision(
         for demand in &demands {
             let of_sites: Result<Vec<Option<f64>>, RiskError> =
                 sites.par_iter().map(|weights| of_site(demand, weights)).collect();
-            all.extend(of_sites?.into_iter().flatten());
+            all.extend(of_sites?);
         }
-        all.sort_by(f64::total_cmp);
         Ok(all)
     };
-    let mut by_record = widths(&pairs)?;
-    by_record.retain(|width| width.is_finite());
-    let [Some(&least), Some(&most)] = [by_record.first(), by_record.last()] else { return Ok(None) };
+    let by_record = widths(&pairs)?;
     let is_shared = question.shares_earthquakes();
-    let by_event = if is_shared { widths(&earthquakes)? } else { Vec::new() };
+    let by_event = if is_shared { widths(&earthquakes)? } else { vec![None; by_record.len()] };
+    let [by_record, by_event] = where_records_tell(&by_record, &by_event);
+    let [Some(&least), Some(&most)] = [by_record.first(), by_record.last()] else { return Ok(None) };
     let squares: f64 = earthquakes.iter().map(|of_event| (of_event.len() as f64 / records as f64).powi(2)).sum();
     Ok(Some(Precision {
         im: measure.label(),
@@ -101,6 +102,17 @@ pub fn precision(
         half_width_by_event: (!by_event.is_empty()).then(|| quantile(&by_event, 0.5)),
         records_for_half: TIMES_FOR_HALF * counted,
     }))
+}
+
+/// The half-widths, ascending, where that by record is known and finite: elsewhere the two have nothing to compare.
+fn where_records_tell(by_record: &[Option<f64>], by_event: &[Option<f64>]) -> [Vec<f64>; 2] {
+    let is_told = |own: &Option<f64>| own.is_some_and(f64::is_finite);
+    [by_record, by_event].map(|of| {
+        let mut told: Vec<f64> =
+            of.iter().zip(by_record).filter(|(_, own)| is_told(own)).filter_map(|(width, _)| *width).collect();
+        told.sort_by(f64::total_cmp);
+        told
+    })
 }
 
 /// Half of the band over the ordinate, infinite of a band without an upper limit; none where the ordinate is 0 or
@@ -140,6 +152,14 @@ mod tests {
     use super::*;
 
     #[test]
+    fn half_widths_are_compared_where_records_tell_one() {
+        let (open, none) = (Some(f64::INFINITY), None);
+        let told = where_records_tell(&[open, Some(0.4), none, Some(0.2)], &[open, open, Some(0.1), Some(0.3)]);
+        assert_eq!(told, [vec![0.2, 0.4], vec![0.3, f64::INFINITY]]);
+        assert_eq!(where_records_tell(&[Some(0.4), open], &[none, none]), [vec![0.4], vec![]]);
+    }
+
+    #[test]
     fn half_widths_by_hand() {
         assert_eq!(half_width(0.2, [0.15, 0.3]), Some(0.5 * 0.15 / 0.2));
         assert_eq!(half_width(0.2, [0.15, f64::INFINITY]), Some(f64::INFINITY));
@@ -166,6 +186,8 @@ mod tests {
             "105 records of 22 earthquakes (effective 10): half-width of the 90 % band, 2 % in 50 years by PGV, ±16 % \
              (12 to 25 by site and strength); ±24 % by earthquake; 420 records would halve it"
         );
+        precision.half_width_by_event = Some(f64::INFINITY);
+        assert!(precision.words().contains("strength); no upper limit by earthquake; 420"), "{}", precision.words());
         (precision.events, precision.effective_events, precision.half_width_by_event) = (None, None, None);
         assert!(precision.words().starts_with("105 records: half-width of the 90 % band"));
     }

@@ -218,7 +218,7 @@ impl<N: Numbers<LANES>> Growing<'_, N> {
         let next = n.mul(n.mul(self.minus_p_squared, of_rate), self.moment);
         v[K + 1] = if K < LEAST_ORDER { next } else { n.if_at_most(*open, zero, zero, next) };
         x[K + 1] = n.mul(of_rate, v[K]);
-        // sums that do not begin at zero, and the sign last: a shorter chain, and only signs of zeros are others
+        // sums that do not begin at zero, and the sign last: a shorter chain, and only the signs of zeros differ
         let (mut falls, mut rises) = (n.mul(cosine[0], v[K]), n.mul(sine[0], v[K]));
         for j in 1..=K {
             falls = n.add(falls, n.mul(cosine[j], v[K - j]));
@@ -242,7 +242,7 @@ impl<N: Numbers<LANES>> Growing<'_, N> {
         let tail = n.larger(size, n.abs(v[K]));
         *open = n.if_at_most(tail, n.mul(n.splat(TRUNCATION), self.largest), zero, *open);
         *orders = n.add(*orders, *open);
-        // looked at every other time, as the processor seldom guesses right
+        // asked at every other order: the branch is hard to predict
         K % 2 == 1 && n.at_most(*open, zero) == (1 << LANES) - 1
     }
 }
