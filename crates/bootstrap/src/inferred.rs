@@ -3,7 +3,7 @@
 use uplift_risk::{PooledDemand, RiskError, RunWeights, StripeWeights};
 
 use crate::shared_rates::SharedRates;
-use crate::skewed_mean::{Deviates, SkewedMean, StudentQuantiles};
+use crate::skewed_mean::{Deviates, SkewedMean, StudentQuantiles, of_side};
 use crate::unit_rates::UnitRates;
 
 /// Where the deviate of a target is less, that of a larger target is below −1, whatever rounding leaves of either.
@@ -198,7 +198,7 @@ fn searches<const KINDS: usize>(
                         continue;
                     }
                     let deviate = deviates.of(target);
-                    let deviate = deviate * per_quantile[usize::from(deviate < 0.0)];
+                    let deviate = deviate * of_side(per_quantile, deviate);
                     search.see(deviate, from_m, to_m);
                     is_open |= !search.was_beyond;
                     if deviate < SURELY_BELOW {

@@ -4,7 +4,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 use uplift_risk::{PooledDemand, RiskError, StripeWeights};
 
 use crate::inferred::{Rates, Search, Step, check, check_target, fall, mean_of};
-use crate::skewed_mean::{SkewedMean, StudentQuantiles};
+use crate::skewed_mean::{SkewedMean, StudentQuantiles, of_side};
 
 /// Limits of the rate at which `threshold_m` is exceeded, 1/yr, by all records there could be and by one of several
 /// hazard curves.
@@ -134,7 +134,7 @@ impl Mixture {
                 return f64::from(u8::from(mean.mean <= value));
             }
             let deviate = mean.deviate(value, mean.units);
-            let freedom = mean.degrees_of_freedom(mean.units)[usize::from(deviate < 0.0)];
+            let freedom = of_side(mean.degrees_of_freedom(mean.units), deviate);
             self.students[freedom.min(self.students.len()) - 1].cdf(-deviate)
         };
         self.weights.iter().zip(means).map(|(weight, mean)| weight * of_curve(mean)).sum()

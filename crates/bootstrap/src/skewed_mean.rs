@@ -113,7 +113,7 @@ impl SkewedMean {
     /// all units there could be.
     pub(crate) fn place(&self, value: f64, of_freedom: &StudentQuantiles) -> f64 {
         let deviate = self.deviate(value, self.units);
-        deviate / self.quantiles(of_freedom, self.units)[usize::from(deviate < 0.0)]
+        deviate / of_side(self.quantiles(of_freedom, self.units), deviate)
     }
 
     /// The interval of the mean over all units there could be, at the level of `quantiles`; NaN of a single unit. The
@@ -134,6 +134,11 @@ impl SkewedMean {
             (self.mean - t * self.deviation / root).max(0.0)
         })
     }
+}
+
+/// What holds for a value below the mean, where its deviate is positive, or else above it.
+pub(crate) fn of_side<T>([below, above]: [T; 2], deviate: f64) -> T {
+    if deviate < 0.0 { above } else { below }
 }
 
 /// What the skewness of a sample is too small by.
