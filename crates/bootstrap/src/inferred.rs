@@ -3,13 +3,11 @@
 use uplift_risk::{PooledDemand, RiskError, RunWeights, StripeWeights};
 
 use crate::shared_rates::SharedRates;
-use crate::skewed_mean::{Deviates, SkewedMean, StudentQuantiles, of_side};
+use crate::skewed_mean::{AboveInterval, SkewedMean, StudentQuantiles, of_side};
 use crate::unit_rates::UnitRates;
 
 /// Where the deviate of a target is less, that of a larger target is below −1, whatever rounding leaves of either.
-const SURELY_BELOW: f64 = -1.0 - 1e-9;
-/// Further than this from a quantile, a deviate is on its side whatever rounding leaves of either.
-const MARGIN: f64 = 1e-6;
+pub(crate) const SURELY_BELOW: f64 = -1.0 - 1e-9;
 
 /// Limits of an ordinate beyond the set that it was computed with.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,22 +49,6 @@ pub fn inferred_limits(
     limits(demand, weights, (Rates::from_demand(demand, units), units), targets_per_year, (sizes, confidence))
 }
 
-/// The limits of the truth alone, m, `[target]`, to the bit those of [`inferred_limits`] for as many units as the set
-/// has.
-///
-/// # Errors
-/// As [`inferred_limits`].
-pub fn truth_limits(
-    demand: &PooledDemand,
-    weights: &StripeWeights,
-    units: &[Vec<usize>],
-    targets_per_year: &[f64],
-    confidence: f64,
-) -> Result<Vec<[f64; 2]>, RiskError> {
-    check(demand, weights, units)?;
-    truths(demand, weights, (Rates::from_demand(demand, units), units), targets_per_year, confidence)
-}
-
 /// The same of records that count as `weights` say, repaired: the weights are taken as they are.
 ///
 /// # Errors
@@ -83,21 +65,6 @@ pub fn repaired_limits(
     limits(demand, weights.stripes(), (rates, units), targets_per_year, (sizes, confidence))
 }
 
-/// The limits of the truth alone of records that count as `weights` say, as [`truth_limits`].
-///
-/// # Errors
-/// As [`inferred_limits`].
-pub fn repaired_truth_limits(
-    demand: &PooledDemand,
-    weights: &RunWeights,
-    units: &[Vec<usize>],
-    targets_per_year: &[f64],
-    confidence: f64,
-) -> Result<Vec<[f64; 2]>, RiskError> {
-    check(demand, weights.stripes(), units)?;
-    truths(demand, weights.stripes(), (Rates::weighted(weights, units), units), targets_per_year, confidence)
-}
-
 fn limits(
     demand: &PooledDemand,
     weights: &StripeWeights,
@@ -112,33 +79,21 @@ fn limits(
     Ok(searches(demand, weights, rates, targets_per_year, asked)?.into_iter().map(of).collect())
 }
 
-fn truths(
-    demand: &PooledDemand,
-    weights: &StripeWeights,
-    (rates, units): (Rates, &[Vec<usize>]),
-    targets_per_year: &[f64],
-    confidence: f64,
-) -> Result<Vec<[f64; 2]>, RiskError> {
-    let asked = (&[units.len()][..], confidence);
-    let found = searches(demand, weights, (rates, units), targets_per_year, asked)?;
-    Ok(found.into_iter().map(|[truth]: [Search; 1]| truth.limits_m()).collect())
-}
-
-/// The bands of each target and size, `[target, size]`: that of the truth and, of two `KINDS`, that of another set.
-fn searches<const KINDS: usize>(
+/// The bands of each target and size, `[target, size]`: that of the truth, and that of another set.
+fn searches(
     demand: &PooledDemand,
     weights: &StripeWeights,
     (mut rates, units): (Rates, &[Vec<usize>]),
     targets_per_year: &[f64],
     (sizes, confidence): (&[usize], f64),
-) -> Result<Vec<[Search; KINDS]>, RiskError> {
+) -> Result<Vec<[Search; 2]>, RiskError> {
     targets_per_year.iter().try_for_each(|target| check_target(*target))?;
     if units.len() < 2 {
-        return Ok(vec![[Search::NONE; KINDS]; targets_per_year.len() * sizes.len()]);
+        return Ok(vec![[Search::NONE; 2]; targets_per_year.len() * sizes.len()]);
     }
     let most = sizes.iter().copied().max().unwrap_or(1).max(units.len());
     let quantiles = StudentQuantiles::new(confidence, most);
-    let mut searches = vec![[Search::default(); KINDS]; targets_per_year.len() * sizes.len()];
+    let mut searches = vec![[Search::default(); 2]; targets_per_year.len() * sizes.len()];
     let per_year = weights.per_year();
     let all = units.len();
     let root = |units: usize| (units as f64).sqrt();
@@ -146,52 +101,15 @@ fn searches<const KINDS: usize>(
     // its own scatter is added to that of the set
     let of_sizes: Vec<(usize, f64, f64)> =
         sizes.iter().map(|&size| (size, root(size), (1.0 + all as f64 / size as f64).sqrt())).collect();
-    // the least first: where the band of a target has not been reached, those of larger ones have not
-    let mut rising: Vec<(f64, usize)> = targets_per_year.iter().copied().zip(0..).collect();
-    rising.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let least_target = rising.first().map_or(0.0, |own| own.0);
-    let [smallest_quantile, largest_quantile] = [all - 1, 1].map(|at| quantiles.at(at));
+    let rising = rising(targets_per_year);
     let mut look = |rates: &Rates, from_m: f64, to_m: f64| {
-        // a fall begins far above every band, where the mean alone tells; with other sizes it does not
-        if KINDS == 1 && rates.is_far_below(least_target, largest_quantile) {
-            return true;
-        }
-        // as far from all quantiles as most steps are, a deviate needs none of them
-        if KINDS == 1
-            && let Some(deviates) = rates.deviates()
-        {
-            let (mut is_clear, mut is_open) = (true, false);
-            for &(target, row) in &rising {
-                let search = &mut searches[row][0];
-                if search.was_beyond {
-                    continue;
-                }
-                let deviate = deviates.of(target);
-                is_clear = deviate.abs() < smallest_quantile - MARGIN
-                    || deviate > smallest_quantile + MARGIN
-                    || deviate < -largest_quantile - MARGIN;
-                if !is_clear {
-                    break;
-                }
-                search.see(deviate / smallest_quantile, from_m, to_m);
-                is_open |= !search.was_beyond;
-                if deviate < -largest_quantile {
-                    break;
-                }
-            }
-            if is_clear {
-                return is_open;
-            }
-        }
         let mean = rates.mean();
         let of_units = |units: usize, root| (mean.deviates(root), mean.quantiles(&quantiles, units).map(f64::recip));
-        let of_set = (KINDS > 1).then(|| of_units(all, root_of_all));
+        let (of_set, per_quantile_of_set) = of_units(all, root_of_all);
         let mut is_open = false;
         for (place, &(size, root, wider)) in of_sizes.iter().enumerate() {
-            let of_another = of_set.map(|(deviates, per_quantile)| (deviates, per_quantile.map(|per| per / wider)));
-            for (kind, (deviates, per_quantile)) in
-                [Some(of_units(size, root)), of_another].into_iter().flatten().enumerate()
-            {
+            let of_another = (of_set, per_quantile_of_set.map(|per| per / wider));
+            for (kind, (deviates, per_quantile)) in [of_units(size, root), of_another].into_iter().enumerate() {
                 for &(target, row) in &rising {
                     let search = &mut searches[row * sizes.len() + place][kind];
                     if search.was_beyond {
@@ -217,6 +135,14 @@ fn searches<const KINDS: usize>(
         }
     });
     Ok(searches)
+}
+
+/// Targets with their positions, the least first: where the band of one has not been reached, those of larger ones have
+/// not.
+pub(crate) fn rising(targets_per_year: &[f64]) -> Vec<(f64, usize)> {
+    let mut rising: Vec<(f64, usize)> = targets_per_year.iter().copied().zip(0..).collect();
+    rising.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    rising
 }
 
 /// Limits of the rate at which `threshold_m` is exceeded, 1/yr, by all records there could be: the interval that
@@ -282,9 +208,15 @@ pub fn inferred_mean(
 /// The mean of what each record contributes, 1/yr, with the scatter of its units.
 pub(crate) fn mean_of(contributions_per_year: &[f64], units: &[Vec<usize>]) -> Result<SkewedMean, RiskError> {
     fits("records of the units", units.iter().map(Vec::len).sum(), contributions_per_year.len())?;
-    let mut rates = UnitRates::new(units);
-    contributions_per_year.iter().enumerate().for_each(|(record, per_year)| rates.add(record, *per_year));
-    Ok(rates.mean())
+    let (count, records) = (units.len() as f64, contributions_per_year.len() as f64);
+    let mean = contributions_per_year.iter().sum::<f64>() / records;
+    // a unit deviates by the linearised ratio of the cluster bootstrap
+    let deviation = |unit: &Vec<usize>| {
+        unit.iter().map(|&record| contributions_per_year[record] - mean).sum::<f64>() * count / records
+    };
+    let deviations: Vec<f64> = units.iter().map(deviation).collect();
+    let moment = |power: i32| deviations.iter().map(|own| own.powi(power)).sum::<f64>() / count;
+    Ok(SkewedMean::new(mean, [2, 3, 4].map(moment), units.len()))
 }
 
 /// A step of a displacement that falls through all runs.
@@ -312,6 +244,7 @@ pub(crate) fn fall(demand: &PooledDemand, mut take: impl FnMut(Step) -> bool) {
 }
 
 /// The rate of the runs gone through, with the scatter of its units.
+#[derive(Debug, Clone)]
 pub(crate) enum Rates {
     /// Of records that are all run at every level.
     Alike(UnitRates),
@@ -334,7 +267,7 @@ impl Rates {
         }
     }
 
-    fn weighted(weights: &RunWeights, units: &[Vec<usize>]) -> Self {
+    pub(crate) fn weighted(weights: &RunWeights, units: &[Vec<usize>]) -> Self {
         Self::Shared(SharedRates::new(units, weights.shares()).with_effective_units())
     }
 
@@ -352,21 +285,19 @@ impl Rates {
         }
     }
 
-    /// The deviates of [`mean`](Self::mean), to rounding, where they are to be had in less time.
-    fn deviates(&self) -> Option<Deviates> {
+    /// The mean alone.
+    pub(crate) fn per_year(&self) -> f64 {
         match self {
-            Self::Alike(rates) => rates.deviates(),
-            Self::Shared(_) => None,
+            Self::Alike(rates) => rates.per_year(),
+            Self::Shared(rates) => rates.per_year,
         }
     }
 
-    /// Whether the deviate from `target` is below −`quantile` however the units scatter, known from their mean m alone.
-    ///
-    /// No unit is negative: s/√n is at most m and γ/√n at most 1, as of a single unit that carries all. Then T is at
-    /// most 1 − target/m, and the cubic g(T) of [`SkewedMean`] at most 1/6 + T/4, whatever γ is.
-    fn is_far_below(&self, target: f64, quantile: f64) -> bool {
+    /// Whether `target` is surely above the interval of the `mean`: told where that takes less time than the
+    /// [`mean`](Self::mean) itself.
+    pub(crate) fn is_below(&self, target: f64, mean: f64, above: &AboveInterval) -> bool {
         match self {
-            Self::Alike(rates) => target > (2.0 + 4.0 * quantile) * rates.per_year(),
+            Self::Alike(rates) => rates.is_below(target, mean, above),
             Self::Shared(_) => false,
         }
     }
@@ -391,7 +322,7 @@ fn fits(what: &'static str, found: usize, expected: usize) -> Result<(), RiskErr
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Search {
     /// Least and largest displacement that belong to it, m.
-    found_m: Option<[f64; 2]>,
+    pub(crate) found_m: Option<[f64; 2]>,
     /// Where the deviate leaves the band, or leaps over the whole of it.
     leap_m: f64,
     /// Whether it has left: nothing more comes to it.

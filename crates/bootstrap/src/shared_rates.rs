@@ -10,7 +10,7 @@ use crate::unit_rates::unit_of;
 /// level: λ(c) = Σ w F over the levels, F = Σ p 1(u > c) over the records. A sample that draws a record more often has
 /// the more of it at every level that it belongs to, and the shares of a sample are made to add up to 1 again: F is a
 /// ratio. Linearised, one of U units deviates by U Σ w Σ p (1(u > c) − F), over the levels and the records of the unit.
-/// Shares that are all alike give the deviations of [`UnitRates`](crate::unit_rates::UnitRates).
+/// Shares that are all alike give the deviations of [`inferred_mean`](crate::inferred_mean).
 ///
 /// With [`with_effective_units`](Self::with_effective_units) the scatter counts as known from as many units as carry λ
 /// alike ([`SkewedMean::carried_by`]). A unit that has more of a level than others hides its own deviation, since F
@@ -33,7 +33,7 @@ pub(crate) struct SharedRates {
     /// What each unit carries of λ, 1/yr; none where units count alike.
     carried: Option<Vec<f64>>,
     /// λ so far, 1/yr.
-    per_year: f64,
+    pub(crate) per_year: f64,
     /// The deviation of each unit, 1/yr.
     deviations: Vec<f64>,
 }
@@ -101,19 +101,21 @@ impl SharedRates {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::unit_rates::UnitRates;
+    use crate::inferred::mean_of;
 
     #[test]
     fn shares_that_are_alike_give_the_rates_of_units() {
         let units = [vec![0, 3], vec![1], vec![2, 4, 5]];
         let per_year = [0.1, 0.05, 0.2];
-        let (mut alike, mut shared) = (UnitRates::new(&units), SharedRates::new(&units, &[1.0 / 6.0; 18]));
+        let mut shared = SharedRates::new(&units, &[1.0 / 6.0; 18]);
+        let mut contributions = [0.0; 6];
         for (record, level) in [(0, 0), (4, 2), (1, 1), (0, 2), (2, 1), (5, 0)] {
-            alike.add(record, per_year[level]);
+            contributions[record] += per_year[level];
             shared.add(record, level, per_year[level]);
         }
-        let (alike, shared) = (alike.mean(), shared.mean());
+        let (alike, shared) = (mean_of(&contributions, &units).unwrap(), shared.mean());
         assert!((alike.mean - shared.mean).abs() < 1e-15, "{alike:?} {shared:?}");
         assert!((alike.deviation - shared.deviation).abs() < 1e-13, "{alike:?} {shared:?}");
         assert!((alike.skewness - shared.skewness).abs() < 1e-9 && (alike.kurtosis - shared.kurtosis).abs() < 1e-9);

@@ -90,16 +90,12 @@ impl SkewedMean {
     /// Degrees of freedom of the quantiles of `units` such units, for values below and above the mean.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and the number of units")]
     pub fn degrees_of_freedom(&self, units: usize) -> [usize; 2] {
-        let (n, excess) = (self.effective_units, self.kurtosis - 3.0);
+        let n = self.effective_units;
         // three units show none, whatever rounding leaves
-        let adjusted = if n > 3.0 + ROUNDING {
-            (n - 1.0) * ((n + 1.0) * excess + 6.0) / ((n - 2.0) * (n - 3.0))
-        } else {
-            f64::INFINITY
-        };
+        let adjusted = if n > 3.0 + ROUNDING { adjusted_excess(n, self.kurtosis) } else { f64::INFINITY };
         let excess = adjusted.max(1.5 * self.skewness * self.skewness);
         let above = 2.0 * units as f64 / (excess + 2.0) - 1.0;
-        // and 12 units that count alike are 12
+        // 12 units that count alike are 12
         let most = n / self.units as f64 * units as f64 + ROUNDING - 1.0;
         [units.saturating_sub(1).max(1), above.min(most).max(1.0) as usize]
     }
@@ -134,6 +130,11 @@ impl SkewedMean {
             (self.mean - t * self.deviation / root).max(0.0)
         })
     }
+}
+
+/// The kurtosis of `n` units above that of a normal variable, adjusted for their number.
+fn adjusted_excess(n: f64, kurtosis: f64) -> f64 {
+    (n - 1.0) * ((n + 1.0) * (kurtosis - 3.0) + 6.0) / ((n - 2.0) * (n - 3.0))
 }
 
 /// What holds for a value below the mean, where its deviate is positive, or else above it.
@@ -172,37 +173,64 @@ impl Deviates {
     }
 }
 
-/// The [`Deviates`] of a mean to rounding, in a third of the time of [`SkewedMean::deviates`]: all that is of the
-/// number of units is worked out once.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct QuickDeviates {
-    /// Standard error of the mean over √Σ d² of the deviations d.
-    error: f64,
-    /// Adjustment of the skewness.
+/// Tells that a value lies above the interval of a [`SkewedMean`] of units that count alike, without a root, and with
+/// one division: as many means as a displacement falls through are looked at.
+///
+/// With D₂, D₃ and D₄ the sums of powers of the deviations, G = √D₂ g(T) and y = γT/(3√n),
+/// G = −√(n(n−1)) (value − mean) (1 + y + y²/3) + A D₃/(6 D₂): a value above the mean is above
+/// its interval where G < 0 and G² > q² D₂.
+#[derive(Debug, Clone)]
+pub(crate) struct AboveInterval {
+    units: f64,
+    /// √(n(n−1)).
+    per_error: f64,
+    /// The adjustment A of the skewness.
     adjustment: f64,
-    /// Least Σ d² over the mean squared.
-    least: f64,
+    /// The adjusted kurtosis, less 3, over κ, and what it is more.
+    excess: [f64; 2],
+    /// Squares of the quantiles by the excess of the kurtosis, plus 2, rounded down.
+    squares: Vec<f64>,
 }
 
-impl QuickDeviates {
-    /// Of `units` whose deviations from their mean are given times `1/scale`.
-    pub(crate) fn new(scale: f64, units: usize) -> Self {
+impl AboveInterval {
+    /// What rounding may change of a number, and more.
+    const MARGIN: f64 = 1.0 + 1e-6;
+
+    /// Of so many units.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and the number of units")]
+    pub(crate) fn new(quantiles: &StudentQuantiles, units: usize) -> Self {
         let n = units as f64;
+        let at = |kurtosis: f64| adjusted_excess(n, kurtosis);
+        // the largest that its bin can have
+        let square = |bin: usize| {
+            let freedom = 2.0 * n / ((bin + 1) as f64 * Self::MARGIN) - 1.0;
+            quantiles.at(freedom.clamp(1.0, n - 1.0) as usize).powi(2) * Self::MARGIN
+        };
         Self {
-            error: scale / (n * (n - 1.0)).sqrt(),
+            units: n,
+            per_error: (n * (n - 1.0)).sqrt(),
             adjustment: adjustment(units),
-            least: n * (ROUNDING / scale).powi(2),
+            excess: if units > 3 { [at(1.0) - at(0.0), at(0.0)] } else { [0.0, f64::INFINITY] },
+            squares: (0..=units).map(square).collect(),
         }
     }
 
-    /// From the sums of the second and third powers of the deviations; none where these are those of rounding.
-    pub(crate) fn of(&self, mean: f64, [second, third]: [f64; 2]) -> Option<Deviates> {
-        let root = second.sqrt();
-        (second > self.least * mean * mean).then(|| Deviates {
-            mean,
-            per_error: 1.0 / (self.error * root),
-            a: self.adjustment * third / (second * root),
-        })
+    /// Whether `value` is surely above that of this `mean`, with the second to fourth powers of the deviations summed.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above 1, and held below the last")]
+    pub(crate) fn has(&self, value: f64, mean: f64, [second, third, fourth]: [f64; 3]) -> bool {
+        let per_second = 1.0 / second;
+        let skewed = self.adjustment * third * per_second;
+        let distance = self.per_error * (value - mean);
+        let y = -(1.0 / 3.0) * skewed * distance * per_second;
+        let g = -distance * (1.0 + y * (1.0 + (1.0 / 3.0) * y)) + (1.0 / 6.0) * skewed;
+        let [slope, at_zero] = self.excess;
+        let adjusted = slope * self.units * fourth * per_second * per_second + at_zero;
+        let least = 1.5 * self.units * skewed * skewed * per_second;
+        let excess = if adjusted > least { adjusted } else { least };
+        // held first, it is converted in a moment
+        let bin = if excess + 2.0 < self.units { (excess + 2.0) as u32 as usize } else { self.squares.len() - 1 };
+        distance > 0.0 && g < 0.0 && g * g > self.squares[bin] * second
     }
 }
 
