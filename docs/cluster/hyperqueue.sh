@@ -12,11 +12,12 @@
 #
 # Tasks are handed to workers as these are free, so there may be many more shards than cores, and workers may come and
 # go: HyperQueue starts a task that lost its worker again, and it goes on where it stopped. After anything else (hq job
-# cancel, a full disk), type the same line again, with the same SHARDS.
+# cancel, Ctrl-C, a full disk), type the same line again, with the same SHARDS.
 #
 # A large table of sites is cut into SLICES as well: further tasks compute them, and the last one joins them.
 #
-# The program is `uplift` in your PATH, or what the variable UPLIFT says; a task has CPUS cores (4 unless you set it).
+# The program is `uplift` in your PATH, or what the variable UPLIFT says; a task has CPUS cores (4 unless you set it: a
+# worker with fewer gets none, and `hq task explain last 1` says so).
 set -euo pipefail
 
 uplift=${UPLIFT:-uplift} cpus=${CPUS:-4}
@@ -28,25 +29,42 @@ slices=${SLICES:-1}
 shard() { printf '%s.shard-%0*d-of-%d' "${result%.h5}" "${#shards}" "$1" "$shards"; }
 slice() { printf '%s.slice-%0*d-of-%d.h5' "${result%.h5}" "${#slices}" "$1" "$slices"; }
 
+# two files of one name write over each other in HyperQueue
+[ "$step" = submit ] || exec 2>&1
+
 case $step in
 submit)
     # a mistake is found here, not in the queue
     "$uplift" check --quiet "$study"
+    # a worker has the PATH of the shell it was started in
+    uplift=$(command -v "$uplift")
     mkdir -p "$(dirname "$result")/logs"
     log=$(dirname "$result")/logs/$(basename "$result" .h5)
-    submit=(hq submit --wait --cpus "$cpus" --env "UPLIFT=$uplift" --env "CPUS=$cpus" --env "SLICES=$slices")
-    "${submit[@]}" --name uplift --array "1-$shards" --stdout "$log.%{TASK_ID}.log" --stderr "$log.%{TASK_ID}.log" \
-        -- bash "$0" "$study" "$shards" "$result" stripes
-    # --wait ends badly where a task did, and then there is nothing to join
-    "${submit[@]}" --name uplift-join --stdout "$log.join.log" --stderr "$log.join.log" \
-        -- bash "$0" "$study" "$shards" "$result" join
+    # submit NAME LOG STEP [OPTION...]: one job, waited for. How its tasks ended is asked for, since waiting ends well
+    # anyway (from HyperQueue 0.25 on); where one did not end well there is nothing to go on with.
+    submit() {
+        local all finished
+        job=$(hq submit --output-mode quiet --name "$1" --cpus "$cpus" --crash-limit 100 --env "UPLIFT=$uplift" \
+            --env "CPUS=$cpus" --env "SLICES=$slices" --stdout "$log.$2.log" --stderr none "${@:4}" \
+            -- bash "$0" "$study" "$shards" "$result" "$3")
+        echo "$1: job $job"
+        hq job wait "$job" || true
+        all=$(hq job task-ids "$job")
+        finished=$(hq job task-ids "$job" --filter finished)
+        [ "$all" = "$finished" ] ||
+            { echo "not all tasks ended well: hq job info $job; logs: $log.*.log" >&2 && exit 1; }
+    }
+    # nothing is left in the queue that the same line, typed again, would run into
+    job='' && trap '[ -z "$job" ] || hq job cancel "$job" >/dev/null 2>&1 || true' EXIT
+    submit uplift '%{TASK_ID}' stripes --array "1-$shards"
+    last=join
+    submit uplift-join "$last" join
     if [ "$slices" != 1 ]; then
-        "${submit[@]}" --name uplift-sites --array "2-$slices" --stdout "$log.sites.%{TASK_ID}.log" \
-            --stderr "$log.sites.%{TASK_ID}.log" -- bash "$0" "$study" "$shards" "$result" sites
-        "${submit[@]}" --name uplift-join --stdout "$log.join.log" --stderr "$log.join.log" \
-            -- bash "$0" "$study" "$shards" "$result" join-sites
+        submit uplift-sites 'sites.%{TASK_ID}' sites --array "2-$slices"
+        last=join-sites
+        submit uplift-join "$last" join-sites
     fi
-    cat "$log.join.log"
+    cat "$log.$last.log"
     ;;
 stripes)
     exec "$uplift" run "$study" --shard "$HQ_TASK_ID/$shards" --output "$(shard "$HQ_TASK_ID")" --threads "$cpus"
