@@ -46,6 +46,34 @@ fn a_structure_known_by_hand() {
     assert_eq!(of[1], ["block_oscillator_pga_lognormal", "1", "Peak Ground Acceleration", "g"]);
 }
 
+// between the levels 0.12 g, at which nothing lifts the block, and 0.3 g, at which two of three records overturn it
+#[test]
+fn demands_of_a_structure_known_by_hand() {
+    let study = steps();
+    let asked = ["export", "r.h5", "--demand", "here", "--structure", "block.toml", "--return-period", "475"];
+    let run = study.uplift(&asked).ok();
+    assert!(run.stderr.contains("location 1: block oscillator, location 2: block block"), "{run:?}");
+    let (names, table) = rows(&study, "r.demand.csv");
+    assert_eq!(names, ["record", "1-PGA-0-1", "1-DEC-1-1", "1-DEC-2-1"]);
+    assert_eq!(table[0], ["Units", "g", "m", "m"]);
+    let level: f64 = table[1][1].parse().unwrap();
+    assert!(level > 0.12 && level < 0.3, "{level}");
+    for (row, name) in table[1..].iter().zip(["A", "B", "C"]) {
+        let block_m: f64 = row[3].parse().unwrap();
+        assert_eq!((row[0].as_str(), block_m.is_infinite()), (name, name != "B"), "{row:?}");
+        assert!(name != "B" || block_m < 1e-3, "{row:?}");
+    }
+    let export = |more: &[&str]| study.uplift(&[&["export", "r.h5", "--demand", "Here"], more].concat());
+    export(&[]).fails(2, &["--strength", "--structure"]);
+    export(&["--strength", "0.3"]).fails(2, &["--strength 0.3", "0.1"]);
+    export(&["--strength", "0.1", "--poe", "0.02,0.1"]).fails(2, &["one probability"]);
+    export(&["--strength", "0.1", "--poe", "0.02", "--years", "500"]).fails(2, &["last level, 0.8 g"]);
+    export(&["--strength", "0.1", "--capacity-share", "0.4"]).fails(2, &["--capacity-share"]);
+    export(&["--strength", "0.1", "--fragility", "csv"]).fails(2, &["--fragility"]);
+    study.uplift(&["export", "r.h5", "--demand", "Rome", "--strength", "0.1"]).fails(2, &["--demand Rome", "Here"]);
+    study.uplift(&["export", "r.h5", "--strength", "0.1"]).fails(2, &["--fragility", "--demand"]);
+}
+
 #[test]
 fn the_curves_are_those_of_overturning() {
     let study = SmallStudy::new();

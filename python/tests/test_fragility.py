@@ -80,26 +80,30 @@ def test_openquake_reads_the_model_and_its_damage_is_our_risk(program, openquake
     assert done.returncode == 0, done.stderr
 
 
-def test_pelicun_loads_the_table_and_its_damage_is_our_curve(program, result):
+def pelicun_damage(folder, table, asked):
+    """What pelicun computes of a fragility table in `folder`, see pelicun_damage.py."""
     if not (PELICUN / "pelicun").is_dir():
         install = "pip install --no-deps --target python/target/pelicun -r python/tests/requirements-pelicun.txt"
         skip_or_fail("pelicun", install)
-    for form in ("csv", "pelicun"):
-        program(result, "export", "r.h5", "--fragility", form, "--structure", "block.toml", "--force", "-q")
-    table = pandas.read_csv(result / "r.fragility.csv")
-    samples = 4000
-    levels = sorted(set(table.level))
     done = subprocess.run(
-        [sys.executable, TESTS / "pelicun_damage.py", result / "r.pelicun.csv"],
-        input=json.dumps({"cm_s": levels, "samples": samples}),
+        [sys.executable, TESTS / "pelicun_damage.py", folder / table],
+        input=json.dumps(asked),
         env=os.environ | {"PYTHONPATH": str(PELICUN)},
-        cwd=result,
+        cwd=folder,
         capture_output=True,
         text=True,
         timeout=LIMIT_S,
     )
     assert done.returncode == 0, done.stderr
-    found = json.loads(done.stdout)
+    return json.loads(done.stdout)
+
+
+def test_pelicun_loads_the_table_and_its_damage_is_our_curve(program, result):
+    for form in ("csv", "pelicun"):
+        program(result, "export", "r.h5", "--fragility", form, "--structure", "block.toml", "--force", "-q")
+    table = pandas.read_csv(result / "r.fragility.csv")
+    levels = sorted(set(table.level))
+    found = pelicun_damage(result, "r.pelicun.csv", {"cm_s": levels, "samples": 4000})
     assert {"block_oscillator_pgv", "block_block_pgv"} <= set(found), found
     for component, shares in found.items():
         curves = table[table.id == component.removesuffix("_lognormal")]
@@ -113,3 +117,28 @@ def test_pelicun_loads_the_table_and_its_damage_is_our_curve(program, result):
                 continue
             # stratified samples of one capacity are nearly exact, and all limit states share it
             np.testing.assert_allclose(np.array(shares)[:, place], expected, atol=0.03, err_msg=f"{component} {state}")
+
+
+def test_pelicun_loads_the_demands_and_finds_the_records_that_exceed_a_joint(program, result):
+    h5py = pytest.importorskip("h5py")
+    # 1e-3 a year lies between 2 and 20 cm/s of the curve
+    program(result, "export", "r.h5", "--demand", "Here", "--return-period", "1000", "--strength", "0.1,0.2", "-q")
+    demands = pandas.read_csv(result / "r.demand.csv", index_col="record")
+    level = float(demands["1-PGV-0-1"].iloc[1])
+    assert level == pytest.approx(2 * 10 ** (np.log(50) / np.log(100)), rel=1e-12)
+    with h5py.File(result / "r.h5") as file:
+        edp_m = file["/ida/pgv/edp_m"][:]  # record, strength, level
+    levels = [1, 3, 10, 30, 60, 100]
+    for strength, location in enumerate(["1", "2"]):
+        expected_m = [np.interp(level, levels, curve) for curve in edp_m[:, strength]]
+        found_m = demands[f"1-DEC-{location}-1"]
+        assert found_m["Units"] == "m"
+        np.testing.assert_allclose(found_m.iloc[1:].astype(float), expected_m, rtol=1e-12)
+        # a joint that every displacement above the third largest breaks
+        threshold_m = np.sort(expected_m)[-3:-1].mean()
+        (result / "joint.csv").write_text(
+            "ID,Incomplete,Demand-Type,Demand-Unit,Demand-Offset,Demand-Directional,LS1-Family,LS1-Theta_0,LS1-Theta_1,"
+            f"LS1-DamageStateWeights\njoint,0,Peak Deck Displacement,m,0,1,,{threshold_m},,\n"
+        )
+        found = pelicun_damage(result, "joint.csv", {"demands": "r.demand.csv", "location": location})
+        assert found == {"joint": [[2 / 20]]}

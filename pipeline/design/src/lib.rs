@@ -35,7 +35,7 @@ pub use frame_risk::{
     Banded, DirectionEffect, EventReport, FrameOverturning, FrameRiskOptions, FrameRiskReport, ModelDemand, RiskPoint,
     StateAtDemand, frame_model, frame_risk, frame_risk_shard,
 };
-pub use limits::{LimitOptions, LimitState, LimitStripes, independent_records, limit_stripes};
+pub use limits::{CAPACITY_SHARE, LimitOptions, LimitState, LimitStripes, independent_records, limit_stripes};
 pub use overturning::{
     CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning, overturning_shard,
 };

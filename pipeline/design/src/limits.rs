@@ -28,6 +28,9 @@ pub struct LimitOptions {
     pub capacity_share: f64,
 }
 
+/// The [part of the capacity](LimitOptions::capacity_share) that is a limit state unless another is asked for.
+pub const CAPACITY_SHARE: f64 = 0.5;
+
 /// A limit state: a displacement that is exceeded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LimitState {
@@ -50,6 +53,8 @@ pub struct LimitStripes {
     pub levels: Vec<f64>,
     /// Peak displacements of the model `[record, level]`, m; infinite where it overturns.
     pub demands_m: Vec<f64>,
+    /// Displacement of the structure over that of the model.
+    pub participation: f64,
     /// Its limit states, the first that begins first.
     pub limits: Vec<LimitState>,
 }
@@ -89,6 +94,7 @@ pub fn limit_stripes(
                 measure: measure.measure(),
                 model: model.kind(),
                 demands_m: peaks_m(&analysed, levels.len(), 0),
+                participation: participation(model, structure),
                 limits: limits(model, structure, share),
                 levels,
             });
@@ -102,6 +108,7 @@ pub fn limit_stripes(
                 model,
                 levels: places.iter().map(|&place| measure.plan.levels[place]).collect(),
                 demands_m: demands_m.to_vec(),
+                participation: participation(system, structure),
                 limits: limits(system, structure, share),
             });
         }
@@ -119,18 +126,23 @@ pub fn independent_records(file: &ResultFile) -> Result<Vec<Vec<usize>>, DesignE
     Ok(Scatter::from_file(file)?.coarsest().to_vec())
 }
 
+/// Displacement of the structure over that of one of its models.
+fn participation(model: &System, structure: &Structure) -> f64 {
+    match model {
+        System::Oscillator(_) => structure.system.participation(),
+        System::Block(_) | System::Frame(_) => 1.0,
+    }
+}
+
 /// The limit states of one model of a structure.
 fn limits(model: &System, structure: &Structure, share: f64) -> Vec<LimitState> {
-    // the oscillator moves as the structure does over its participation factor
-    let (uplift_m, capacity_m, factor) = match model {
-        System::Oscillator(oscillator) => {
-            let factor = structure.system.participation();
-            (oscillator.uplift_displacement_m(), oscillator_capacity_m(oscillator), factor)
-        }
+    let (uplift_m, capacity_m) = match model {
+        System::Oscillator(oscillator) => (oscillator.uplift_displacement_m(), oscillator_capacity_m(oscillator)),
         // the corner of a block that stands on its other one is above it
-        System::Block(block) => (0.0, Some(block.top_displacement_m(block.slenderness_rad())), 1.0),
-        System::Frame(_) => (0.0, structure.system.capacity_m(), 1.0),
+        System::Block(block) => (0.0, Some(block.top_displacement_m(block.slenderness_rad()))),
+        System::Frame(_) => (0.0, structure.system.capacity_m()),
     };
+    let factor = participation(model, structure);
     let at = |name: String, threshold_m: f64| LimitState { name, displacement_m: factor * threshold_m, threshold_m };
     let mut limits = vec![at("uplift".to_owned(), uplift_m)];
     if let Some(capacity_m) = capacity_m {

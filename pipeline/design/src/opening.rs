@@ -56,7 +56,7 @@ impl<'a> Place<'a> {
 /// Position of the site `wanted`; of the only one where none is.
 pub(super) fn site_index(source: &StudyOfResult, wanted: Option<&str>) -> Result<usize, DesignError> {
     Ok(match (wanted, &source.sites[..]) {
-        (Some(wanted), known) => uplift_uniform_risk::site_index(known, wanted)?,
+        (Some(wanted), known) => uplift_uniform_risk::site_index("--site", known, wanted)?,
         (None, [_]) => 0,
         (None, known) => return Err(JobError::Choice { option: "--site", wanted: None, known: known.to_vec() }.into()),
     })

@@ -1,7 +1,7 @@
 //! Fragilities for other programs: how often a displacement or a limit state of a structure is exceeded at each level.
 
 mod curves;
-mod measures;
+pub(crate) mod measures;
 mod pelicun;
 mod table;
 
@@ -11,7 +11,6 @@ use clap::ValueEnum;
 use serde::Serialize;
 use uplift_design::{LimitOptions, independent_records, limit_stripes};
 use uplift_fragility::{NrmlFunction, Stripes as Stripe, nrml_model};
-use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind, beside};
 use uplift_job::table::{write_atomically, write_table};
@@ -181,15 +180,7 @@ fn of_displacements(
     units: &[Vec<usize>],
 ) -> Result<Vec<Fragility>, ExportsError> {
     let limits = displacement_limits(displacements_m)?;
-    let place = |&strength: &f64| {
-        let found = stored.strengths.iter().position(|own| (own - strength).abs() <= 1e-9 * own.abs());
-        found.ok_or_else(|| JobError::Choice {
-            option: "--strength",
-            wanted: Some(strength.to_string()),
-            known: stored.strengths.iter().map(ToString::to_string).collect(),
-        })
-    };
-    let places = strengths.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    let places = strengths.iter().map(|&strength| stored.strength_index(strength)).collect::<Result<Vec<_>, _>>()?;
     let mut fragilities = Vec::new();
     for of in stored.measures.iter().filter(|of| measures.contains(&of.measure)) {
         for &place in &places {

@@ -1,5 +1,6 @@
 //! A result beside a reference, and for other programs.
 
+pub mod demand;
 mod error;
 pub mod export;
 pub mod fragility;

@@ -262,17 +262,17 @@ fn sites(asked: &[String], known: &[String]) -> Result<Vec<usize>, JobError> {
     if asked.is_empty() {
         return Ok((0..known.len()).collect());
     }
-    each_once(asked.iter().map(|name| site_index(known, name)), |&site| format!("--site {}", known[site]))
+    each_once(asked.iter().map(|name| site_index("--site", known, name)), |&site| format!("--site {}", known[site]))
 }
 
-/// The position of the site called `wanted`; in letters of either case where none is spelt so.
+/// The position of the site called `wanted` by an `option`; in letters of either case where none is spelt so.
 ///
 /// # Errors
 /// A site that is not among those `known`.
-pub fn site_index(known: &[String], wanted: &str) -> Result<usize, JobError> {
+pub fn site_index(option: &'static str, known: &[String], wanted: &str) -> Result<usize, JobError> {
     let spelt_so = known.iter().position(|site| site == wanted);
     let found = spelt_so.or_else(|| known.iter().position(|site| site.to_lowercase() == wanted.to_lowercase()));
-    found.ok_or_else(|| JobError::Choice { option: "--site", wanted: Some(wanted.to_owned()), known: known.to_vec() })
+    found.ok_or_else(|| JobError::Choice { option, wanted: Some(wanted.to_owned()), known: known.to_vec() })
 }
 
 /// What was asked for, unless one of it is given twice.

@@ -41,7 +41,7 @@ pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumRepo
     }
     let axes = file.axes()?;
     let site = match &asked.sites[..] {
-        [only] => Some(site_index(&axes.sites, only)?),
+        [only] => Some(site_index("--site", &axes.sites, only)?),
         _ => None,
     };
     let strengths = between(&axes.strengths, &asked.strengths);

@@ -7,13 +7,13 @@ use super::FragilityFormat;
 
 /// A measure of another program.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Foreign {
+pub(crate) struct Foreign {
     /// Its name there.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// Its unit there, as pelicun writes it.
-    pub(super) unit: &'static str,
+    pub(crate) unit: &'static str,
     /// Its value there over its value here.
-    pub(super) factor: f64,
+    pub(crate) factor: f64,
 }
 
 /// Refuses a measure that the program of `format` does not have.
@@ -47,7 +47,7 @@ pub(super) fn openquake(measure: IntensityMeasure) -> Option<Foreign> {
 }
 
 /// The demand type of pelicun 3 (`pelicun.base.EDP_TYPES`); none where it has none.
-pub(super) fn pelicun(measure: IntensityMeasure) -> Option<Foreign> {
+pub(crate) fn pelicun(measure: IntensityMeasure) -> Option<Foreign> {
     let of = |name: String, unit| Some(Foreign { name, unit, factor: 1.0 });
     match measure {
         IntensityMeasure::Pgv => of("Peak Ground Velocity".to_owned(), "cmps"),
@@ -60,5 +60,13 @@ pub(super) fn pelicun(measure: IntensityMeasure) -> Option<Foreign> {
         | IntensityMeasure::SpectrumIntensity
         | IntensityMeasure::D575
         | IntensityMeasure::D595 => None,
+    }
+}
+
+/// The same in the head of a table of demands.
+pub(crate) fn pelicun_acronym(measure: IntensityMeasure) -> String {
+    match measure {
+        IntensityMeasure::Sa(period) => format!("SA_{period}"),
+        other => other.label().to_owned(),
     }
 }

@@ -2,11 +2,13 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 use uplift::Events;
+use uplift::demand::{DemandOf, DemandOptions, export_demand};
 use uplift::export::{ExportFormat, ExportOptions, export as export_result};
 use uplift::fragility::{FragilityFormat, FragilityOf, FragilityOptions, export_fragility};
 use uplift::result::AskedRisk;
+use uplift::structure::CAPACITY_SHARE;
 use uplift::study::Structure;
 use uplift_motion::IntensityMeasure;
 
@@ -19,7 +21,8 @@ use crate::terminal::Terminal;
 #[command(after_help = "Examples:\n  \
     uplift export results/quick.h5 --xlsx\n  \
     uplift export results/quick.h5 --fragility openquake --strength 0.2 --displacement-m 0.1,0.3\n  \
-    uplift export results/quick.h5 --fragility csv --structure configs/structures/pier.toml")]
+    uplift export results/quick.h5 --fragility csv --structure configs/structures/pier.toml\n  \
+    uplift export results/quick.h5 --demand Athens --return-period 475 --strength 0.2")]
 #[expect(clippy::struct_excessive_bools, reason = "a switch for each format")]
 pub(crate) struct ExportArguments {
     /// Result file
@@ -39,8 +42,8 @@ pub(crate) struct ExportArguments {
     /// Stripes and hazard as JSON, for the browser page
     #[arg(long)]
     web: bool,
-    #[command(flatten, next_help_heading = "Fragility")]
-    fragility: FragilityArguments,
+    #[command(flatten, next_help_heading = "Fragility and demand")]
+    assessment: AssessmentArguments,
     /// Output file, for one format [default: beside the result]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -50,43 +53,51 @@ pub(crate) struct ExportArguments {
     overwriting: ForceArgument,
 }
 
-/// Fragilities in place of spectra.
+/// Fragilities or demands in place of spectra.
 #[derive(Debug, Args)]
-struct FragilityArguments {
+#[command(group = ArgGroup::new("assessment").args(["fragility", "demand"])
+    .conflicts_with_all(["csv", "json", "mat", "xlsx", "web"]))]
+struct AssessmentArguments {
     /// Fragilities for another program, in place of spectra
     #[arg(long, value_enum, value_name = "openquake|pelicun|csv", hide_possible_values = true,
-        conflicts_with_all = ["csv", "json", "mat", "xlsx", "web", "poe", "return_period", "years"])]
+        conflicts_with_all = ["poe", "return_period", "years"])]
     fragility: Option<FragilityFormat>,
+    /// Demands for pelicun at the intensity that this site exceeds with --poe
+    #[arg(long, value_name = "SITE")]
+    demand: Option<String>,
     /// Displacements that are exceeded, m
     #[arg(long, value_name = "M[,…]", allow_negative_numbers = true, value_parser = numbers,
         requires_all = ["fragility", "strength"])]
     displacement_m: Vec<Numbers>,
-    /// Uplift strengths of the result, for --displacement-m
+    /// Uplift strengths of the result
     #[arg(long, value_name = "STRENGTH[,…]", allow_negative_numbers = true, value_parser = numbers,
-        requires = "displacement_m")]
+        requires = "assessment")]
     strength: Vec<Numbers>,
-    /// Structure file: fragilities of its limit states
-    #[arg(long, value_name = "FILE", requires = "fragility", conflicts_with = "displacement_m")]
+    /// Structure file, in place of strengths
+    #[arg(long, value_name = "FILE", requires = "assessment", conflicts_with_all = ["displacement_m", "strength"])]
     structure: Option<PathBuf>,
     /// Share of the capacity that is a limit state too
-    #[arg(long, value_name = "SHARE", requires = "structure", default_value = "0.5", allow_negative_numbers = true,
-        value_parser = number_or_per_cent)]
+    #[arg(long, value_name = "SHARE", requires = "structure", conflicts_with = "demand",
+        default_value_t = CAPACITY_SHARE, allow_negative_numbers = true, value_parser = number_or_per_cent)]
     capacity_share: f64,
     /// Manifest of the records, if it was moved
     #[arg(long, value_name = "CSV", requires = "structure")]
     manifest: Option<PathBuf>,
-    /// Intensity measure of the fragilities [default: all]
-    #[arg(long, requires = "fragility")]
+    /// Intensity measure [default: all; of demands the first]
+    #[arg(long, requires = "assessment")]
     measure: Option<IntensityMeasure>,
 }
 
-impl FragilityArguments {
+impl AssessmentArguments {
+    fn structure(&self) -> Result<Option<Box<Structure>>, CommandError> {
+        Ok(self.structure.as_deref().map(Structure::load).transpose()?.map(Box::new))
+    }
+
     /// What is exceeded.
-    fn of(&self) -> Result<FragilityOf, CommandError> {
-        let all = |several: &[Numbers]| several.iter().flat_map(|Numbers(all)| all.iter().copied()).collect();
-        Ok(match &self.structure {
-            Some(file) => FragilityOf::Structure {
-                structure: Box::new(Structure::load(file)?),
+    fn exceeded(&self) -> Result<FragilityOf, CommandError> {
+        Ok(match self.structure()? {
+            Some(structure) => FragilityOf::Structure {
+                structure,
                 manifest: self.manifest.clone(),
                 capacity_share: self.capacity_share,
             },
@@ -96,6 +107,18 @@ impl FragilityArguments {
             },
         })
     }
+
+    /// What is displaced.
+    fn displaced(&self) -> Result<DemandOf, CommandError> {
+        Ok(match self.structure()? {
+            Some(structure) => DemandOf::Structure { structure, manifest: self.manifest.clone() },
+            None => DemandOf::Strengths(all(&self.strength)),
+        })
+    }
+}
+
+fn all(several: &[Numbers]) -> Vec<f64> {
+    several.iter().flat_map(|Numbers(all)| all.iter().copied()).collect()
 }
 
 impl ExportArguments {
@@ -112,27 +135,23 @@ impl ExportArguments {
 }
 
 pub(crate) fn export(arguments: &ExportArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    if let Some(format) = arguments.fragility.fragility {
-        let options = FragilityOptions {
-            result: arguments.result.clone(),
-            format,
-            of: arguments.fragility.of()?,
-            measure: arguments.fragility.measure,
-            output: arguments.output.clone(),
-            force: arguments.overwriting.force,
-        };
-        let report = export_fragility(&options, terminal)?;
+    let ExportArguments { result, assessment, output, risk, overwriting, .. } = arguments;
+    let (result, output, force) = (result.clone(), output.clone(), overwriting.force);
+    if let Some(format) = assessment.fragility {
+        let (of, measure) = (assessment.exceeded()?, assessment.measure);
+        let report = export_fragility(&FragilityOptions { result, format, of, measure, output, force }, terminal)?;
         for note in &report.notes {
             terminal.note(note);
         }
         return print_files(&report.files, terminal);
     }
-    let options = ExportOptions {
-        result: arguments.result.clone(),
-        formats: arguments.formats(),
-        output: arguments.output.clone(),
-        risk: arguments.risk.clone(),
-        force: arguments.overwriting.force,
-    };
+    let risk = risk.clone();
+    if let Some(site) = assessment.demand.clone() {
+        let (of, measure) = (assessment.displaced()?, assessment.measure);
+        let report = export_demand(&DemandOptions { result, of, site, risk, measure, output, force }, terminal)?;
+        terminal.note(&report.words());
+        return print_files(&report.files, terminal);
+    }
+    let options = ExportOptions { result, formats: arguments.formats(), output, risk, force };
     print_files(&export_result(&options, terminal)?.files, terminal)
 }

@@ -1,0 +1,245 @@
+//! Demands for pelicun: how far each record of a result displaces its oscillators, or a structure, at one intensity.
+
+use std::path::{Path, PathBuf};
+
+use polars::prelude::Column;
+use uplift_design::{CAPACITY_SHARE, LimitOptions, limit_stripes};
+use uplift_fragility::Stripes;
+use uplift_job::JobError;
+use uplift_job::events::Events;
+use uplift_job::outputs::{self, Output, OutputKind, beside};
+use uplift_job::table::write_table;
+use uplift_job::text::{risk_in_words, rounded};
+use uplift_motion::IntensityMeasure;
+use uplift_result::ResultFile;
+use uplift_study::Structure;
+use uplift_uniform_risk::{AskedRisk, StoredMeasure, StoredStripes, at, measure_index, site_index};
+
+use crate::error::ExportsError;
+use crate::fragility::measures::{pelicun, pelicun_acronym};
+
+/// The first demand, by whose column the table is known: a displacement (`DEC`, Peak Deck Displacement) of system 1 in
+/// direction 1, in which components of the [fragility table](crate::fragility) are.
+const COLUMN: &str = "1-DEC-1-1";
+
+/// What is displaced.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DemandOf {
+    /// Oscillators of these uplift strengths.
+    Strengths(Vec<f64>),
+    /// A structure, by each of its models.
+    Structure {
+        /// The structure.
+        structure: Box<Structure>,
+        /// Manifest of the records, where it is no longer where the study says.
+        manifest: Option<PathBuf>,
+    },
+}
+
+/// Which demands are exported, and where they go.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DemandOptions {
+    /// The result file.
+    pub result: PathBuf,
+    /// What is displaced.
+    pub of: DemandOf,
+    /// Site whose hazard sets the intensity.
+    pub site: String,
+    /// The probability with which that is exceeded; the smallest of the study if none is given.
+    pub risk: AskedRisk,
+    /// Intensity measure; the first of the result if none is given.
+    pub measure: Option<IntensityMeasure>,
+    /// The file; the result with the ending `demand.csv` if none is given.
+    pub output: Option<PathBuf>,
+    /// Whether existing files are overwritten.
+    pub force: bool,
+}
+
+/// What was exported.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DemandReport {
+    /// The files.
+    pub files: Vec<PathBuf>,
+    /// The site, as the result calls it.
+    pub site: String,
+    /// `2 % in 50 years`.
+    pub risk: String,
+    /// The intensity, in the unit of the measure.
+    pub level: f64,
+    /// The measure.
+    pub measure: IntensityMeasure,
+    /// What is displaced, in the order of the locations: `strength 0.2`, `pier oscillator`.
+    pub systems: Vec<String>,
+}
+
+impl DemandReport {
+    /// `36.91 cm/s, PGV of 2 % in 50 years at Athens; location 1: strength 0.2`.
+    pub fn words(&self) -> String {
+        let Self { site, risk, level, measure, systems, .. } = self;
+        let (level, unit, label) = (rounded(*level, 4), measure.unit(), measure.label());
+        let locations: Vec<String> =
+            (1..).zip(systems).map(|(location, system)| format!("location {location}: {system}")).collect();
+        format!("{level} {unit}, {label} of {risk} at {site}; {}", locations.join(", "))
+    }
+}
+
+/// One system under records scaled to the levels of a measure.
+struct Displaced {
+    name: String,
+    levels: Vec<f64>,
+    /// `[record, level]`, m.
+    demands_m: Vec<f64>,
+    participation: f64,
+}
+
+/// Writes a demand sample of pelicun 3: a row each record, scaled to the intensity that the site exceeds with the
+/// probability asked for; a location each system. Between two levels a demand lies on a straight line; it is infinite
+/// where the record overturns the system at the higher one.
+///
+/// # Errors
+/// A file that is no result, is damaged or has no sites; several probabilities; a strength, a site or a measure that it
+/// does not have; an intensity that pelicun does not have, or outside the levels or the hazard curve; records that are
+/// others at each level, or a structure that cannot be used; files that would overwrite something else, or cannot be
+/// written.
+pub fn export_demand(options: &DemandOptions, events: &dyn Events) -> Result<DemandReport, ExportsError> {
+    if options.risk.poe.len() + options.risk.return_period.len() > 1 {
+        return Err(JobError::Usage("--demand: give one probability or return period".to_owned()).into());
+    }
+    let path = options.output.clone().unwrap_or_else(|| beside(&options.result, "demand.csv"));
+    let mut inputs: Vec<&Path> = vec![&options.result];
+    if let DemandOf::Structure { structure, manifest } = &options.of {
+        inputs.push(&structure.file);
+        inputs.extend(manifest.as_deref());
+    }
+    let output = Output::new(&path, OutputKind::Table(COLUMN)).with_result(&options.result);
+    outputs::check(&[output], &inputs, options.force)?;
+
+    let file = ResultFile::open(&options.result)?;
+    file.refuse_records_at_level("a sample of demands has a row each record")?;
+    let file = at(file, &options.risk)?;
+    let stored = StoredStripes::read(&file)?;
+    let known = file.measures();
+    let measure = known[measure_index(&known, options.measure)?];
+    let intensity = pelicun(measure).ok_or_else(|| {
+        JobError::Usage(format!("--demand: pelicun has no {}: choose another with --measure", measure.long_name()))
+    })?;
+    let site = &stored.sites[site_index("--demand", &stored.sites, &options.site)?];
+    let poe = stored.poe_index(None)?;
+    let extrapolation = file.stored_study()?.risk.extrapolate;
+    let rate_per_year = stored.targets_per_year[poe];
+    let level = file.site_curve(site, measure)?.im_at_rate_extrapolated(rate_per_year, extrapolation)?;
+    let systems = match &options.of {
+        DemandOf::Strengths(strengths) => of_strengths(&stored, measure, strengths)?,
+        DemandOf::Structure { structure, manifest } => {
+            let asked =
+                LimitOptions { manifest: manifest.clone(), measure: Some(measure), capacity_share: CAPACITY_SHARE };
+            let name = structure.file.file_stem().unwrap_or_default().to_string_lossy();
+            let found = limit_stripes(structure, &options.result, &asked, events)?.into_iter();
+            found
+                .map(|of| Displaced {
+                    name: format!("{name} {}", of.model),
+                    levels: of.levels,
+                    demands_m: of.demands_m,
+                    participation: of.participation,
+                })
+                .collect()
+        }
+    };
+    let texts = |first: &str, values: &mut dyn Iterator<Item = f64>| {
+        std::iter::once(first.to_owned()).chain(values.map(|value| value.to_string())).collect::<Vec<_>>()
+    };
+    let record_count = stored.records.len();
+    let index: Vec<String> = std::iter::once("Units".to_owned()).chain(stored.records.iter().cloned()).collect();
+    let mut columns = vec![
+        Column::new("record".into(), index),
+        Column::new(
+            format!("1-{}-0-1", pelicun_acronym(measure)).into(),
+            texts(intensity.unit, &mut std::iter::repeat_n(level, record_count)),
+        ),
+    ];
+    for (location, system) in (1..).zip(&systems) {
+        let demands_m = system.demands_at(level, measure)?;
+        columns.push(Column::new(format!("1-DEC-{location}-1").into(), texts("m", &mut demands_m.into_iter())));
+    }
+    write_table(&path, &stored.line("demands"), columns)?;
+    Ok(DemandReport {
+        files: vec![path],
+        risk: risk_in_words(stored.poes[poe], stored.years),
+        site: site.clone(),
+        level,
+        measure,
+        systems: systems.into_iter().map(|system| system.name).collect(),
+    })
+}
+
+/// Oscillators of the `strengths` by one measure.
+fn of_strengths(
+    stored: &StoredStripes,
+    measure: IntensityMeasure,
+    strengths: &[f64],
+) -> Result<Vec<Displaced>, ExportsError> {
+    if strengths.is_empty() {
+        return Err(JobError::Usage("--demand: give --strength, or --structure".to_owned()).into());
+    }
+    let mut found = Vec::new();
+    for of in stored.measures.iter().filter(|of: &&StoredMeasure| of.measure == measure) {
+        for &strength in strengths {
+            let place = stored.strength_index(strength)?;
+            let stripes = of.stripes(place)?;
+            found.push(Displaced {
+                name: format!("strength {}", stored.strengths[place]),
+                levels: of.levels.clone(),
+                demands_m: (0..stripes.record_count()).flat_map(|record| stripes.record(record).to_vec()).collect(),
+                participation: 1.0,
+            });
+        }
+    }
+    Ok(found)
+}
+
+impl Displaced {
+    /// Displacement of each record at a `level`, m.
+    fn demands_at(&self, level: f64, measure: IntensityMeasure) -> Result<Vec<f64>, ExportsError> {
+        let stripes = Stripes::new(&self.levels, &self.demands_m)?;
+        let above = self.levels.partition_point(|&own| own < level);
+        let Some(&upper) = self.levels.get(above) else {
+            let (unit, last) = (measure.unit(), self.levels.last().copied().unwrap_or_default());
+            return Err(JobError::Usage(format!(
+                "--demand: the intensity asked for, {} {level:.4} {unit}, is above the last level, {last} {unit}: ask \
+                 for a more frequent one, or run the study to higher levels",
+                measure.label()
+            ))
+            .into());
+        };
+        let lower = above.checked_sub(1).map_or(0.0, |below| self.levels[below]);
+        let share = (level - lower) / (upper - lower);
+        let at = |record| {
+            let curve = stripes.record(record);
+            let from_m = above.checked_sub(1).map_or(0.0, |below| curve[below]);
+            let to_m = curve[above];
+            self.participation
+                * if to_m.is_finite() && from_m.is_finite() { from_m + share * (to_m - from_m) } else { to_m }
+        };
+        Ok((0..stripes.record_count()).map(at).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn demands_lie_on_straight_lines_between_levels() {
+        let inf = f64::INFINITY;
+        let demands_m = vec![0.0, 0.4, 1.0, 0.1, 0.3, inf];
+        let system = Displaced { name: String::new(), levels: vec![1.0, 2.0, 4.0], demands_m, participation: 1.5 };
+        let at = |level: f64| system.demands_at(level, IntensityMeasure::Pgv).unwrap();
+        for (found, expected) in [(at(0.5), [0.0, 0.075]), (at(1.5), [0.3, 0.3]), (at(2.0), [0.6, 0.45])] {
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?}, {expected:?}");
+        }
+        assert_eq!(at(3.0)[1], inf);
+        assert!((at(3.0)[0] - 1.05).abs() < 1e-15);
+        assert!(system.demands_at(4.1, IntensityMeasure::Pgv).unwrap_err().to_string().contains("last level, 4 cm/s"));
+    }
+}
