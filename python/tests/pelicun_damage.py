@@ -1,8 +1,8 @@
 """The damage that pelicun computes of the components of a fragility table: `pelicun_damage.py TABLE < JSON`.
 
-The input has `cm_s`, the peak ground velocities, and `samples`, how often each is drawn, or `demands`, a file of them;
-the output the share of the samples beyond each limit state, `{component: [[share of each limit state] of each
-velocity]}`, of a file of all its samples.
+The input has `cm_s`, the peak ground velocities, and `samples`, how often each is drawn, or `demands`, a file of them,
+and `components` unless all are asked for; the output the share of the samples beyond each limit state, `{component:
+[[share of each limit state] of each velocity]}`, of a file of all its samples.
 """
 
 # A program of its own for test_fragility.py: pelicun needs another pandas than the other tests.
@@ -16,7 +16,7 @@ from pelicun.assessment import Assessment
 def main(table):
     asked = json.load(sys.stdin)
     parameters = pd.read_csv(table, index_col="ID")
-    complete = parameters.index[parameters["Incomplete"] == 0]
+    complete = asked.get("components") or parameters.index[parameters["Incomplete"] == 0]
     assessment = Assessment({"PrintLog": False, "Seed": 1})
     if "demands" in asked:
         assessment.demand.load_sample(asked["demands"])

@@ -119,6 +119,24 @@ def test_pelicun_loads_the_table_and_its_damage_is_our_curve(program, result):
             np.testing.assert_allclose(np.array(shares)[:, place], expected, atol=0.03, err_msg=f"{component} {state}")
 
 
+def test_pelicun_loads_a_library_and_its_damage_is_the_share_of_motions(program, tmp_path):
+    (tmp_path / "library.toml").write_text(
+        "[block]\nsize_m = 1\nslenderness_rad = 0.15\n[levels]\npga = [0.5, 2, 4]\npgv = [0.2, 0.4, 0.8]\n"
+        "[records.synthetic]\npairs = 10\n"
+    )
+    program(tmp_path, "library", "library.toml", "-o", "out", "-q")
+    levels = pandas.read_csv(tmp_path / "out" / "levels.csv").query("im == 'pgv'")
+    table = pandas.read_csv(tmp_path / "out" / "pelicun.csv", index_col="ID")
+    [component] = [name for name in table.index if name.endswith("_pgv")]
+    # p PGV/(g tan α) = 1 in cm/s
+    unit = 100 * levels.uplift_acceleration_g.iloc[0] * 9.80665 / levels.p_rad_s.iloc[0]
+    asked = {"cm_s": list(unit * levels.level), "samples": 4000, "components": [component]}
+    found = np.array(pelicun_damage(tmp_path / "out", "pelicun.csv", asked)[component])
+    expected = levels[["share_rocking", "share_overturning"]].to_numpy()
+    assert 0 < expected[1, 0] < 1, expected
+    np.testing.assert_allclose(found, expected, atol=0.03)
+
+
 def test_pelicun_loads_the_demands_and_finds_the_records_that_exceed_a_joint(program, result):
     h5py = pytest.importorskip("h5py")
     # 1e-3 a year lies between 2 and 20 cm/s of the curve

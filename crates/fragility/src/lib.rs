@@ -12,7 +12,7 @@
 //! Beside it, never instead of it, [`fit_lognormal`] gives the maximum-likelihood lognormal fragility, and
 //! [`fit_zero_inflated`] one for demands of which many are zero; [`Goodness`] has their agreement with the counts,
 //! [`lognormal_spread`] the uncertainty of the parameters. [`fit_surface`] takes two intensity measures together.
-//! [`nrml_model`] writes fragilities for `OpenQuake`.
+//! [`nrml_model`] and [`pelicun_table`] write fragilities for `OpenQuake` and pelicun.
 //!
 //! ```
 //! use uplift_fragility::{Stripes, exceedance_probabilities};
@@ -31,10 +31,12 @@
 mod dispersion;
 mod empirical;
 mod error;
+mod function;
 mod goodness;
 mod lognormal;
 mod normal;
 mod nrml;
+mod pelicun;
 mod quantile;
 mod spread;
 mod stripes;
@@ -44,10 +46,12 @@ mod zero_inflated;
 pub use dispersion::{Dispersion, mean_residuals, standard_deviation, uplift_levels};
 pub use empirical::{EmpiricalFragility, check_threshold, exceedance_counts, exceedance_probabilities};
 pub use error::FragilityError;
+pub use function::{FragilityFunction, FragilityState, plain_id};
 pub use goodness::Goodness;
 pub use lognormal::{LognormalFit, LognormalFragility, StripeCount, fit_lognormal, fits_without_each, stripe_counts};
 pub use normal::{ln_normal_cdf, normal_cdf, normal_quantile};
-pub use nrml::{NrmlFunction, NrmlState, nrml_id, nrml_model};
+pub use nrml::nrml_model;
+pub use pelicun::{PELICUN_COLUMN, PelicunDemand, pelicun_demand, pelicun_table};
 pub use quantile::{quantile, weighted_quantile};
 pub use spread::{FitSpread, lognormal_spread};
 pub use stripes::Stripes;

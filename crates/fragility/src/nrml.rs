@@ -1,50 +1,21 @@
 //! A fragility model of `OpenQuake`, NRML 0.5: discrete functions of counted shares, continuous ones of lognormal fits.
 
-use crate::LognormalFragility;
-
-/// What the functions of one system show: how often its limit states are exceeded at each level.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NrmlFunction {
-    /// Letters, digits, `-` and `_`: the taxonomy of its assets.
-    pub id: String,
-    /// Intensity measure type, as `PGA`.
-    pub imt: String,
-    /// Levels in the unit of the engine, ascending.
-    pub levels: Vec<f64>,
-    /// Its limit states, from the first that is exceeded to the last.
-    pub states: Vec<NrmlState>,
-}
-
-/// How often one limit state is exceeded.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NrmlState {
-    /// Name in the model.
-    pub name: String,
-    /// Shares at the levels.
-    pub shares: Vec<f64>,
-    /// A lognormal function over the intensity in the unit of the engine; none where there is no fit.
-    pub lognormal: Option<LognormalFragility>,
-}
-
-/// What other programs accept as a name: all but letters, digits and `-` of `words` becomes `_`, a point `p`.
-pub fn nrml_id(words: &str) -> String {
-    let plain = |letter: char| if letter.is_ascii_alphanumeric() || letter == '-' { letter } else { '_' };
-    words.replace('.', "p").chars().map(plain).collect()
-}
+use crate::{FragilityFunction, FragilityState};
 
 /// The model as a document, and what it leaves out; `line` says where the numbers come from.
 ///
 /// All functions of a model have the same limit states: those that all systems have. A system with a fit of each has a
 /// second function, `…_lognormal`.
-pub fn nrml_model(functions: &[NrmlFunction], line: &str) -> (String, Vec<String>) {
+pub fn nrml_model(functions: &[FragilityFunction], line: &str) -> (String, Vec<String>) {
     let mut notes = Vec::new();
     let names = common_states(functions, &mut notes);
     let mut lines = Vec::new();
-    for NrmlFunction { id, imt, levels, states } in functions {
-        let states: Vec<&NrmlState> = states.iter().filter(|own| names.contains(&&*own.name)).collect();
+    for FragilityFunction { id, imt, levels, states } in functions {
+        let states: Vec<&FragilityState> = states.iter().filter(|own| names.contains(&&*own.name)).collect();
         lines.push(format!("    <fragilityFunction id=\"{id}\" format=\"discrete\">"));
         lines.push(format!("      <imls imt=\"{imt}\">{}</imls>", numbers(levels)));
-        let poes = |state: &&NrmlState| format!("      <poes ls=\"{}\">{}</poes>", state.name, numbers(&state.shares));
+        let poes =
+            |state: &&FragilityState| format!("      <poes ls=\"{}\">{}</poes>", state.name, numbers(&state.shares));
         lines.extend(states.iter().map(poes));
         lines.push("    </fragilityFunction>".to_owned());
         let missing: Vec<&str> = states.iter().filter(|own| moments(own).is_none()).map(|own| &*own.name).collect();
@@ -56,7 +27,7 @@ pub fn nrml_model(functions: &[NrmlFunction], line: &str) -> (String, Vec<String
         let attributes = "format=\"continuous\" shape=\"logncdf\"";
         lines.push(format!("    <fragilityFunction id=\"{id}_lognormal\" {attributes}>"));
         lines.push(format!("      <imls imt=\"{imt}\" minIML=\"{first}\" maxIML=\"{last}\"/>"));
-        let parameters = |state: &&NrmlState| {
+        let parameters = |state: &&FragilityState| {
             let [mean, deviation] = moments(state)?;
             Some(format!("      <params ls=\"{}\" mean=\"{mean}\" stddev=\"{deviation}\"/>", state.name))
         };
@@ -77,8 +48,8 @@ pub fn nrml_model(functions: &[NrmlFunction], line: &str) -> (String, Vec<String
 }
 
 /// The limit states that all systems have; `notes` gets the others.
-fn common_states<'a>(functions: &'a [NrmlFunction], notes: &mut Vec<String>) -> Vec<&'a str> {
-    let has = |of: &NrmlFunction, name: &str| of.states.iter().any(|state| state.name == name);
+fn common_states<'a>(functions: &'a [FragilityFunction], notes: &mut Vec<String>) -> Vec<&'a str> {
+    let has = |of: &FragilityFunction, name: &str| of.states.iter().any(|state| state.name == name);
     let mut all: Vec<&str> = Vec::new();
     for state in functions.iter().flat_map(|of| &of.states) {
         if !all.contains(&&*state.name) {
@@ -96,7 +67,7 @@ fn common_states<'a>(functions: &'a [NrmlFunction], notes: &mut Vec<String>) -> 
 
 /// Mean and standard deviation of the intensity of a lognormal function, as `OpenQuake` takes them; none where there is
 /// no fit, or its dispersion is beyond all numbers.
-fn moments(state: &NrmlState) -> Option<[f64; 2]> {
+fn moments(state: &FragilityState) -> Option<[f64; 2]> {
     let fragility = state.lognormal?;
     let variance = fragility.dispersion().powi(2);
     let mean = fragility.median() * (0.5 * variance).exp();

@@ -16,7 +16,7 @@ use uplift_study::Structure;
 use uplift_uniform_risk::{AskedRisk, StoredMeasure, StoredStripes, at, measure_index, site_index};
 
 use crate::error::ExportsError;
-use crate::fragility::measures::{pelicun, pelicun_acronym};
+use crate::fragility::measures::pelicun;
 
 /// The first demand, by whose column the table is known: a displacement (`DEC`, Peak Deck Displacement) of system 1 in
 /// direction 1, in which components of the [fragility table](crate::fragility) are.
@@ -153,7 +153,7 @@ pub fn export_demand(options: &DemandOptions, events: &dyn Events) -> Result<Dem
     let mut columns = vec![
         Column::new("record".into(), index),
         Column::new(
-            format!("1-{}-0-1", pelicun_acronym(measure)).into(),
+            format!("1-{}-0-1", intensity.acronym).into(),
             texts(intensity.unit, &mut std::iter::repeat_n(level, record_count)),
         ),
     ];

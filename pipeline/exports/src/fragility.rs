@@ -2,7 +2,6 @@
 
 mod curves;
 pub(crate) mod measures;
-mod pelicun;
 mod table;
 
 use std::path::{Path, PathBuf};
@@ -10,10 +9,10 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use serde::Serialize;
 use uplift_design::{LimitOptions, independent_records, limit_stripes};
-use uplift_fragility::{NrmlFunction, Stripes as Stripe, nrml_model};
+use uplift_fragility::{FragilityFunction, PELICUN_COLUMN, Stripes as Stripe, nrml_model, pelicun_table};
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind, beside};
-use uplift_job::table::{write_atomically, write_table};
+use uplift_job::table::{text_columns, write_atomically, write_table};
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
 use uplift_study::Structure;
@@ -48,7 +47,7 @@ impl FragilityFormat {
     fn kind(self) -> OutputKind {
         match self {
             Self::OpenQuake => OutputKind::Nrml,
-            Self::Pelicun => OutputKind::Table(pelicun::COLUMN),
+            Self::Pelicun => OutputKind::Table(PELICUN_COLUMN),
             Self::Csv => OutputKind::Table(table::COLUMN),
         }
     }
@@ -155,14 +154,14 @@ pub fn export_fragility(options: &FragilityOptions, events: &dyn Events) -> Resu
     }?;
     let line = stored.line("fragility");
     let mut report = FragilityReport { files: vec![path.clone()], notes: Vec::new() };
+    let functions: Vec<FragilityFunction> = fragilities.iter().filter_map(Fragility::function).collect();
     match options.format {
         FragilityFormat::OpenQuake => {
-            let functions: Vec<NrmlFunction> = fragilities.iter().filter_map(Fragility::nrml).collect();
             let (text, notes) = nrml_model(&functions, &line);
             report.notes = notes;
             write_atomically(&path, text.as_bytes())?;
         }
-        FragilityFormat::Pelicun => write_table(&path, &line, pelicun::columns(&fragilities))?,
+        FragilityFormat::Pelicun => write_table(&path, &line, text_columns(pelicun_table(&functions)))?,
         FragilityFormat::Csv => write_table(&path, &line, table::columns(&fragilities))?,
     }
     if let Some(fits) = fits {

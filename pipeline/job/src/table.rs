@@ -58,6 +58,11 @@ pub fn write_table(path: &Path, line: &str, columns: Vec<Column>) -> Result<(), 
     write_atomically(path, &table)
 }
 
+/// Columns of texts, each with its name.
+pub fn text_columns(columns: Vec<(String, Vec<String>)>) -> Vec<Column> {
+    columns.into_iter().map(|(name, cells)| Column::new(name.into(), cells)).collect()
+}
+
 /// Write what stands beside the table at `path`: `line`, where its numbers come from, and the names of its columns.
 ///
 /// # Errors

@@ -2,8 +2,8 @@
 
 use uplift_design::LimitState;
 use uplift_fragility::{
-    FitSpread, FragilityError, Goodness, LognormalFragility, NrmlFunction, NrmlState, StripeCount, Stripes,
-    ZeroInflatedFragility, exceedance_probabilities, fit_lognormal, fit_zero_inflated, lognormal_spread, nrml_id,
+    FitSpread, FragilityError, FragilityFunction, FragilityState, Goodness, LognormalFragility, StripeCount, Stripes,
+    ZeroInflatedFragility, exceedance_probabilities, fit_lognormal, fit_zero_inflated, lognormal_spread, plain_id,
     stripe_counts,
 };
 use uplift_job::JobError;
@@ -91,19 +91,19 @@ impl Fragility {
 
     /// Its name in other programs: letters, digits, hyphens and underscores.
     pub(super) fn id(&self) -> String {
-        nrml_id(&format!("{}_{}", self.system, self.measure.key()))
+        plain_id(&format!("{}_{}", self.system, self.measure.key()))
     }
 
     /// As `OpenQuake` takes it; none of a measure that it does not have.
-    pub(super) fn nrml(&self) -> Option<NrmlFunction> {
+    pub(super) fn function(&self) -> Option<FragilityFunction> {
         let Foreign { name, factor, .. } = openquake(self.measure)?;
         let scaled = |fit: &LognormalFragility| LognormalFragility::new(factor * fit.median(), fit.dispersion()).ok();
-        let state = |state: &StateFragility| NrmlState {
+        let state = |state: &StateFragility| FragilityState {
             name: state.name.clone(),
             shares: state.shares.clone(),
             lognormal: state.lognormal.as_ref().ok().and_then(|(fit, _)| scaled(fit)),
         };
-        Some(NrmlFunction {
+        Some(FragilityFunction {
             id: self.id(),
             imt: name,
             levels: self.levels.iter().map(|level| level * factor).collect(),

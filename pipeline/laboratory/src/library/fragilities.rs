@@ -1,6 +1,6 @@
-//! A library as fragilities of `OpenQuake`: its levels as PGA and PGV.
+//! A library as fragilities for other programs: its levels as PGA and PGV.
 
-use uplift_fragility::{LognormalFragility, NrmlFunction, NrmlState, nrml_id};
+use uplift_fragility::{FragilityFunction, FragilityState, LognormalFragility, plain_id};
 
 use super::compute::{LevelReport, MeasureReport, SystemReport};
 use super::systems::Normalised;
@@ -11,7 +11,7 @@ type Count = fn(&LevelReport) -> u32;
 const STATES: [(&str, Count); 2] = [("rocking", |level| level.rocking), ("overturning", |level| level.overturned)];
 
 /// The fragilities of each system by each intensity. What cannot overturn has shares of zero.
-pub(super) fn functions(systems: &[SystemReport], gravity_m_s2: f64) -> Vec<NrmlFunction> {
+pub(super) fn functions(systems: &[SystemReport], gravity_m_s2: f64) -> Vec<FragilityFunction> {
     let of = |system: &SystemReport| {
         let of_measure = |measure: &MeasureReport| function(system, measure, gravity_m_s2);
         system.measures.iter().filter_map(of_measure).collect::<Vec<_>>()
@@ -19,7 +19,7 @@ pub(super) fn functions(systems: &[SystemReport], gravity_m_s2: f64) -> Vec<Nrml
     systems.iter().flat_map(of).collect()
 }
 
-fn function(system: &SystemReport, measure: &MeasureReport, gravity_m_s2: f64) -> Option<NrmlFunction> {
+fn function(system: &SystemReport, measure: &MeasureReport, gravity_m_s2: f64) -> Option<FragilityFunction> {
     let uplift_g = system.uplift_acceleration_g;
     let (imt, unit) = match measure.measure {
         Normalised::Pga => ("PGA", uplift_g),
@@ -32,10 +32,10 @@ fn function(system: &SystemReport, measure: &MeasureReport, gravity_m_s2: f64) -
         let fit = measure.fits.iter().find(|fit| fit.of == name).and_then(|fit| Some((fit.median?, fit.dispersion?)));
         let fit = fit.map(|(median, dispersion)| (unit * median, dispersion)).or_else(|| step(&levels, &shares));
         let lognormal = fit.and_then(|(median, dispersion)| LognormalFragility::new(median, dispersion).ok());
-        NrmlState { name: name.to_owned(), shares, lognormal }
+        FragilityState { name: name.to_owned(), shares, lognormal }
     };
-    Some(NrmlFunction {
-        id: nrml_id(&format!("{}_{}", system.name().replace(',', ""), measure.measure.key())),
+    Some(FragilityFunction {
+        id: plain_id(&format!("{}_{}", system.name().replace(',', ""), measure.measure.key())),
         imt: imt.to_owned(),
         states: STATES.map(state).into(),
         levels,

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_alarms::study_alarms;
-use uplift_fragility::nrml_model;
+use uplift_fragility::{PELICUN_COLUMN, nrml_model, pelicun_table};
 use uplift_inputs::{RecordSets, read_sets};
 use uplift_job::alarm::Alarm;
 use uplift_job::events::{Events, Progress};
 use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::table::{write_atomically, write_table};
+use uplift_job::table::{text_columns, write_atomically, write_table};
 use uplift_study::LibraryStudy;
 
 use super::compute::{Motions, SystemReport, measures, system_report};
@@ -19,8 +19,9 @@ use super::systems::systems;
 use super::tables::{TABLES, tables};
 use crate::error::LaboratoryError;
 
-/// The fragilities for `OpenQuake`, beside the tables.
-const FRAGILITIES: &str = "fragility.xml";
+/// The fragilities for `OpenQuake` and for pelicun, beside the tables.
+const NRML: &str = "fragility.xml";
+const PELICUN: &str = "pelicun.csv";
 
 /// Where the tables of a library go.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -57,7 +58,7 @@ pub struct LibraryReport {
 }
 
 /// Shakes every block and oscillator of `study` by every motion at every level, and writes what they do as tables
-/// and as fragilities for `OpenQuake`.
+/// and as fragilities for `OpenQuake` and pelicun.
 ///
 /// # Errors
 /// Records that cannot be used; a system that cannot be followed; files that would overwrite something else, or cannot
@@ -70,7 +71,8 @@ pub fn library(
     if let Some(folder) = &options.folder {
         let table = |(name, column)| Output::new(folder.join(name), OutputKind::Table(column));
         let mut outputs = TABLES.map(table).to_vec();
-        outputs.push(Output::new(folder.join(FRAGILITIES), OutputKind::Nrml));
+        outputs.push(Output::new(folder.join(NRML), OutputKind::Nrml));
+        outputs.push(table((PELICUN, PELICUN_COLUMN)));
         outputs::check(&outputs, &study.inputs(), options.force)?;
     }
     let systems = systems(study)?;
@@ -135,10 +137,14 @@ fn write(report: &LibraryReport, folder: &Path) -> Result<Vec<PathBuf>, Laborato
         write_table(&file, &line, columns)?;
         files.push(file);
     }
-    let file = folder.join(FRAGILITIES);
+    let functions = functions(&report.systems, report.gravity_m_s2);
+    let file = folder.join(NRML);
     // the fits that are missing are in the table of fits
-    let (text, _) = nrml_model(&functions(&report.systems, report.gravity_m_s2), &line);
+    let (text, _) = nrml_model(&functions, &line);
     write_atomically(&file, text.as_bytes())?;
+    files.push(file);
+    let file = folder.join(PELICUN);
+    write_table(&file, &line, text_columns(pelicun_table(&functions)))?;
     files.push(file);
     Ok(files)
 }

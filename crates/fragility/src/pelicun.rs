@@ -1,12 +1,9 @@
 //! A fragility table of pelicun 3: a row each system and measure, of the counted shares and of the lognormal fits.
 
-use polars::prelude::Column;
-
-use super::curves::{Fragility, StateFragility};
-use super::measures::{Foreign, pelicun};
+use crate::{FragilityFunction, FragilityState};
 
 /// The column by which a table of this kind is known.
-pub(super) const COLUMN: &str = "Demand-Type";
+pub const PELICUN_COLUMN: &str = "Demand-Type";
 
 /// By how much the probabilities of a multilinear function rise from point to point at least: pelicun rounds them to
 /// six digits, and refuses those that do not rise.
@@ -15,39 +12,60 @@ const RISE: f64 = 2e-6;
 /// probability at a level by more than this part of it.
 const BEYOND: f64 = 1e3;
 
+/// A demand type of pelicun (`pelicun.base.EDP_TYPES`).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PelicunDemand {
+    /// Its name in a fragility table.
+    pub name: String,
+    /// The same in the head of a sample of demands.
+    pub acronym: String,
+    /// Its unit.
+    pub unit: &'static str,
+}
+
+/// The demand type that an intensity measure type of `OpenQuake` is, in the same unit; none where there is none.
+pub fn pelicun_demand(imt: &str) -> Option<PelicunDemand> {
+    let of = |name: String, acronym: String, unit| Some(PelicunDemand { name, acronym, unit });
+    match imt {
+        "PGV" => of("Peak Ground Velocity".to_owned(), imt.to_owned(), "cmps"),
+        "PGA" => of("Peak Ground Acceleration".to_owned(), imt.to_owned(), "g"),
+        _ => {
+            let period = imt.strip_prefix("SA(")?.strip_suffix(')')?;
+            of(format!("Spectral Acceleration|{period}"), format!("SA_{period}"), "g")
+        }
+    }
+}
+
 /// A component of pelicun.
 struct Row {
     id: String,
-    demand: Foreign,
+    demand: PelicunDemand,
     incomplete: bool,
     /// Family and parameters of each limit state; none where it has no fit.
     states: Vec<Option<[String; 3]>>,
 }
 
-/// The columns of the table. Demands are taken as they are for direction 1 (`Demand-Directional` is 1), so that pelicun
-/// does not multiply them.
-pub(super) fn columns(fragilities: &[Fragility]) -> Vec<Column> {
+/// The columns of the table, each with its name. Demands are taken as they are for direction 1 (`Demand-Directional` is
+/// 1), so that pelicun does not multiply them. Functions of measures that it does not have are left out.
+pub fn pelicun_table(functions: &[FragilityFunction]) -> Vec<(String, Vec<String>)> {
     let mut rows = Vec::new();
-    for fragility in fragilities {
-        let Some(demand) = pelicun(fragility.measure) else { continue };
-        let id = fragility.id();
-        let counted = |state: &StateFragility| {
-            Some(["multilinear_CDF".to_owned(), multilinear(&fragility.levels, &state.shares), String::new()])
+    for FragilityFunction { id, imt, levels, states } in functions {
+        let Some(demand) = pelicun_demand(imt) else { continue };
+        let counted = |state: &FragilityState| {
+            Some(["multilinear_CDF".to_owned(), multilinear(levels, &state.shares), String::new()])
         };
-        let fitted = |state: &StateFragility| {
-            let (fit, _) = state.lognormal.as_ref().ok()?;
+        let fitted = |state: &FragilityState| {
+            let fit = state.lognormal?;
             Some(["lognormal".to_owned(), fit.median().to_string(), fit.dispersion().to_string()])
         };
-        rows.push(Row::new(id.clone(), &demand, fragility.states.iter().map(counted).collect()));
-        rows.push(Row::new(format!("{id}_lognormal"), &demand, fragility.states.iter().map(fitted).collect()));
+        rows.push(Row::new(id.clone(), &demand, states.iter().map(counted).collect()));
+        rows.push(Row::new(format!("{id}_lognormal"), &demand, states.iter().map(fitted).collect()));
     }
-    let of = |name: &str, cell: &dyn Fn(&Row) -> String| {
-        Column::new(name.into(), rows.iter().map(cell).collect::<Vec<String>>())
-    };
+    let of = |name: &str, cell: &dyn Fn(&Row) -> String| (name.to_owned(), rows.iter().map(cell).collect());
     let mut columns = vec![
         of("ID", &|row| row.id.clone()),
         of("Incomplete", &|row| u8::from(row.incomplete).to_string()),
-        of(COLUMN, &|row| row.demand.name.clone()),
+        of(PELICUN_COLUMN, &|row| row.demand.name.clone()),
         of("Demand-Unit", &|row| row.demand.unit.to_owned()),
         of("Demand-Offset", &|_| "0".to_owned()),
         of("Demand-Directional", &|_| "1".to_owned()),
@@ -64,7 +82,7 @@ pub(super) fn columns(fragilities: &[Fragility]) -> Vec<Column> {
 }
 
 impl Row {
-    fn new(id: String, demand: &Foreign, states: Vec<Option<[String; 3]>>) -> Self {
+    fn new(id: String, demand: &PelicunDemand, states: Vec<Option<[String; 3]>>) -> Self {
         Self { id, demand: demand.clone(), incomplete: states.iter().any(Option::is_none), states }
     }
 }
