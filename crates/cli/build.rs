@@ -4,11 +4,13 @@ use std::env::var;
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
-    // Functions that compile to the same code are kept once. lld can, which links programs for this target since
-    // Rust 1.90; a linker that was chosen, as zig, may not.
+    println!("cargo:rerun-if-changed=no-unwinding.ld");
+    // Functions that compile to the same code are kept once, and tables for unwinding left out. lld can, which links
+    // programs for this target since Rust 1.90; a linker that was chosen, as zig, may not.
     let released = var("PROFILE").is_ok_and(|profile| profile == "release");
     let is_lld = var("RUSTC_LINKER").is_err() && var("TARGET").is_ok_and(|target| target == "x86_64-unknown-linux-gnu");
     if released && is_lld {
         println!("cargo:rustc-link-arg-bins=-Wl,--icf=all");
+        println!("cargo:rustc-link-arg-bins=-T{}/no-unwinding.ld", env!("CARGO_MANIFEST_DIR"));
     }
 }
