@@ -78,6 +78,7 @@ wheel: build
 
 # What a release page holds, in dist: wheel, source distribution, archive of the program, bill of materials, sums.
 # PORTABLE=2.17 on Linux: program and wheel need that glibc and no newer one, since zig links them against its own copy.
+# It builds the program for aarch64 as well (cargo zigbuild --target aarch64-unknown-linux-gnu.2.17), never run so far.
 HOST := $(shell rustc -vV | sed -n 's/^host: //p')
 PORTABLE ?=
 

@@ -52,7 +52,7 @@ fn demands_of_a_structure_known_by_hand() {
     let study = steps();
     let asked = ["export", "r.h5", "--demand", "here", "--structure", "block.toml", "--return-period", "475"];
     let run = study.uplift(&asked).ok();
-    assert!(run.stderr.contains("location 1: block oscillator, location 2: block block"), "{run:?}");
+    assert!(run.stderr.contains("location 1: block oscillator, location 2: block block; inf: overturned"), "{run:?}");
     let (names, table) = rows(&study, "r.demand.csv");
     assert_eq!(names, ["record", "1-PGA-0-1", "1-DEC-1-1", "1-DEC-2-1"]);
     assert_eq!(table[0], ["Units", "g", "m", "m"]);
@@ -70,6 +70,8 @@ fn demands_of_a_structure_known_by_hand() {
     export(&["--strength", "0.1", "--poe", "0.02", "--years", "500"]).fails(2, &["last level, 0.8 g"]);
     export(&["--strength", "0.1", "--capacity-share", "0.4"]).fails(2, &["--capacity-share"]);
     export(&["--strength", "0.1", "--fragility", "csv"]).fails(2, &["--fragility"]);
+    export(&["--strength", "0.1", "--displacement-m", "0.1"]).fails(2, &["--displacement-m"]);
+    export(&["--strength", "0.1", "--manifest", "x.csv"]).fails(2, &["--manifest"]);
     study.uplift(&["export", "r.h5", "--demand", "Rome", "--strength", "0.1"]).fails(2, &["--demand Rome", "Here"]);
     study.uplift(&["export", "r.h5", "--strength", "0.1"]).fails(2, &["--fragility", "--demand"]);
 }

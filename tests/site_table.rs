@@ -440,6 +440,8 @@ fn slices_that_do_not_make_the_table_are_refused() {
     std::fs::remove_file(study.path().join("results/study.slice-3-of-3.sites.h5")).unwrap();
     study.uplift(&["merge", "study.toml", &one, &two, &three, "-o", "j.h5"]).fails(4, &["slice-3-of-3.sites.h5"]);
     study.uplift(&["run", "study.toml", "--sites", "8/8"]).fails(4, &["has 7 sites: at most 7 slices"]);
+    study.uplift(&["status", "whole.sites.h5"]).fails(4, &["the sites of a result as arrays"]);
+    SmallStudy::new().uplift(&["run", "study.toml", "--sites", "1/4"]).fails(3, &["there is no table of sites"]);
     study.uplift(&["run", "study.toml", "--sites", "0/8"]).fails(2, &["write 3/1000"]);
 }
 

@@ -39,6 +39,10 @@ slices=${SLICES:-1}
 
 # The files of a shard and of a slice, as `uplift run` names them.
 shard() { printf '%s.shard-%0*d-of-%d' "${result%.h5}" "${#shards}" "$1" "$shards"; }
+list_shards() {
+    files=()
+    for ((index = 1; index <= shards; index++)); do files+=("$(shard "$index")"); done
+}
 slice() { printf '%s.slice-%0*d-of-%d.h5' "${result%.h5}" "${#slices}" "$1" "$slices"; }
 
 case $step in
@@ -69,13 +73,12 @@ stripes)
         --threads "$SLURM_CPUS_PER_TASK"
     ;;
 join)
-    files=()
-    for ((index = 1; index <= shards; index++)); do files+=("$(shard "$index")"); done
+    list_shards
     joined=$result sites=()
     [ "$slices" = 1 ] || { joined=$(slice 1) && sites=(--sites "1/$slices"); }
     "$uplift" merge "$study" "${files[@]}" "${sites[@]}" --output "$joined" --threads "$SLURM_CPUS_PER_TASK"
-    # all that was in them is in the result
-    rm -f "${files[@]}"
+    # all that was in them is in the result; repeated after a stop among the sites, this is joined again
+    [ "$slices" != 1 ] || rm -f "${files[@]}"
     ;;
 sites)
     exec "$uplift" run "$study" --sites "$SLURM_ARRAY_TASK_ID/$slices" --output "$(slice "$SLURM_ARRAY_TASK_ID")" \
@@ -86,6 +89,8 @@ join-sites)
     for ((index = 1; index <= slices; index++)); do files+=("$(slice "$index")"); done
     "$uplift" merge "$study" "${files[@]}" --output "$result" --threads "$SLURM_CPUS_PER_TASK"
     for file in "${files[@]}"; do rm -f "${file%.h5}".*; done
+    list_shards
+    rm -f "${files[@]}"
     ;;
 *)
     echo "$usage" >&2

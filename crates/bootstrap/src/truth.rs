@@ -5,9 +5,11 @@ use uplift_risk::{PooledDemand, RiskError, RunWeights, StripeWeights};
 use crate::inferred::{Rates, SURELY_BELOW, Search, Step, check, check_target, fall, rising};
 use crate::skewed_mean::{AboveInterval, StudentQuantiles, of_side};
 
-/// Above this, no quantile is reached by a mean that is not above the target: its deviate is at most γ/(6√n), 0.41 for
-/// three units of which one carries all, and less for more.
+/// Above this, no quantile is reached by a mean that is below the target: its deviate is at most γ/(6√n), 0.41 for
+/// three units of which one alone deviates, and less for more.
 const OUT_OF_REACH: f64 = 0.5;
+/// Part of the target at which a mean is below it, whatever rounding leaves of γ where the units hardly scatter.
+const BELOW: f64 = 1.0 - 1e-6;
 
 /// The limits of the truth alone, m, `[target]`, to the bit those of [`inferred_limits`](crate::inferred_limits) for as
 /// many units as the set has.
@@ -84,7 +86,7 @@ impl Truth {
     fn see(&mut self, deviate: f64, from_m: f64, to_m: f64) {
         self.search.see(deviate, from_m, to_m);
         self.is_doubtful |= self.was_passed && self.search.was_beyond;
-        self.was_passed &= deviate.abs() > 1.0;
+        self.was_passed &= self.search.found_m.is_none_or(|found_m| found_m[0] != from_m);
     }
 }
 
@@ -129,7 +131,7 @@ impl<'a> Fall<'a> {
         let mut is_below = false;
         let may_pass_over = self.truths.iter().filter(|own| !own.search.was_beyond).all(|own| {
             if own.search.found_m.is_some() {
-                return self.is_patient && per_year <= own.target;
+                return self.is_patient && per_year <= BELOW * own.target;
             }
             is_below = is_below || rates.is_below(own.target, per_year, &self.above);
             is_below

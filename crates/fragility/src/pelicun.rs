@@ -121,6 +121,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn measures_are_demands_in_the_same_unit() {
+        let of = |imt: &str| pelicun_demand(imt).map(|demand| (demand.name, demand.acronym, demand.unit));
+        let found = |name: &str, acronym: &str, unit| Some((name.to_owned(), acronym.to_owned(), unit));
+        assert_eq!(of("PGV"), found("Peak Ground Velocity", "PGV", "cmps"));
+        assert_eq!(of("SA(1.0)"), found("Spectral Acceleration|1.0", "SA_1.0", "g"));
+        assert_eq!((of("CAV"), of("PGD"), of("SA(1.0")), (None, None, None));
+    }
+
+    #[test]
     fn a_distribution_function_rises_from_0_to_1() {
         assert_eq!(rising(&[0.0, 0.5, 0.2, 0.2, 1.0]), [0.0, 0.3, 0.3, 0.3, 1.0]);
         let text = multilinear(&[1.0, 2.0, 4.0, 8.0], &[0.0, 0.5, 0.25, 0.75]);

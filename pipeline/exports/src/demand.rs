@@ -12,7 +12,7 @@ use uplift_job::table::write_table;
 use uplift_job::text::{risk_in_words, rounded};
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
-use uplift_study::Structure;
+use uplift_study::{Repair, Structure};
 use uplift_uniform_risk::{AskedRisk, StoredMeasure, StoredStripes, at, measure_index, site_index};
 
 use crate::error::ExportsError;
@@ -70,16 +70,27 @@ pub struct DemandReport {
     pub measure: IntensityMeasure,
     /// What is displaced, in the order of the locations: `strength 0.2`, `pier oscillator`.
     pub systems: Vec<String>,
+    /// Whether a demand is infinite: the record overturns the system.
+    pub overturns: bool,
+    /// Whether the result weighs its records, which count alike here.
+    pub is_repaired: bool,
 }
 
 impl DemandReport {
     /// `36.91 cm/s, PGV of 2 % in 50 years at Athens; location 1: strength 0.2`.
     pub fn words(&self) -> String {
-        let Self { site, risk, level, measure, systems, .. } = self;
+        let Self { site, risk, level, measure, systems, overturns, is_repaired, .. } = self;
         let (level, unit, label) = (rounded(*level, 4), measure.unit(), measure.label());
         let locations: Vec<String> =
             (1..).zip(systems).map(|(location, system)| format!("location {location}: {system}")).collect();
-        format!("{level} {unit}, {label} of {risk} at {site}; {}", locations.join(", "))
+        let mut words = format!("{level} {unit}, {label} of {risk} at {site}; {}", locations.join(", "));
+        if *overturns {
+            words += "; inf: overturned";
+        }
+        if *is_repaired {
+            words += "; without the weights of the repair";
+        }
+        words
     }
 }
 
@@ -93,8 +104,8 @@ struct Displaced {
 }
 
 /// Writes a demand sample of pelicun 3: a row each record, scaled to the intensity that the site exceeds with the
-/// probability asked for; a location each system. Between two levels a demand lies on a straight line; it is infinite
-/// where the record overturns the system at the higher one.
+/// probability asked for; a location each system. Between two levels a demand lies on a straight line; where either is
+/// infinite, since the record overturns the system, it is that at the higher one.
 ///
 /// # Errors
 /// A file that is no result, is damaged or has no sites; several probabilities; a strength, a site or a measure that it
@@ -125,9 +136,9 @@ pub fn export_demand(options: &DemandOptions, events: &dyn Events) -> Result<Dem
     })?;
     let site = &stored.sites[site_index("--demand", &stored.sites, &options.site)?];
     let poe = stored.poe_index(None)?;
-    let extrapolation = file.stored_study()?.risk.extrapolate;
+    let study = file.stored_study()?;
     let rate_per_year = stored.targets_per_year[poe];
-    let level = file.site_curve(site, measure)?.im_at_rate_extrapolated(rate_per_year, extrapolation)?;
+    let level = file.site_curve(site, measure)?.im_at_rate_extrapolated(rate_per_year, study.risk.extrapolate)?;
     let systems = match &options.of {
         DemandOf::Strengths(strengths) => of_strengths(&stored, measure, strengths)?,
         DemandOf::Structure { structure, manifest } => {
@@ -157,8 +168,10 @@ pub fn export_demand(options: &DemandOptions, events: &dyn Events) -> Result<Dem
             texts(intensity.unit, &mut std::iter::repeat_n(level, record_count)),
         ),
     ];
+    let mut overturns = false;
     for (location, system) in (1..).zip(&systems) {
         let demands_m = system.demands_at(level, measure)?;
+        overturns |= demands_m.iter().any(|demand_m| demand_m.is_infinite());
         columns.push(Column::new(format!("1-DEC-{location}-1").into(), texts("m", &mut demands_m.into_iter())));
     }
     write_table(&path, &stored.line("demands"), columns)?;
@@ -169,6 +182,8 @@ pub fn export_demand(options: &DemandOptions, events: &dyn Events) -> Result<Dem
         level,
         measure,
         systems: systems.into_iter().map(|system| system.name).collect(),
+        overturns,
+        is_repaired: study.consistency.repair == Repair::Weights,
     })
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use uplift_job::outputs::SITES_KIND;
 use uplift_job::{Array, JobError};
 use uplift_labelled::{LabelledArray, LabelledReader};
 use uplift_study::Kind;
@@ -81,8 +82,10 @@ impl ResultFile {
         let reader = LabelledReader::open(path).map_err(|error| no_result(path, error))?;
         let program = reader.attribute_text("/", "program").unwrap_or_default();
         if program != "uplift" {
+            let is_sites = reader.attribute_text("/", "kind").is_ok_and(|kind| kind == SITES_KIND);
+            let what = if is_sites { "the sites of a result as arrays" } else { "an HDF5 file" };
             return Err(JobError::input(format!(
-                "{}: is an HDF5 file, but not a result of uplift: give the file that `uplift run` wrote",
+                "{}: is {what}, but not a result of uplift: give the file that `uplift run` wrote",
                 path.display()
             ))
             .into());

@@ -45,7 +45,7 @@ const STRENGTHS: Key<GridRule> = grid("strengths", strengths::RULE)
     .note("each one of `strengths.values`");
 const BANDS: Key<Boolean> = boolean("bands")
     .with_default(false)
-    .meaning("whether each ordinate that is written has its 90 % band; at 20 strengths some five times the time");
+    .meaning("whether each ordinate that is written has its 90 % band; at 20 strengths some twelve times the time");
 const SLICE: Key<Text> = text("slice")
     .without_default("the whole table")
     .meaning("one part of the table: `3/1000` is the third of a thousand; `uplift run --sites 3/1000` sets it");
@@ -206,7 +206,11 @@ fn section(
             _ => exports = None,
         }
     }
-    if !of_the_study && !studied.is_empty() {
+    let has_exports = exports.as_ref().is_none_or(|exports| !exports.is_empty());
+    if let Some(slice) = section.given(&SLICE).filter(|_| !has_exports && !of_the_study) {
+        slice.mistake("there is no table of sites to take a part of", "add [site_table], or leave --sites out");
+        exports = None;
+    } else if !of_the_study && !studied.is_empty() {
         let keys: Vec<&str> = studied.iter().map(|measure| measure.key()).collect();
         section.mistake(
             "",

@@ -17,7 +17,7 @@ use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
 use uplift_job::study_run::PlanHead;
-use uplift_study::{MeasurePlan, Repair, UniformRiskStudy};
+use uplift_study::{ExportFiles, MeasurePlan, Repair, UniformRiskStudy};
 use uplift_uniform_risk::consistency::{Answer, ConsistencyReport};
 use uplift_uniform_risk::{plan_own_stripes, systems, systems_under};
 
@@ -27,6 +27,11 @@ use crate::error::StudiesError;
 
 /// Time spent on a measure to see how fast this machine is.
 const CALIBRATION: Duration = Duration::from_secs(1);
+
+/// Time of a core for an ordinate of a table of sites, read, computed and written, s.
+const ORDINATE_S: f64 = 8.5e-6;
+/// The same for a run that the band of a table's ordinates goes through, s.
+const RUN_OF_BAND_S: f64 = 25e-9;
 
 /// What a study of uniform risk costs.
 #[derive(Debug, Clone, Serialize)]
@@ -79,7 +84,7 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
         synthetic: records.synthetic,
         analyses: plans.iter().map(uplift_ida::Plan::analyses).sum(),
         threads: rayon::current_num_threads(),
-        seconds,
+        seconds: seconds + seconds_of_sites(study, &records, site_list.as_ref()),
         memory_bytes: needs.memory_bytes,
         disk_bytes: needs.disk_bytes,
         room: needs.room(&study.output.file),
@@ -89,6 +94,22 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
         would_replace: false,
     };
     Ok(Plan { head, levels, consistency })
+}
+
+/// About how long the table of sites takes after the analyses, s.
+fn seconds_of_sites(study: &UniformRiskStudy, set: &RecordSet, list: Option<&SiteList>) -> f64 {
+    let (Some(list), Some(table)) = (list, &study.site_table) else { return 0.0 };
+    let (strengths, poes) = (study.strengths.len() as f64, study.risk.poe.len() as f64);
+    let written = table.strengths.as_ref().map_or(strengths, |own| own.len() as f64);
+    let of_export = |export: &ExportFiles| {
+        let of_measure = |plan: &&MeasurePlan| plan.measure == export.measure;
+        let levels = study.measures.iter().find(of_measure).map_or(0, |plan| plan.levels.len());
+        let runs = if table.bands { (set.records.len() * levels) as f64 } else { 0.0 };
+        let curves = 1.0 + export.branches.len() as f64;
+        curves * strengths * poes * ORDINATE_S + written * runs * RUN_OF_BAND_S
+    };
+    let of_site: f64 = table.exports.iter().map(of_export).sum();
+    list.range.len() as f64 * of_site / rayon::current_num_threads() as f64
 }
 
 /// The alarms of the study and its records.

@@ -67,7 +67,7 @@ struct AssessmentArguments {
     demand: Option<String>,
     /// Displacements that are exceeded, m
     #[arg(long, value_name = "M[,…]", allow_negative_numbers = true, value_parser = numbers,
-        requires_all = ["fragility", "strength"])]
+        requires_all = ["fragility", "strength"], conflicts_with = "demand")]
     displacement_m: Vec<Numbers>,
     /// Uplift strengths of the result
     #[arg(long, value_name = "STRENGTH[,…]", allow_negative_numbers = true, value_parser = numbers,
@@ -81,7 +81,7 @@ struct AssessmentArguments {
         default_value_t = CAPACITY_SHARE, allow_negative_numbers = true, value_parser = number_or_per_cent)]
     capacity_share: f64,
     /// Manifest of the records, if it was moved
-    #[arg(long, value_name = "CSV", requires = "structure")]
+    #[arg(long, value_name = "CSV", requires = "structure", conflicts_with = "strength")]
     manifest: Option<PathBuf>,
     /// Intensity measure [default: all; of demands the first]
     #[arg(long, requires = "assessment")]
