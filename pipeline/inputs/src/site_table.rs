@@ -348,15 +348,27 @@ impl SiteList {
             || pairs().filter_map(|(site, row)| row.as_ref().filter(|row| !row.usable).map(|row| (site, row)));
         let total = unusable().count();
         if total > 0 {
-            let examples: Vec<String> = unusable()
-                .take(SITES_NAMED)
-                .map(|(site, row)| format!("{}: {}", shown(site), index.reason(row).unwrap_or("see the tables")))
-                .collect();
+            let reason = |(site, row): (&ListedSite, &Row)| {
+                let reason = index.reason(row).unwrap_or("see the tables");
+                let (what, advice) = reason.split_once("; ").unwrap_or((reason, ""));
+                (format!("{}: {what}", shown(site)), advice.to_owned())
+            };
+            let examples: Vec<(String, String)> = unusable().take(SITES_NAMED).map(reason).collect();
+            // what to do is told once where it is the same at all
+            let is_common = examples.iter().all(|(_, advice)| *advice == examples[0].1);
+            let told = |parts: &[&str]| {
+                let parts: Vec<&str> = parts.iter().copied().filter(|part| !part.is_empty()).collect();
+                parts.join("; ")
+            };
+            let of = |(what, advice): &(String, String)| if is_common { what.clone() } else { told(&[what, advice]) };
+            let sites: Vec<String> = examples.iter().map(of).collect();
+            let sites = sites.join("; ");
+            let rest = if total > examples.len() { "…" } else { "" };
+            let advice = if is_common { &*examples[0].1 } else { "" };
             messages.push(format!(
-                "site table, {label}: {} of {all} sites have no hazard curve that can be used: {}{}",
+                "site table, {label}: {} of {all} sites have no hazard curve that can be used: {}",
                 count(total),
-                examples.join("; "),
-                if total > examples.len() { "; …" } else { "" },
+                told(&[&sites, rest, advice]),
             ));
         }
         messages

@@ -244,7 +244,7 @@ impl Tally {
         if self.shortened > 0 {
             notes.push(format!(
                 "site table, {label}: {} curves of {name} end in zeros or begin with probabilities of 1: such levels \
-                 were dropped: they give no annual rate",
+                 were dropped: they give no annual rate. Probabilities in 1 year are seldom 1",
                 self.shortened
             ));
         }
