@@ -422,6 +422,8 @@ fn slices_that_do_not_make_the_table_are_refused() {
     let [one, two, three] = [1, 2, 3].map(|number| format!("results/study.slice-{number}-of-3.h5"));
     let merge = |slices: &[&str]| study.uplift(&[&["merge", "study.toml"][..], slices, &["-o", "joined.h5"]].concat());
     merge(&[&one, &three]).fails(4, &["1 slice missing: 2/3", "--sites 2/3"]);
+    let said = study.uplift(&["status", "study.toml"]).ok().stdout;
+    assert!(said.contains("1 of 2; missing 2\n") && said.contains("3 of 3; ready for `uplift merge`"), "{said}");
     study.write("copy.h5", "");
     std::fs::copy(study.path().join(&one), study.path().join("copy.h5")).unwrap();
     merge(&[&one, "copy.h5", &two, &three]).fails(4, &["copy.h5: slice 1/3 is there twice, as results/study.slice-1"]);

@@ -31,3 +31,8 @@ pub fn plain_id(words: &str) -> String {
     let plain = |letter: char| if letter.is_ascii_alphanumeric() || letter == '-' { letter } else { '_' };
     words.replace('.', "p").chars().map(plain).collect()
 }
+
+/// What to say of the limit states of a function that have no lognormal function; nothing where all have one.
+pub(crate) fn without_fit(id: &str, missing: &[&str]) -> Option<String> {
+    (!missing.is_empty()).then(|| format!("{id}: no lognormal function: {} has no fit", missing.join(", ")))
+}

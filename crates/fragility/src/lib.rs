@@ -51,7 +51,7 @@ pub use goodness::Goodness;
 pub use lognormal::{LognormalFit, LognormalFragility, StripeCount, fit_lognormal, fits_without_each, stripe_counts};
 pub use normal::{ln_normal_cdf, normal_cdf, normal_quantile};
 pub use nrml::nrml_model;
-pub use pelicun::{PELICUN_COLUMN, PelicunDemand, pelicun_demand, pelicun_table};
+pub use pelicun::{PELICUN_COLUMN, PelicunDemand, TextColumn, pelicun_demand, pelicun_table};
 pub use quantile::{quantile, weighted_quantile};
 pub use spread::{FitSpread, lognormal_spread};
 pub use stripes::Stripes;

@@ -1,5 +1,6 @@
 //! A fragility model of `OpenQuake`, NRML 0.5: discrete functions of counted shares, continuous ones of lognormal fits.
 
+use crate::function::without_fit;
 use crate::{FragilityFunction, FragilityState};
 
 /// The model as a document, and what it leaves out; `line` says where the numbers come from.
@@ -19,8 +20,8 @@ pub fn nrml_model(functions: &[FragilityFunction], line: &str) -> (String, Vec<S
         lines.extend(states.iter().map(poes));
         lines.push("    </fragilityFunction>".to_owned());
         let missing: Vec<&str> = states.iter().filter(|own| moments(own).is_none()).map(|own| &*own.name).collect();
-        if !missing.is_empty() {
-            notes.push(format!("{id}: no lognormal function: {} has no fit", missing.join(", ")));
+        if let Some(note) = without_fit(id, &missing) {
+            notes.push(note);
             continue;
         }
         let (first, last) = (levels.first().copied().unwrap_or(0.0), levels.last().copied().unwrap_or(0.0));

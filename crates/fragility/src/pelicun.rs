@@ -1,5 +1,6 @@
 //! A fragility table of pelicun 3: a row each system and measure, of the counted shares and of the lognormal fits.
 
+use crate::function::without_fit;
 use crate::{FragilityFunction, FragilityState};
 
 /// The column by which a table of this kind is known.
@@ -45,10 +46,14 @@ struct Row {
     states: Vec<Option<[String; 3]>>,
 }
 
-/// The columns of the table, each with its name. Demands are taken as they are for direction 1 (`Demand-Directional` is
-/// 1), so that pelicun does not multiply them. Functions of measures that it does not have are left out.
-pub fn pelicun_table(functions: &[FragilityFunction]) -> Vec<(String, Vec<String>)> {
-    let mut rows = Vec::new();
+/// A column of a table: its name and its cells.
+pub type TextColumn = (String, Vec<String>);
+
+/// The columns of the table, and what they leave out. Demands are taken as they are for direction 1
+/// (`Demand-Directional` is 1), so that pelicun does not multiply them. Functions of measures that it does not have are
+/// left out.
+pub fn pelicun_table(functions: &[FragilityFunction]) -> (Vec<TextColumn>, Vec<String>) {
+    let (mut rows, mut notes) = (Vec::new(), Vec::new());
     for FragilityFunction { id, imt, levels, states } in functions {
         let Some(demand) = pelicun_demand(imt) else { continue };
         let counted = |state: &FragilityState| {
@@ -60,6 +65,9 @@ pub fn pelicun_table(functions: &[FragilityFunction]) -> Vec<(String, Vec<String
         };
         rows.push(Row::new(id.clone(), &demand, states.iter().map(counted).collect()));
         rows.push(Row::new(format!("{id}_lognormal"), &demand, states.iter().map(fitted).collect()));
+        let missing: Vec<&str> =
+            states.iter().filter(|state| state.lognormal.is_none()).map(|state| &*state.name).collect();
+        notes.extend(without_fit(id, &missing));
     }
     let of = |name: &str, cell: &dyn Fn(&Row) -> String| (name.to_owned(), rows.iter().map(cell).collect());
     let mut columns = vec![
@@ -78,7 +86,7 @@ pub fn pelicun_table(functions: &[FragilityFunction]) -> Vec<(String, Vec<String
         }
         columns.push(of(&format!("LS{}-DamageStateWeights", state + 1), &|_| String::new()));
     }
-    columns
+    (columns, notes)
 }
 
 impl Row {

@@ -161,7 +161,11 @@ pub fn export_fragility(options: &FragilityOptions, events: &dyn Events) -> Resu
             report.notes = notes;
             write_atomically(&path, text.as_bytes())?;
         }
-        FragilityFormat::Pelicun => write_table(&path, &line, text_columns(pelicun_table(&functions)))?,
+        FragilityFormat::Pelicun => {
+            let (columns, notes) = pelicun_table(&functions);
+            report.notes = notes;
+            write_table(&path, &line, text_columns(columns))?;
+        }
         FragilityFormat::Csv => write_table(&path, &line, table::columns(&fragilities))?,
     }
     if let Some(fits) = fits {

@@ -55,7 +55,12 @@ pub fn write_table(path: &Path, line: &str, columns: Vec<Column>) -> Result<(), 
     let table = table_text(path, "", columns)?;
     // first, since a table without it is nobody's
     write_metadata(path, line, names.iter().map(String::as_str))?;
-    write_atomically(path, &table)
+    write_atomically(path, &table).inspect_err(|_| {
+        if !path.exists() {
+            // of no table, if it cannot be taken away either
+            let _ = std::fs::remove_file(metadata_path(path));
+        }
+    })
 }
 
 /// Columns of texts, each with its name.

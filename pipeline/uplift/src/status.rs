@@ -1,5 +1,6 @@
 //! How far a run is, and what a result holds.
 
+use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -15,16 +16,28 @@ use uplift_study::Study;
 use crate::error::UpliftError;
 
 /// What is there of a run: at least one of its parts.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct StatusReport {
     /// The result, where it is finished.
     pub result: Option<ResultStatus>,
     /// Files of finished rows: the checkpoint of an unfinished run, and shards.
     pub unfinished: Vec<UnfinishedStatus>,
+    /// Slices of its table of sites.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub slices: Vec<SlicesStatus>,
     /// What an interrupted bootstrap of the result has finished.
     pub bootstrap: Option<BootstrapStatus>,
     /// Who is writing the result now.
     pub written_by: Option<String>,
+}
+
+/// The slices of a table of sites that was cut into so many.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct SlicesStatus {
+    /// How many there are to be.
+    pub count: usize,
+    /// Those that are computed, from 1, ascending.
+    pub done: Vec<usize>,
 }
 
 /// The file of an interrupted bootstrap.
@@ -108,14 +121,14 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
     if input.is_file() && !is_hdf5(input) {
         if let Ok(Some(finding)) = RowFile::read(input) {
             let unfinished = vec![UnfinishedStatus::from_finding(input, &finding)];
-            return Ok(StatusReport { result: None, unfinished, bootstrap: None, written_by: None });
+            return Ok(StatusReport { unfinished, ..StatusReport::default() });
         }
         if input.extension().is_some_and(|extension| extension == "h5") {
             return Err(JobError::input(format!("{} is not an HDF5 file", input.display())).into());
         }
     }
     if let Some(bootstrap) = BootstrapStatus::read(input.to_owned()) {
-        return Ok(StatusReport { result: None, unfinished: Vec::new(), bootstrap: Some(bootstrap), written_by: None });
+        return Ok(StatusReport { bootstrap: Some(bootstrap), ..StatusReport::default() });
     }
     let path = if input.extension().is_some_and(|extension| extension == "toml") {
         Study::load_any(input, &[])?.output().file.clone()
@@ -133,14 +146,14 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
             unfinished.push(UnfinishedStatus::from_finding(&shard, &finding));
         }
     }
-    let written_by = ResultLock::holder(&path);
-    if result.is_none() && unfinished.is_empty() && written_by.is_none() {
+    let (slices, written_by) = (slices_of(&path), ResultLock::holder(&path));
+    if result.is_none() && unfinished.is_empty() && slices.is_empty() && written_by.is_none() {
         return Err(
             JobError::input(format!("{}: no result, and no checkpoint of an unfinished run", path.display())).into()
         );
     }
     let bootstrap = BootstrapStatus::read(part_path(&path));
-    Ok(StatusReport { result, unfinished, bootstrap, written_by })
+    Ok(StatusReport { result, unfinished, slices, bootstrap, written_by })
 }
 
 /// Files named as the shards of the result at `result`, and as the checkpoints and shards of what is asked of it.
@@ -150,16 +163,33 @@ fn shards_of(result: &Path) -> Vec<PathBuf> {
     let of_question =
         |rest: &str| rest.rsplit_once('.').is_some_and(|(_, end)| end == "part" || end.starts_with("shard-"));
     let is_one = |name: &str| name.starts_with(&own) || name.strip_prefix(&asked).is_some_and(of_question);
-    let folder = result.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut shards: Vec<PathBuf> = std::fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .filter(|entry| is_one(&entry.file_name().to_string_lossy()))
-        .map(|entry| entry.path())
-        .collect();
+    let mut shards: Vec<PathBuf> = neighbours(result).filter(|(name, _)| is_one(name)).map(|(_, path)| path).collect();
     shards.sort();
     shards
+}
+
+/// Slices by their names, `study.slice-3-of-8.h5`, of each number that a table was cut into.
+fn slices_of(result: &Path) -> Vec<SlicesStatus> {
+    let own = format!("{}.slice-", result.file_stem().unwrap_or_default().to_string_lossy());
+    let mut by_count: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (name, _) in neighbours(result) {
+        let numbers = name.strip_prefix(&own).and_then(|rest| rest.strip_suffix(".h5")?.split_once("-of-"));
+        if let Some((Ok(number), Ok(count))) = numbers.map(|(number, count)| (number.parse(), count.parse())) {
+            by_count.entry(count).or_default().push(number);
+        }
+    }
+    let sorted = |(count, mut done): (usize, Vec<usize>)| {
+        done.sort_unstable();
+        SlicesStatus { count, done }
+    };
+    by_count.into_iter().map(sorted).collect()
+}
+
+/// What is in the folder of a result, with the name of each.
+fn neighbours(result: &Path) -> impl Iterator<Item = (String, PathBuf)> {
+    let folder = result.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|entry| (entry.file_name().to_string_lossy().into_owned(), entry.path()))
 }
 
 impl BootstrapStatus {

@@ -3,12 +3,15 @@
 use std::io::Write;
 
 use uplift::result::Overview;
-use uplift::status::{BootstrapStatus, ResultStatus, StatusReport, UnfinishedStatus};
+use uplift::status::{BootstrapStatus, ResultStatus, SlicesStatus, StatusReport, UnfinishedStatus};
 
 use uplift::text::one_line;
 
 use crate::error::CommandError;
 use crate::terminal::output;
+
+/// Missing slices that are named.
+const SLICES_NAMED: usize = 10;
 
 /// The result, the checkpoint of an unfinished run, and who writes it now.
 pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
@@ -18,6 +21,16 @@ pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
     }
     for unfinished in &report.unfinished {
         print_unfinished(&mut out, unfinished)?;
+    }
+    for SlicesStatus { count, done } in &report.slices {
+        let missing = (1..=*count).filter(|number| !done.contains(number)).map(|number| number.to_string());
+        let missing: Vec<String> = missing.take(SLICES_NAMED + 1).collect();
+        let missing = match &missing[..] {
+            [] => "ready for `uplift merge`".to_owned(),
+            [named @ .., _] if named.len() == SLICES_NAMED => format!("missing {}, …", named.join(", ")),
+            named => format!("missing {}", named.join(", ")),
+        };
+        writeln!(out, "slices of the sites: {} of {count}; {missing}", done.len())?;
     }
     if let Some(BootstrapStatus { file, strengths }) = &report.bootstrap {
         writeln!(

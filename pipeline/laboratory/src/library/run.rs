@@ -144,7 +144,7 @@ fn write(report: &LibraryReport, folder: &Path) -> Result<Vec<PathBuf>, Laborato
     write_atomically(&file, text.as_bytes())?;
     files.push(file);
     let file = folder.join(PELICUN);
-    write_table(&file, &line, text_columns(pelicun_table(&functions)))?;
+    write_table(&file, &line, text_columns(pelicun_table(&functions).0))?;
     files.push(file);
     Ok(files)
 }
