@@ -1,6 +1,6 @@
 //! `uplift export --fragility`: fragilities for other programs, against the counts of the same records.
 
-use crate::common::SmallStudy;
+use crate::common::{SMALL_STUDY, SmallStudy};
 use crate::overturning::steps;
 
 /// The rows of a table, by the names of its columns.
@@ -75,6 +75,22 @@ fn demands_of_a_structure_known_by_hand() {
     export(&["--strength", "0.1", "--manifest", "x.csv"]).fails(2, &["--manifest"]);
     study.uplift(&["export", "r.h5", "--demand", "Rome", "--strength", "0.1"]).fails(2, &["--demand Rome", "Here"]);
     study.uplift(&["export", "r.h5", "--strength", "0.1"]).fails(2, &["--fragility", "--demand"]);
+}
+
+// records that shake several oscillators each are rows each; a structure is shaken once by each motion
+#[test]
+fn demands_of_a_study_of_uncertain_oscillators() {
+    let more = "[uncertainty]\nkind = \"aleatory\"\ndraws = 2\n[uncertainty.strength]\ndistribution = \
+                \"lognormal\"\ncoefficient_of_variation = 0.2\n[strengths]";
+    let study = SmallStudy::with(&SMALL_STUDY.replace("[strengths]", more));
+    study.write("block.toml", "kind = \"block\"\nwidth_m = 0.4\nheight_m = 3\nmass_kg = 1000\n");
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    let count = |of: &[&str]| {
+        study.uplift(&[&["export", "r.h5", "--demand", "Here", "--return-period", "475", "-q"], of].concat()).ok();
+        rows(&study, "r.demand.csv").1.len() - 1
+    };
+    let of_structure = count(&["--structure", "block.toml"]);
+    assert_eq!(count(&["--strength", "0.1"]), 2 * of_structure);
 }
 
 #[test]

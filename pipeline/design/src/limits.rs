@@ -51,6 +51,8 @@ pub struct LimitStripes {
     pub model: &'static str,
     /// The levels, in the unit of the measure, ascending.
     pub levels: Vec<f64>,
+    /// Names of the records: each motion once, whatever structures of the study it shakes.
+    pub records: Vec<String>,
     /// Peak displacements of the model `[record, level]`, m; infinite where it overturns.
     pub demands_m: Vec<f64>,
     /// Displacement of the structure over that of the model.
@@ -86,6 +88,7 @@ pub fn limit_stripes(
     let job = ResultJob { result, name: &name };
     let (analysed, checkpoint) = job.results(analysis.work(&name, &[1.0])?, &[], events)?;
     let mut analysed = analysed.into_iter();
+    let records: Vec<String> = analysis.records.set.records.iter().map(|record| record.id.clone()).collect();
     let mut found = Vec::new();
     for measure in &analysis.measures {
         for ((model, _), analysed) in analysis.models.iter().zip(analysed.by_ref()) {
@@ -93,6 +96,7 @@ pub fn limit_stripes(
             found.push(LimitStripes {
                 measure: measure.measure(),
                 model: model.kind(),
+                records: records.clone(),
                 demands_m: peaks_m(&analysed, levels.len(), 0),
                 participation: participation(model, structure),
                 limits: limits(model, structure, share),
@@ -107,6 +111,7 @@ pub fn limit_stripes(
                 measure: measure.measure(),
                 model,
                 levels: places.iter().map(|&place| measure.plan.levels[place]).collect(),
+                records: records.clone(),
                 demands_m: demands_m.to_vec(),
                 participation: participation(system, structure),
                 limits: limits(system, structure, share),

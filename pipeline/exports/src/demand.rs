@@ -98,6 +98,7 @@ impl DemandReport {
 struct Displaced {
     name: String,
     levels: Vec<f64>,
+    records: Vec<String>,
     /// `[record, level]`, m.
     demands_m: Vec<f64>,
     participation: f64,
@@ -150,6 +151,7 @@ pub fn export_demand(options: &DemandOptions, events: &dyn Events) -> Result<Dem
                 .map(|of| Displaced {
                     name: format!("{name} {}", of.model),
                     levels: of.levels,
+                    records: of.records,
                     demands_m: of.demands_m,
                     participation: of.participation,
                 })
@@ -159,13 +161,14 @@ pub fn export_demand(options: &DemandOptions, events: &dyn Events) -> Result<Dem
     let texts = |first: &str, values: &mut dyn Iterator<Item = f64>| {
         std::iter::once(first.to_owned()).chain(values.map(|value| value.to_string())).collect::<Vec<_>>()
     };
-    let record_count = stored.records.len();
-    let index: Vec<String> = std::iter::once("Units".to_owned()).chain(stored.records.iter().cloned()).collect();
+    // of one study, all systems have the same
+    let records = systems.first().map_or(&[][..], |system| &system.records);
+    let index: Vec<String> = std::iter::once("Units".to_owned()).chain(records.iter().cloned()).collect();
     let mut columns = vec![
         Column::new("record".into(), index),
         Column::new(
             format!("1-{}-0-1", intensity.acronym).into(),
-            texts(intensity.unit, &mut std::iter::repeat_n(level, record_count)),
+            texts(intensity.unit, &mut std::iter::repeat_n(level, records.len())),
         ),
     ];
     let mut overturns = false;
@@ -204,6 +207,7 @@ fn of_strengths(
             found.push(Displaced {
                 name: format!("strength {}", stored.strengths[place]),
                 levels: of.levels.clone(),
+                records: stored.records.clone(),
                 demands_m: (0..stripes.record_count()).flat_map(|record| stripes.record(record).to_vec()).collect(),
                 participation: 1.0,
             });
@@ -248,7 +252,13 @@ mod tests {
     fn demands_lie_on_straight_lines_between_levels() {
         let inf = f64::INFINITY;
         let demands_m = vec![0.0, 0.4, 1.0, 0.1, 0.3, inf];
-        let system = Displaced { name: String::new(), levels: vec![1.0, 2.0, 4.0], demands_m, participation: 1.5 };
+        let system = Displaced {
+            name: String::new(),
+            levels: vec![1.0, 2.0, 4.0],
+            records: Vec::new(),
+            demands_m,
+            participation: 1.5,
+        };
         let at = |level: f64| system.demands_at(level, IntensityMeasure::Pgv).unwrap();
         for (found, expected) in [(at(0.5), [0.0, 0.075]), (at(1.5), [0.3, 0.3]), (at(2.0), [0.6, 0.45])] {
             assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?}, {expected:?}");

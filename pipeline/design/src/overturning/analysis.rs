@@ -39,7 +39,7 @@ pub(crate) fn peaks_m(analysed: &Analysed, levels: usize, factor: usize) -> Vec<
 pub(crate) struct OverturningAnalysis<'a> {
     /// The study of the result, with what happens after the end of a record.
     pub(super) study: UniformRiskStudy,
-    pub(super) records: ShakenRecords,
+    pub(crate) records: ShakenRecords,
     pub(crate) measures: Vec<&'a SpectraOfResult>,
     /// Each with the origin of its restitution.
     pub(crate) models: Vec<(System, &'static str)>,
