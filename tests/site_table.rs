@@ -368,6 +368,10 @@ fn arrays_hold_what_the_tables_hold() {
     study.uplift(&["plot", "r.h5", "--only", "map", "-o", "maps"]).ok();
     let map = read(study.path(), "maps/map-pgv-2pct.svg");
     assert!(map.contains("strength 0.2") && map.contains("longitude, °") && map.contains("synthetic records"), "{map}");
+    study.uplift(&["plot", "r.h5", "--only", "map-pgv-2pct", "--strength", "0.4", "-o", "maps"]).ok();
+    let map = read(study.path(), "maps/map-pgv-2pct.svg");
+    assert!(map.contains("strength 0.4") && !map.contains("strength 0.2"), "{map}");
+    study.uplift(&["plot", "r.h5", "--only", "map", "--strength", "0.3"]).fails(2, &["--strength 0.3", "0.2, 0.4"]);
     // without tables the arrays alone
     study.uplift(&["run", "study.toml", "-o", "alone.h5", "--set", "output.csv=false"]).ok();
     assert!(!study.path().join("alone.sites.csv").exists());

@@ -44,23 +44,31 @@ pub use validation::{distributions_figure, pairs_figure};
 use std::path::Path;
 
 use uplift::Array;
+use uplift::JobError;
 use uplift::UpliftError;
 use uplift::result::{
     Kind, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredInfluence, StoredRecords, StoredSpectra,
     StoredSpread, StoredStripes,
 };
+use uplift::uniform_risk::site_table::cube_path;
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Figure, Panel, Series, Tone, share_y};
 
 /// The figures of the result at `path`, of either kind.
 ///
+/// - `strengths`: those of its maps of many sites; a few if empty.
+///
 /// # Errors
-/// A file that is missing, damaged or no result.
-pub fn result_figures(path: &Path) -> Result<Vec<Figure>, UpliftError> {
+/// A file that is missing, damaged or no result; strengths that its sites do not have, or of a result without maps.
+pub fn result_figures(path: &Path, strengths: &[f64]) -> Result<Vec<Figure>, UpliftError> {
     let file = ResultFile::open(path)?;
+    if !strengths.is_empty() && (file.kind() != Kind::UniformRisk || !cube_path(path).is_file()) {
+        return Err(JobError::Usage("--strength is of maps: the result has no table of sites".to_owned()).into());
+    }
     match file.kind() {
         Kind::UniformRisk => {
-            let maps = site_maps(path, &file, if file.head()?.synthetic { SYNTHETIC } else { "" })?;
+            let remark = if file.head()?.synthetic { SYNTHETIC } else { "" };
+            let maps = site_maps(path, &file, strengths, remark)?;
             if !maps.is_empty() && file.axes()?.sites.is_empty() {
                 return Ok(maps);
             }

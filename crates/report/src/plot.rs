@@ -26,7 +26,7 @@ use crate::files::{FigureOptions, check_figure_file, write_figure_file};
 const MOST_CURVES: usize = 50;
 
 /// Which figures of a result are drawn, and where.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct PlotOptions {
     /// The result file.
     pub result: PathBuf,
@@ -34,6 +34,8 @@ pub struct PlotOptions {
     pub folder: Option<PathBuf>,
     /// Only figures whose name contains this, for instance `urs`.
     pub only: Option<String>,
+    /// Uplift strengths of the maps of many sites; a few if none is given.
+    pub strengths: Vec<f64>,
     /// How they are written.
     pub figures: FigureOptions,
     /// Whether existing files are overwritten.
@@ -50,9 +52,9 @@ pub struct PlotReport {
 /// Draws the figures of a result, of either kind.
 ///
 /// # Errors
-/// A file that is no result or damaged, a figure that it does not have, a folder that cannot be written.
+/// A file that is no result or damaged, a figure or a strength that it does not have, a folder that cannot be written.
 pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, UpliftError> {
-    let figures = result_figures(&options.result)?;
+    let figures = result_figures(&options.result, &options.strengths)?;
     let wanted = options.only.as_deref().unwrap_or_default();
     let chosen: Vec<_> = figures.iter().filter(|figure| figure.id.contains(wanted)).collect();
     if chosen.is_empty() {

@@ -5,10 +5,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use uplift::UpliftError;
 use uplift::result::ResultFile;
 use uplift::text::{nearest, risk_in_words, rounded};
 use uplift::uniform_risk::site_table::{SHOWN_ON_MAP, SiteArrays};
+use uplift::{JobError, UpliftError};
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
 /// Ends of the classes, m.
@@ -22,18 +22,35 @@ const ASPECT: f64 = 1.43;
 const LEAST_HEIGHT_DEG: f64 = 0.1;
 const MARGIN: f64 = 0.08;
 
-/// The maps of the many sites beside the result at `path`, one for each measure and probability; none without such.
-pub(super) fn site_maps(path: &Path, file: &ResultFile, remark: &str) -> Result<Vec<Figure>, UpliftError> {
+/// The maps of the many sites beside the result at `path`, one for each measure and probability; none without such. A
+/// panel shows one of the `strengths`, or of a few where none is asked for.
+pub(super) fn site_maps(
+    path: &Path,
+    file: &ResultFile,
+    strengths: &[f64],
+    remark: &str,
+) -> Result<Vec<Figure>, UpliftError> {
     let Some(sites) = SiteArrays::read(path, &file.head()?.study_digest())? else { return Ok(Vec::new()) };
+    let place = |&wanted: &f64| {
+        let found = sites.strengths.iter().position(|own| (own - wanted).abs() <= 1e-9 * own.abs());
+        found.ok_or_else(|| JobError::Choice {
+            option: "--strength",
+            wanted: Some(wanted.to_string()),
+            known: sites.strengths.iter().map(ToString::to_string).collect(),
+        })
+    };
+    let mut shown = strengths.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    if shown.is_empty() {
+        shown = nearest(&sites.strengths, &SHOWN_ON_MAP);
+    }
     let each = (0..sites.measures.len()).flat_map(|measure| (0..sites.poes.len()).map(move |poe| (measure, poe)));
-    Ok(each.map(|place| site_map(&sites, place, remark)).collect())
+    Ok(each.map(|place| site_map(&sites, &shown, place, remark)).collect())
 }
 
-fn site_map(sites: &SiteArrays, (measure, poe): (usize, usize), remark: &str) -> Figure {
+fn site_map(sites: &SiteArrays, shown: &[usize], (measure, poe): (usize, usize), remark: &str) -> Figure {
     let key = &sites.measures[measure];
     let frame = frame(sites);
     let of = |strength: usize| largest_of_cells(sites, frame, [measure, poe, strength]);
-    let shown = nearest(&sites.strengths, &SHOWN_ON_MAP);
     let dots: Vec<Vec<Dot>> = shown.iter().map(|&strength| of(strength)).collect();
     let classes = Classes::new(dots.iter().flatten().map(|dot| dot.u_m));
     let panel = |(&strength, dots): (&usize, &Vec<Dot>)| {
@@ -160,7 +177,7 @@ mod tests {
     #[test]
     fn every_site_is_in_one_class_and_of_those_that_overlap_the_largest() {
         let sites = sites(&[(10.0, 45.0), (10.000_01, 45.0), (12.0, 44.0)]);
-        let figure = site_map(&sites, (0, 0), "");
+        let figure = site_map(&sites, &[0, 1], (0, 0), "");
         assert_eq!((figure.id.as_str(), figure.panels.len()), ("map-pgv-2pct", 2));
         let named: Vec<(&str, usize)> =
             figure.panels[1].series.iter().map(|own| (own.name.as_str(), own.points.len())).collect();

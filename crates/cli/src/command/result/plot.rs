@@ -8,7 +8,7 @@ use uplift::pushover::{PushoverOptions, pushover};
 use uplift::study::Structure;
 use uplift_report::{PlotOptions, plot as plot_result, plot_columns};
 
-use crate::command::arguments::{FigureArguments, ResultArguments, require_folder};
+use crate::command::arguments::{FigureArguments, Numbers, ResultArguments, numbers, require_folder};
 use crate::error::CommandError;
 use crate::show::print_files;
 use crate::terminal::Terminal;
@@ -26,6 +26,9 @@ pub(crate) struct PlotArguments {
     /// Draw only figures whose name contains this, e.g. urs
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
+    /// Strengths on maps of many sites [default: about 0.1, 0.2 and 0.4]
+    #[arg(long, value_name = "STRENGTH[,…]", allow_negative_numbers = true, value_parser = numbers)]
+    strength: Vec<Numbers>,
     #[command(flatten)]
     figures: FigureArguments,
 }
@@ -41,6 +44,7 @@ pub(crate) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(),
         result: arguments.result.find(terminal)?.path,
         folder: arguments.output.clone(),
         only: arguments.only.clone(),
+        strengths: arguments.strength.iter().flat_map(|Numbers(all)| all.iter().copied()).collect(),
         figures: arguments.figures.options(),
         force: arguments.result.force(),
     };
