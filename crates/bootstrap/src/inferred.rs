@@ -244,7 +244,6 @@ pub(crate) fn fall(demand: &PooledDemand, mut take: impl FnMut(Step) -> bool) {
 }
 
 /// The rate of the runs gone through, with the scatter of its units.
-#[derive(Debug, Clone)]
 pub(crate) enum Rates {
     /// Of records that are all run at every level.
     Alike(UnitRates),

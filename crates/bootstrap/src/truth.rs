@@ -24,7 +24,7 @@ pub fn truth_limits(
     confidence: f64,
 ) -> Result<Vec<[f64; 2]>, RiskError> {
     check(demand, weights, units)?;
-    truths(demand, weights, (Rates::from_demand(demand, units), units), targets_per_year, confidence)
+    truths(demand, weights, (|| Rates::from_demand(demand, units), units), targets_per_year, confidence)
 }
 
 /// The same of records that count as `weights` say, repaired: those of
@@ -40,13 +40,13 @@ pub fn repaired_truth_limits(
     confidence: f64,
 ) -> Result<Vec<[f64; 2]>, RiskError> {
     check(demand, weights.stripes(), units)?;
-    truths(demand, weights.stripes(), (Rates::weighted(weights, units), units), targets_per_year, confidence)
+    truths(demand, weights.stripes(), (|| Rates::weighted(weights, units), units), targets_per_year, confidence)
 }
 
 fn truths(
     demand: &PooledDemand,
     weights: &StripeWeights,
-    (rates, units): (Rates, &[Vec<usize>]),
+    (rates, units): (impl Fn() -> Rates, &[Vec<usize>]),
     targets_per_year: &[f64],
     confidence: f64,
 ) -> Result<Vec<[f64; 2]>, RiskError> {
@@ -58,7 +58,7 @@ fn truths(
     let is_patient = quantiles.at(units.len() - 1) > OUT_OF_REACH;
     let search = |is_patient| {
         let mut fall = Fall::new(&quantiles, units.len(), targets_per_year, is_patient);
-        fall.through(demand, weights, rates.clone());
+        fall.through(demand, weights, rates());
         fall
     };
     let mut found = search(is_patient);

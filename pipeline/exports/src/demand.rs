@@ -13,7 +13,7 @@ use uplift_job::text::{risk_in_words, rounded};
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
 use uplift_study::{Repair, Structure};
-use uplift_uniform_risk::{AskedRisk, StoredMeasure, StoredStripes, at, measure_index, site_index};
+use uplift_uniform_risk::{AskedRisk, StoredMeasure, StoredStripes, at, measure_index, site_index, strength_index};
 
 use crate::error::ExportsError;
 use crate::fragility::measures::pelicun;
@@ -199,21 +199,19 @@ fn of_strengths(
     if strengths.is_empty() {
         return Err(JobError::Usage("--demand: give --strength, or --structure".to_owned()).into());
     }
-    let mut found = Vec::new();
-    for of in stored.measures.iter().filter(|of: &&StoredMeasure| of.measure == measure) {
-        for &strength in strengths {
-            let place = stored.strength_index(strength)?;
-            let stripes = of.stripes(place)?;
-            found.push(Displaced {
-                name: format!("strength {}", stored.strengths[place]),
-                levels: of.levels.clone(),
-                records: stored.records.clone(),
-                demands_m: (0..stripes.record_count()).flat_map(|record| stripes.record(record).to_vec()).collect(),
-                participation: 1.0,
-            });
-        }
-    }
-    Ok(found)
+    let measures = stored.measures.iter().filter(|of| of.measure == measure);
+    let displaced = |(of, &strength): (&StoredMeasure, &f64)| {
+        let place = strength_index(&stored.strengths, strength)?;
+        let stripes = of.stripes(place)?;
+        Ok(Displaced {
+            name: format!("strength {}", stored.strengths[place]),
+            levels: of.levels.clone(),
+            records: stored.records.clone(),
+            demands_m: (0..stripes.record_count()).flat_map(|record| stripes.record(record).to_vec()).collect(),
+            participation: 1.0,
+        })
+    };
+    measures.flat_map(|of| strengths.iter().map(move |strength| (of, strength))).map(displaced).collect()
 }
 
 impl Displaced {

@@ -16,7 +16,7 @@ use uplift_job::table::{text_columns, write_atomically, write_table};
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
 use uplift_study::Structure;
-use uplift_uniform_risk::{StoredStripes, measure_index};
+use uplift_uniform_risk::{StoredStripes, measure_index, strength_index};
 
 use crate::error::ExportsError;
 use curves::{Fragility, displacement_limits};
@@ -183,7 +183,8 @@ fn of_displacements(
     units: &[Vec<usize>],
 ) -> Result<Vec<Fragility>, ExportsError> {
     let limits = displacement_limits(displacements_m)?;
-    let places = strengths.iter().map(|&strength| stored.strength_index(strength)).collect::<Result<Vec<_>, _>>()?;
+    let places =
+        strengths.iter().map(|&strength| strength_index(&stored.strengths, strength)).collect::<Result<Vec<_>, _>>()?;
     let mut fragilities = Vec::new();
     for of in stored.measures.iter().filter(|of| measures.contains(&of.measure)) {
         for &place in &places {

@@ -291,6 +291,19 @@ fn each_once<T: PartialEq>(
     Ok(all)
 }
 
+/// The position of the uplift strength `wanted`.
+///
+/// # Errors
+/// A strength that is not among those `known`.
+pub fn strength_index(known: &[f64], wanted: f64) -> Result<usize, JobError> {
+    let found = known.iter().position(|own| (own - wanted).abs() <= 1e-9 * own.abs());
+    found.ok_or_else(|| JobError::Choice {
+        option: "--strength",
+        wanted: Some(wanted.to_string()),
+        known: known.iter().map(ToString::to_string).collect(),
+    })
+}
+
 /// The position of the measure `wanted`; of the first where none is, which is PGV if the result has it.
 ///
 /// # Errors

@@ -30,7 +30,7 @@ pub use asked::{AskedRisk, OneRisk, at, stored_spectra};
 pub use coefficients::{Coefficients, fit_ordinates, fit_spectra, fit_spectrum};
 pub use displacement::{
     CONFIDENCE, Displacement, DisplacementOptions, DisplacementReport, QUOTED_LIMITS, displacements, measure_index,
-    site_index,
+    site_index, strength_index,
 };
 pub use epistemic::{BRANCHES, BranchSpectra, write_branch_spectra};
 pub use error::UniformRiskError;

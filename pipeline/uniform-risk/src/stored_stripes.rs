@@ -122,19 +122,6 @@ impl StoredStripes {
         .replace(['\n', '\r'], " ")
     }
 
-    /// Position of the uplift strength `wanted`.
-    ///
-    /// # Errors
-    /// A strength that the result does not have.
-    pub fn strength_index(&self, wanted: f64) -> Result<usize, JobError> {
-        let found = self.strengths.iter().position(|own| (own - wanted).abs() <= 1e-9 * own.abs());
-        found.ok_or_else(|| JobError::Choice {
-            option: "--strength",
-            wanted: Some(wanted.to_string()),
-            known: self.strengths.iter().map(ToString::to_string).collect(),
-        })
-    }
-
     /// Position of the probability `wanted`, or of the smallest.
     ///
     /// # Errors

@@ -32,6 +32,11 @@ pub(crate) struct ForceArgument {
 #[derive(Debug, Clone)]
 pub(crate) struct Numbers(pub(crate) Vec<f64>);
 
+/// Those of an option, however often it is given.
+pub(crate) fn all_numbers(several: &[Numbers]) -> Vec<f64> {
+    several.iter().flat_map(|Numbers(all)| all.iter().copied()).collect()
+}
+
 /// Reads `0.1,0.2`; `0,13` is a number with a decimal comma.
 pub(crate) fn numbers(text: &str) -> Result<Numbers, String> {
     if let Some(decimals) = text.strip_prefix("0,").filter(|rest| rest.bytes().all(|byte| byte.is_ascii_digit())) {

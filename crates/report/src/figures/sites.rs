@@ -5,10 +5,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use uplift::UpliftError;
 use uplift::result::ResultFile;
 use uplift::text::{nearest, risk_in_words, rounded};
 use uplift::uniform_risk::site_table::{SHOWN_ON_MAP, SiteArrays};
-use uplift::{JobError, UpliftError};
+use uplift::uniform_risk::strength_index;
 use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
 
 /// Ends of the classes, m.
@@ -31,14 +32,7 @@ pub(super) fn site_maps(
     remark: &str,
 ) -> Result<Vec<Figure>, UpliftError> {
     let Some(sites) = SiteArrays::read(path, &file.head()?.study_digest())? else { return Ok(Vec::new()) };
-    let place = |&wanted: &f64| {
-        let found = sites.strengths.iter().position(|own| (own - wanted).abs() <= 1e-9 * own.abs());
-        found.ok_or_else(|| JobError::Choice {
-            option: "--strength",
-            wanted: Some(wanted.to_string()),
-            known: sites.strengths.iter().map(ToString::to_string).collect(),
-        })
-    };
+    let place = |&wanted: &f64| strength_index(&sites.strengths, wanted);
     let mut shown = strengths.iter().map(place).collect::<Result<Vec<_>, _>>()?;
     if shown.is_empty() {
         shown = nearest(&sites.strengths, &SHOWN_ON_MAP);

@@ -12,7 +12,7 @@ use uplift::structure::CAPACITY_SHARE;
 use uplift::study::Structure;
 use uplift_motion::IntensityMeasure;
 
-use crate::command::arguments::{ForceArgument, Numbers, number_or_per_cent, numbers};
+use crate::command::arguments::{ForceArgument, Numbers, all_numbers, number_or_per_cent, numbers};
 use crate::error::CommandError;
 use crate::show::print_files;
 use crate::terminal::Terminal;
@@ -102,8 +102,8 @@ impl AssessmentArguments {
                 capacity_share: self.capacity_share,
             },
             None => FragilityOf::Displacements {
-                displacements_m: all(&self.displacement_m),
-                strengths: all(&self.strength),
+                displacements_m: all_numbers(&self.displacement_m),
+                strengths: all_numbers(&self.strength),
             },
         })
     }
@@ -112,13 +112,9 @@ impl AssessmentArguments {
     fn displaced(&self) -> Result<DemandOf, CommandError> {
         Ok(match self.structure()? {
             Some(structure) => DemandOf::Structure { structure, manifest: self.manifest.clone() },
-            None => DemandOf::Strengths(all(&self.strength)),
+            None => DemandOf::Strengths(all_numbers(&self.strength)),
         })
     }
-}
-
-fn all(several: &[Numbers]) -> Vec<f64> {
-    several.iter().flat_map(|Numbers(all)| all.iter().copied()).collect()
 }
 
 impl ExportArguments {

@@ -8,7 +8,7 @@ use uplift::pushover::{PushoverOptions, pushover};
 use uplift::study::Structure;
 use uplift_report::{PlotOptions, plot as plot_result, plot_columns};
 
-use crate::command::arguments::{FigureArguments, Numbers, ResultArguments, numbers, require_folder};
+use crate::command::arguments::{FigureArguments, Numbers, ResultArguments, all_numbers, numbers, require_folder};
 use crate::error::CommandError;
 use crate::show::print_files;
 use crate::terminal::Terminal;
@@ -44,7 +44,7 @@ pub(crate) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(),
         result: arguments.result.find(terminal)?.path,
         folder: arguments.output.clone(),
         only: arguments.only.clone(),
-        strengths: arguments.strength.iter().flat_map(|Numbers(all)| all.iter().copied()).collect(),
+        strengths: all_numbers(&arguments.strength),
         figures: arguments.figures.options(),
         force: arguments.result.force(),
     };

@@ -4,7 +4,7 @@ use clap::Args;
 use uplift::spectrum::spectrum as read;
 use uplift::uniform_risk::DisplacementOptions;
 
-use crate::command::arguments::{Numbers, ResultArguments, numbers};
+use crate::command::arguments::{Numbers, ResultArguments, all_numbers, numbers};
 use crate::error::CommandError;
 use crate::show::{print_json, print_spectrum, print_spectrum_csv};
 use crate::terminal::Terminal;
@@ -37,7 +37,7 @@ pub(crate) struct SpectrumArguments {
 
 pub(crate) fn spectrum(arguments: &SpectrumArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let result = arguments.result.find_to_read(terminal)?;
-    let strengths = arguments.strength.iter().flat_map(|Numbers(all)| all.iter().copied()).collect();
+    let strengths = all_numbers(&arguments.strength);
     let asked = DisplacementOptions { strengths, ..arguments.options.clone() };
     let report = read(&result, &asked)?;
     match (arguments.json, arguments.csv) {
