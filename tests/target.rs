@@ -205,7 +205,7 @@ fn an_unreachable_target_is_reported() {
     ask(&period).fails(2, &["a rate per year: 5e-5 is once in 20,000 years"]);
     ask(&["--overturning", "1/20000", "--vary", "width"]).fails(2, &["write a number, 5e-5"]);
     ask(&["--overturning", "-1", "--vary", "width", "--tolerance", "7"]).fails(2, &["2 things to mend", "--tolerance"]);
-    ask(&["--per-year", "1e-3", "--exceed", "x", "--vary", "width"]).fails(2, &["--exceed x", "`capacity`"]);
+    ask(&["--per-year", "1e-3", "--exceed", "x", "--vary", "width"]).fails(2, &["'x' for '--exceed", "or `capacity`"]);
     ask(&["--overturning", "2e-3", "--vary", "width", "--site", "Nowhere"])
         .fails(2, &["--site Nowhere: did you mean Here? The result has Here"]);
 }

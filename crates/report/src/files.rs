@@ -1,16 +1,21 @@
 //! Figures as files.
 
 use std::fmt::Display;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
+use clap::{Args, value_parser};
 use uplift::outputs::{self, Output, OutputKind};
 use uplift::result::write_atomically;
 use uplift::text::visible;
+use uplift::typed::one_of;
 use uplift::{JobError, UpliftError};
 use uplift_plot::{Drawing, Figure, Look, Width, png, svg, with_description, with_software};
 
 /// Of a PNG for print.
-pub const DOTS_PER_INCH: u16 = 300;
+const DOTS_PER_INCH: u16 = 300;
+/// From half a column to a poster, mm: narrower, the letters of a legend do not fit.
+const WIDTHS_MM: RangeInclusive<i64> = 60..=500;
 
 /// Formats of figure files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -24,37 +29,74 @@ pub enum FigureFormat {
     Both,
 }
 
+impl FigureFormat {
+    const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Both];
+
+    /// Its word on a command line.
+    fn key(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+            Self::Both => "both",
+        }
+    }
+
+    /// Endings of the files of a figure.
+    fn endings(self) -> &'static [&'static str] {
+        match self {
+            Self::Svg => &["svg"],
+            Self::Png => &["png"],
+            Self::Both => &["png", "svg"],
+        }
+    }
+}
+
+/// Widths with a word on a command line.
+const COLUMNS: [Width; 2] = [Width::Single, Width::Double];
+
+fn columns(width: Width) -> &'static str {
+    if width == Width::Single { "single" } else { "double" }
+}
+
 /// How figures are written into a folder.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Args)]
 pub struct FigureOptions {
-    /// Format of the files.
+    /// File format
+    #[arg(long, value_parser = one_of(&FigureFormat::ALL, FigureFormat::key), default_value = "svg")]
     pub format: FigureFormat,
-    /// How wide they are, and whether the title stands in the figure.
-    pub look: Look,
-    /// Dots an inch of a PNG.
+    /// Width: one column (90 mm) or a page (190 mm)
+    #[arg(long, value_parser = one_of(&COLUMNS, columns), default_value = "double")]
+    pub width: Width,
+    /// Other width, mm; below 140 mm panels are stacked
+    #[arg(long, value_name = "MM", conflicts_with = "width", value_parser = value_parser!(u16).range(WIDTHS_MM))]
+    pub width_mm: Option<u16>,
+    /// Resolution of a PNG, dots per inch
+    #[arg(
+        long = "dpi", value_name = "N", default_value_t = DOTS_PER_INCH,
+        value_parser = value_parser!(u16).range(72..=1200)
+    )]
     pub dots_per_inch: u16,
+    /// Write the title into the figure
+    #[arg(long)]
+    pub title: bool,
 }
 
 impl Default for FigureOptions {
     fn default() -> Self {
-        let look = Look { width: Width::Double, title: false };
-        Self { format: FigureFormat::Svg, look, dots_per_inch: DOTS_PER_INCH }
+        let (format, width) = (FigureFormat::default(), Width::Double);
+        Self { format, width, width_mm: None, dots_per_inch: DOTS_PER_INCH, title: false }
     }
 }
 
 impl FigureOptions {
-    /// Endings of the files of a figure.
-    fn endings(self) -> &'static [&'static str] {
-        match self.format {
-            FigureFormat::Svg => &["svg"],
-            FigureFormat::Png => &["png"],
-            FigureFormat::Both => &["png", "svg"],
-        }
+    fn look(self) -> Look {
+        Look { width: self.width_mm.map_or(self.width, Width::Millimetres), title: self.title }
     }
 
     /// The files in `folder` that the figures of these names are written to.
     pub fn outputs<'a>(self, ids: impl Iterator<Item = &'a str>, folder: &Path) -> Vec<Output> {
-        let files = ids.flat_map(|id| self.endings().iter().map(move |ending| folder.join(format!("{id}.{ending}"))));
+        let files =
+            ids.flat_map(|id| self.format.endings().iter().map(move |ending| folder.join(format!("{id}.{ending}"))));
         files.map(|file| Output::new(file, OutputKind::Figure)).collect()
     }
 
@@ -63,9 +105,9 @@ impl FigureOptions {
     /// # Errors
     /// A file that cannot be written, and no font for a PNG.
     pub fn write(self, figure: &Figure, folder: &Path, mark: &str) -> Result<Vec<PathBuf>, UpliftError> {
-        let drawing = drawing_of(figure, self.look)?;
+        let drawing = drawing_of(figure, self.look())?;
         let mut written = Vec::new();
-        for ending in self.endings() {
+        for ending in self.format.endings() {
             let file = folder.join(format!("{}.{ending}", figure.id));
             write_drawing(figure, &drawing, &file, (mark, self.dots_per_inch))?;
             written.push(file);
@@ -88,8 +130,8 @@ pub fn check_figure_file(file: &Path, inputs: &[impl AsRef<Path>], force: bool) 
 /// # Errors
 /// A file that cannot be written, and no font for a PNG.
 pub fn write_figure_file(figure: &Figure, file: &Path) -> Result<(), UpliftError> {
-    let FigureOptions { look, dots_per_inch, .. } = FigureOptions::default();
-    write_drawing(figure, &drawing_of(figure, look)?, file, (&outputs::mark(), dots_per_inch))
+    let usual = FigureOptions::default();
+    write_drawing(figure, &drawing_of(figure, usual.look())?, file, (&outputs::mark(), usual.dots_per_inch))
 }
 
 /// Writes a figure that was drawn, in the format of the ending, with what it says of itself.

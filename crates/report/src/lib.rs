@@ -21,7 +21,7 @@ pub mod report;
 pub mod sheet;
 
 pub use columns::{plot_columns, plot_protocol, plot_pushover, plot_restrainer};
-pub use files::{DOTS_PER_INCH, FigureFormat, FigureOptions, check_figure_file, write_figure_file};
+pub use files::{FigureFormat, FigureOptions, check_figure_file, write_figure_file};
 pub use plot::{
     HazardPlotOptions, PlotOptions, PlotReport, check_library_figures, check_pulse_figures, plot, plot_block_response,
     plot_frame_response, plot_frame_risk, plot_hazard, plot_library, plot_overturning, plot_pulses, plot_response,

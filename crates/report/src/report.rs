@@ -7,6 +7,7 @@ use serde::Serialize;
 use uplift::events::Events;
 use uplift::outputs::{self, Output, OutputKind, beside};
 use uplift::result::{AskedRisk, ResultFile, is_hdf5, write_atomically};
+use uplift::typed::Overwriting;
 use uplift::verify::require_whole;
 use uplift::{JobError, UpliftError};
 
@@ -27,9 +28,9 @@ pub struct ReportOptions {
     /// The risks of the spectra.
     #[command(flatten)]
     pub risk: AskedRisk,
-    /// Overwrite existing outputs (never an input)
-    #[arg(long)]
-    pub force: bool,
+    /// Whether existing files are overwritten.
+    #[command(flatten)]
+    pub overwriting: Overwriting,
 }
 
 /// The page that was written.
@@ -54,7 +55,7 @@ pub fn report(options: &ReportOptions, events: &dyn Events) -> Result<PageReport
     let file = options.output.clone().unwrap_or_else(|| beside(first, "html"));
     let output = Output::new(&file, OutputKind::Page).with_result(first);
     let inputs: Vec<PathBuf> = options.results.iter().chain(&options.explore).cloned().collect();
-    outputs::check(&[output], &inputs, options.force)?;
+    outputs::check(&[output], &inputs, options.overwriting.force)?;
     // what is no result at all is reported as what it is
     for other in options.results.iter().filter(|path| !is_hdf5(path)) {
         ResultFile::open(other)?;

@@ -249,7 +249,7 @@ impl TargetReport {
         let periods: Vec<String> = options.return_periods.iter().map(ToString::to_string).collect();
         request.push(("at", periods.join(", ")));
         request.extend(
-            options.generic.map(|(dispersion, probability)| ("generic", format!("{dispersion}, {probability}"))),
+            options.generic().map(|(dispersion, probability)| ("generic", format!("{dispersion}, {probability}"))),
         );
         let question =
             Question { inquiry: Inquiry::Target, structure, study_digest: &self.source.study_digest, request };

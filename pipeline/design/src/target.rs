@@ -253,13 +253,10 @@ pub fn target(
     options: &TargetOptions,
     events: &dyn Events,
 ) -> Result<TargetReport, DesignError> {
-    let mistakes = options.mistakes();
-    if !mistakes.is_empty() {
-        return Err(JobError::Implausible(mistakes).into());
-    }
+    options.check()?;
     let manifest = options.manifest.as_deref();
     if let Some(path) = &options.table {
-        check_tables(&[(path, table::FIRST_COLUMN)], (structure, result, manifest), options.force)?;
+        check_tables(&[(path, table::FIRST_COLUMN)], (structure, result, manifest), options.overwriting.force)?;
     }
     let file = ResultFile::open(result)?;
     let reason = "a target is looked for with the same records at every level";
@@ -267,8 +264,8 @@ pub fn target(
     let place = Place::choose(&source, options.site.as_deref(), options.measure)?;
     let Place { site, measure, .. } = place;
     let curve = file.mean_curve(place.name, measure.measure())?;
-    let years = options.frequency.years().unwrap_or(source.study.risk.years);
-    let target_per_year = options.frequency.per_year(years)?;
+    let years = options.frequency().years().unwrap_or(source.study.risk.years);
+    let target_per_year = options.frequency().per_year(years)?;
     let (range, own_value) = range(structure, options)?;
     let hazard = Hazard::from_file(&file, (place.name, site), (measure, &source.study))?;
     let others = other_measures(&file, &source, place)?;
@@ -307,7 +304,7 @@ pub fn target(
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
     let counts = (trials.record_count(), trials.pairs().len());
-    let event = options.event.words();
+    let event = options.event().words();
     let mut risks = vec![own_risk((&event, found.risk), (place.name, measure), counts)];
     risks.extend(frame.iter().flat_map(|of| of.own_risks(&event, place, counts)));
     alarms.extend(own_risk_alarms(&risks));
@@ -469,7 +466,7 @@ fn generic_target(
     target_per_year: f64,
     options: &TargetOptions,
 ) -> Result<Option<GenericTarget>, DesignError> {
-    let Some((dispersion, probability)) = options.generic else { return Ok(None) };
+    let Some((dispersion, probability)) = options.generic() else { return Ok(None) };
     let found = risk_targeted_level(curve, target_per_year, probability, dispersion)?;
     let return_period_years = options.return_periods.iter().copied().fold(0.0, f64::max);
     let uniform_hazard_level = curve.im_at_rate(1.0 / return_period_years).ok();

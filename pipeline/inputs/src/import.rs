@@ -30,6 +30,7 @@ use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::{table_text, write_atomically};
+use uplift_job::typed::Overwriting;
 
 /// Columns of a manifest by which records are chosen, and which not every file says.
 const WANTED: [&str; 3] = ["magnitude", "rrup_km", "vs30"];
@@ -49,9 +50,9 @@ pub struct ImportOptions {
     /// Skip the search for velocity pulses (faster)
     #[arg(long = "no-pulses", action = ArgAction::SetFalse)]
     pub pulses: bool,
-    /// Overwrite existing outputs (never an input)
-    #[arg(long)]
-    pub force: bool,
+    /// Whether existing files are overwritten.
+    #[command(flatten)]
+    pub overwriting: Overwriting,
 }
 
 /// What an import found.
@@ -104,7 +105,7 @@ impl ImportOptions {
             Output::new(manifest, OutputKind::Manifest),
             Output::new(manifest.with_extension("remarks.txt"), OutputKind::Remarks),
         ];
-        Ok(outputs::check(&outputs, &[&self.folder], self.force)?)
+        Ok(outputs::check(&outputs, &[&self.folder], self.overwriting.force)?)
     }
 }
 

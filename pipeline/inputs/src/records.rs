@@ -11,12 +11,14 @@
 //! What brings the files of a download into a manifest is [`import`](mod@crate::import).
 
 mod at_level;
+mod criteria;
 mod list;
 mod select;
 mod show;
 mod synthesize;
 
 pub use at_level::{AtLevelOptions, AtLevelReport, LevelSet, at_level};
+pub use criteria::{Criteria, range};
 pub use list::{ListReport, ListedRecord, SetOptions, list};
 pub use select::{SelectOptions, SelectReport, select};
 pub use show::{ComponentReport, FileReport, PairPeaks, RecordReport, ShowOptions, ShowReport, VelocityPulse, show};

@@ -1,9 +1,18 @@
-//! Numbers and words as they are typed: what reads the options of jobs on a command line.
+//! Numbers and words as they are typed: what reads the options of jobs on a command line, and an option of many.
 
+use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// Heading of the options that few need.
 pub const RARE: &str = "Rarely needed";
+
+/// Whether files that are there are overwritten.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Args)]
+pub struct Overwriting {
+    /// Overwrite existing outputs (never an input)
+    #[arg(long)]
+    pub force: bool,
+}
 
 /// Reads the `key` of one of `all`.
 pub fn one_of<T: Copy + Send + Sync>(

@@ -7,7 +7,7 @@ mod report;
 mod restated;
 mod write;
 
-pub use job::{EfficiencyOptions, efficiency, usual_measures};
+pub use job::{EfficiencyOptions, efficiency};
 pub use of_measure::{
     Covariate, FIGURES, Figure, INITIATION, MeasureEfficiency, ROCKING, TRENDS, covariates, efficiency_by,
 };

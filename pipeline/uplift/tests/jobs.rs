@@ -241,7 +241,9 @@ fn influence_reports_what_it_writes() {
 #[test]
 fn efficiency_reports_what_it_writes() {
     let folder = Folder::new();
-    let report = efficiency(&folder.result(), &EfficiencyOptions::default(), &Silent).unwrap();
+    let options =
+        EfficiencyOptions { measures: IntensityMeasure::OF_CHAPTER_4.to_vec(), ..EfficiencyOptions::default() };
+    let report = efficiency(&folder.result(), &options, &Silent).unwrap();
     assert_eq!((report.rows.len(), report.stored.records.len()), (2 * STRENGTHS, 4));
     for (rows, im) in report.rows.chunks(STRENGTHS).zip(["pgv", "pga"]) {
         let of = |name: &str| array(&folder.result(), &format!("/{name}"));

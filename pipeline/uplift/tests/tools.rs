@@ -13,16 +13,17 @@ use uplift::import::{self, ImportOptions};
 use uplift::inputs::FileOptions;
 use uplift::pulses::{BlockPlan, PulseOptions, PulsePlan, pulses};
 use uplift::records::{
-    SelectOptions, SetOptions, ShowOptions, ShowReport, SynthesizeOptions, list, select, show, synthesize,
+    Criteria, SelectOptions, SetOptions, ShowOptions, ShowReport, SynthesizeOptions, list, select, show, synthesize,
 };
 use uplift::response::{HistoryRow, ResponseOptions, Shaking, response};
 use uplift::result::AskedRisk;
 use uplift::status::status;
 use uplift::table::{TableOptions, table};
+use uplift::typed::Overwriting;
 use uplift::verify::verify;
 use uplift_block::RickerShape;
 use uplift_motion::{Combination, synthetic::SyntheticSetOptions};
-use uplift_study::{CRITERIA, Range, RecordSelection};
+use uplift_study::{CRITERIA, Range};
 
 /// What a job that failed says.
 fn job_error<T, E: std::error::Error + 'static>(outcome: &Result<T, E>) -> Option<&JobError> {
@@ -60,7 +61,7 @@ fn all(manifest: &Path) -> SetOptions {
         manifest: manifest.to_owned(),
         tag: None,
         intensity: Combination::GeometricMean,
-        selection: RecordSelection::default(),
+        criteria: Criteria::default(),
     }
 }
 
@@ -74,7 +75,7 @@ fn records_made_are_imported_listed_shown_and_chosen() {
         output: output.clone(),
         files: FileOptions::default(),
         pulses: false,
-        force: false,
+        overwriting: Overwriting::default(),
     };
     let imported = import::import(&options, &Silent).unwrap();
     assert_eq!((imported.pairs, imported.files, imported.components), (3, 6, 6));
@@ -96,9 +97,11 @@ fn records_made_are_imported_listed_shown_and_chosen() {
     let magnitude = CRITERIA.into_iter().find(|criterion| criterion.key == "magnitude").unwrap();
     let range = Range::parse("6:8").unwrap();
     let mut set = all(&manifest);
-    set.selection.ranges.push((magnitude, range));
+    set.criteria.0.ranges.push((magnitude, range));
     let output = folder.path().join("chosen.csv");
-    let chosen = select(&SelectOptions { set, output: Some(output.clone()), force: false }, &Silent).unwrap();
+    let chosen =
+        select(&SelectOptions { set, output: Some(output.clone()), overwriting: Overwriting::default() }, &Silent)
+            .unwrap();
     assert_eq!((chosen.records.len(), chosen.count), (3, 3));
     assert!(chosen.study_lines.ends_with("[records.select]\nmagnitude = \"6:8\"\n"), "{}", chosen.study_lines);
     assert_eq!(list(&all(&output), &Silent).unwrap().records, first.records);
@@ -114,7 +117,7 @@ fn an_import_without_pairs_says_what_it_found() {
         output: output.clone(),
         files: FileOptions::default(),
         pulses: true,
-        force: false,
+        overwriting: Overwriting::default(),
     };
     let report = import::import(&options, &Silent).unwrap();
     assert_eq!((report.pairs, report.manifest, report.files), (0, None, 1));

@@ -1,32 +1,20 @@
 //! Arguments that several commands take.
 
-mod figures;
 mod result;
 mod structure;
 mod study;
 
-pub(crate) use figures::FigureArguments;
 pub(crate) use result::ResultArguments;
 pub(crate) use structure::{KeepArgument, StructureArguments};
 pub(crate) use study::{StudyArguments, command_line, run_options, shard};
-pub(crate) use uplift::typed::{RARE, number, number_or_per_cent};
+pub(crate) use uplift::typed::{Overwriting, RARE, number, number_or_per_cent};
 
 use std::path::Path;
-
-use clap::Args;
 
 use crate::error::CommandError;
 
 /// Endings of the files that the program writes.
 const FILES: [&str; 9] = ["h5", "svg", "png", "pdf", "csv", "html", "json", "xlsx", "mat"];
-
-/// Whether files that are there are overwritten.
-#[derive(Debug, Args)]
-pub(crate) struct ForceArgument {
-    /// Overwrite existing outputs (never an input)
-    #[arg(long)]
-    pub(crate) force: bool,
-}
 
 /// Several numbers, parted by commas.
 #[derive(Debug, Clone)]

@@ -9,7 +9,7 @@ use uplift::hazard_curves::{CurveOptions, HazardImportOptions, import as import_
 use uplift_hazard::SiteSelection;
 use uplift_report::{HazardPlotOptions, plot_hazard};
 
-use super::arguments::{ForceArgument, require_folder};
+use super::arguments::{Overwriting, require_folder};
 use crate::error::CommandError;
 use crate::show::{print_curves, print_hazard_import};
 use crate::terminal::Terminal;
@@ -84,7 +84,7 @@ struct ImportArguments {
     #[command(flatten)]
     options: HazardImportOptions,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), CommandError> {
@@ -123,7 +123,7 @@ struct PlotArguments {
     #[command(flatten)]
     curves: CurveOptions,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {

@@ -7,7 +7,7 @@ use uplift::library::{LibraryOptions, library as compute};
 use uplift_report::{FigureOptions, check_library_figures, plot_library};
 use uplift_study::LibraryStudy;
 
-use super::arguments::{ForceArgument, require_folder};
+use super::arguments::{Overwriting, require_folder};
 use crate::error::CommandError;
 use crate::show::{print_json, print_library};
 use crate::terminal::Terminal;
@@ -28,7 +28,7 @@ pub(super) struct LibraryArguments {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 pub(super) fn library(arguments: &LibraryArguments, terminal: &Terminal) -> Result<(), CommandError> {

@@ -8,7 +8,7 @@ use uplift::pushover::{ProtocolOptions, protocol as compute};
 use uplift_report::{check_figure_file, plot_protocol};
 use uplift_statics::LoadingProtocol;
 
-use super::arguments::{ForceArgument, number};
+use super::arguments::{Overwriting, number};
 use crate::error::CommandError;
 use crate::show::{print_json, print_protocol};
 use crate::terminal::Terminal;
@@ -54,7 +54,7 @@ pub(super) struct ProtocolArguments {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 pub(super) fn protocol(arguments: &ProtocolArguments, terminal: &Terminal) -> Result<(), CommandError> {

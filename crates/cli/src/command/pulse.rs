@@ -7,10 +7,10 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use uplift::pulses::{BlockPlan, PulseOptions, PulsePlan, pulses};
 use uplift_block::RickerShape;
-use uplift_report::{check_pulse_figures, plot_pulses};
+use uplift_report::{FigureOptions, check_pulse_figures, plot_pulses};
 use uplift_study::Grid;
 
-use super::arguments::{FigureArguments, ForceArgument, number, require_folder};
+use super::arguments::{Overwriting, number, require_folder};
 use crate::error::CommandError;
 use crate::show::{print_json, print_pulses};
 use crate::terminal::Terminal;
@@ -89,9 +89,9 @@ pub(super) struct PulseArguments {
     )]
     slendernesses: Grid,
     #[command(flatten)]
-    figures: FigureArguments,
+    figures: FigureOptions,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -157,7 +157,7 @@ impl PulseArguments {
 pub(super) fn pulse(arguments: &PulseArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let folder = &arguments.output;
     require_folder(folder, "figures and tables")?;
-    let (figures, force) = (arguments.figures.options(), arguments.overwriting.force);
+    let (figures, force) = (arguments.figures, arguments.overwriting.force);
     check_pulse_figures(folder, figures, force)?;
     let mut report = pulses(&PulseOptions { plan: arguments.plan(), folder: Some(folder.clone()), force }, terminal)?;
     let figures = plot_pulses(&report, folder, figures)?;

@@ -9,7 +9,7 @@ use uplift::pushover::{PushoverOptions, pushover as compute};
 use uplift::study::Structure;
 use uplift_report::{check_figure_file, plot_pushover};
 
-use super::arguments::ForceArgument;
+use super::arguments::Overwriting;
 use super::protocol::ProtocolShape;
 use crate::error::CommandError;
 use crate::show::{print_json, print_pushover};
@@ -41,7 +41,7 @@ pub(super) struct PushoverArguments {
     #[arg(long, help_heading = "Output")]
     json: bool,
     #[command(flatten, next_help_heading = "Output")]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 pub(super) fn pushover(arguments: &PushoverArguments, terminal: &Terminal) -> Result<(), CommandError> {

@@ -13,7 +13,7 @@ use uplift_frame::Model;
 use uplift_motion::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use uplift_report::{check_figure_file, plot_block_response, plot_frame_response, plot_response};
 
-use super::arguments::{ForceArgument, number};
+use super::arguments::{Overwriting, number};
 use crate::error::CommandError;
 use crate::show::{print_block_response, print_frame_response, print_json, print_response};
 use crate::terminal::Terminal;
@@ -102,7 +102,7 @@ pub(super) struct ResponseArguments {
     #[arg(long, value_name = "FILE.svg|png")]
     plot: Option<PathBuf>,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 /// A rigid rocking block (Eq. 2.1 to 2.3).

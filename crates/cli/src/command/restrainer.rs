@@ -9,7 +9,7 @@ use uplift::restrainer::{RestrainerCurveOptions, curve as compute};
 use uplift::study::RestrainerFile;
 use uplift_report::{check_figure_file, plot_restrainer};
 
-use super::arguments::ForceArgument;
+use super::arguments::Overwriting;
 use crate::error::CommandError;
 use crate::show::{print_json, print_restrainer_curve};
 use crate::terminal::Terminal;
@@ -49,7 +49,7 @@ struct CurveArguments {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 fn curve(arguments: &CurveArguments, terminal: &Terminal) -> Result<(), CommandError> {

@@ -7,7 +7,7 @@ use uplift::validate::{ValidateOptions, validate as compute};
 use uplift_report::{check_figure_file, plot_validation, plot_validation_pairs};
 use uplift_validation::BandRule;
 
-use super::arguments::ForceArgument;
+use super::arguments::Overwriting;
 use crate::error::CommandError;
 use crate::show::{print_json, print_validation};
 use crate::terminal::Terminal;
@@ -35,7 +35,7 @@ pub(super) struct ValidateArguments {
     #[arg(long, help_heading = OUTPUT)]
     json: bool,
     #[command(flatten, next_help_heading = OUTPUT)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 const OUTPUT: &str = "Output";

@@ -50,6 +50,15 @@ pub struct Criterion {
     pub meaning: &'static str,
 }
 
+impl Criterion {
+    /// What it is, with its unit: a line of help.
+    pub fn words(self) -> String {
+        let (first, rest) = self.meaning.split_at(1);
+        let unit = if self.unit.is_empty() { "" } else { ", " };
+        format!("{}{rest}{unit}{}", first.to_uppercase(), self.unit)
+    }
+}
+
 /// Every quantity that a range can be given for.
 pub const CRITERIA: [Criterion; 9] = [
     Criterion { key: "magnitude", unit: "", meaning: "magnitude" },

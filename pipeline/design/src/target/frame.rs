@@ -190,7 +190,7 @@ impl FrameTarget<'_> {
         with_planar: bool,
     ) -> Result<(FrameReport, Vec<TargetFrameModel>), DesignError> {
         let peaks = trials.shake(frame, levels, with_planar)?;
-        let threshold_m = match self.options.event {
+        let threshold_m = match self.options.event() {
             TargetEvent::Overturning => None,
             TargetEvent::BeyondCapacity(factor) => structure.system.capacity_m().map(|own_m| own_m / factor),
             TargetEvent::Beyond(displacement_m) => Some(displacement_m),

@@ -2,9 +2,12 @@
 
 use std::path::PathBuf;
 
+use clap::{ArgGroup, Args};
 use uplift_alarms::number_alarms;
 use uplift_hazard::rate_from_probability;
+use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
+use uplift_job::typed::{Overwriting, RARE, number, number_or_per_cent, one_of};
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::{
     Implausible, PROBABILITY, RETURN_PERIOD, Range, SAFETY_FACTOR, THRESHOLD, USUAL_SAFETY_FACTOR, USUAL_TARGET,
@@ -23,6 +26,13 @@ const PER_YEAR: Range =
     Range { least: 1e-10, most: 1e4, unit: "1/yr", hint: "a rate per year: 5e-5 is once in 20,000 years" };
 /// Of a fragility.
 const DISPERSION: Range = Range { least: 1e-3, most: 5.0, unit: "", hint: "of ln im, 0.6 or so" };
+
+/// Where the values on both sides of a crossing are near enough to each other, relative to the value.
+const TOLERATED: f64 = 0.005;
+/// At whose levels the structure that is found is looked at, years.
+const RETURN_PERIODS: [f64; 2] = [475.0, 2475.0];
+/// Of a generic fragility at the level to design for.
+const GENERIC_PROBABILITY: f64 = 0.1;
 
 /// What must not happen too often.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,68 +88,171 @@ impl TargetFrequency {
     }
 }
 
+/// A displacement that must not be exceeded too often.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Exceeded {
+    /// The structure's own capacity, whatever that is at the value tried.
+    Capacity,
+    /// So many metres.
+    Displacement(f64),
+}
+
+/// Reads `0.3` or `capacity`.
+fn exceeded(text: &str) -> Result<Exceeded, String> {
+    match text {
+        "capacity" => Ok(Exceeded::Capacity),
+        _ => number(text).map(Exceeded::Displacement).map_err(|error| format!("{error}, or `capacity`")),
+    }
+}
+
 /// What is asked of a search for a target risk.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Args)]
+#[command(group = ArgGroup::new("frequency").required(true).args(["overturning", "per_year", "poe", "return_period"]))]
 pub struct TargetOptions {
-    /// Manifest of the records, where it is no longer where the study says.
+    /// Manifest of the records, if it was moved
+    #[arg(long, help_heading = RARE, value_name = "CSV")]
     pub manifest: Option<PathBuf>,
-    /// Site of the result; its only one where none is given.
+    /// Site [default: the only one]
+    #[arg(long)]
     pub site: Option<String>,
-    /// Intensity measure; PGV where none is given and the result has it.
+    /// Intensity measure [default: pgv]
+    #[arg(long)]
     pub measure: Option<IntensityMeasure>,
-    /// What is varied.
+    /// Quantity to vary
+    #[arg(long = "vary", value_parser = one_of(&Quantity::ALL, Quantity::key))]
     pub quantity: Quantity,
-    /// Least value of the search; a quarter of the structure's own where none is given.
+    /// Target annual rate of overturning, e.g. 2e-4
+    #[arg(
+        long, value_name = "PER_YEAR", allow_negative_numbers = true, value_parser = number, conflicts_with = "exceed"
+    )]
+    pub overturning: Option<f64>,
+    /// Target displacement, m, or `capacity`, instead of overturning
+    #[arg(long, value_name = "M|capacity", allow_negative_numbers = true, value_parser = exceeded)]
+    pub exceed: Option<Exceeded>,
+    /// Divide the capacity of `--exceed capacity` by this safety factor
+    #[arg(long, value_name = "FS", allow_negative_numbers = true, value_parser = number, default_value_t = 1.0)]
+    pub safety_factor: f64,
+    /// Target annual rate
+    #[arg(long, value_name = "PER_YEAR", allow_negative_numbers = true, value_parser = number)]
+    pub per_year: Option<f64>,
+    /// Target probability, 0.01 or 1%, in --years
+    #[arg(long, value_name = "P", allow_negative_numbers = true, value_parser = number_or_per_cent)]
+    pub poe: Option<f64>,
+    /// Target return period, years
+    #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number)]
+    pub return_period: Option<f64>,
+    /// Years of the probability [default: the study's]
+    #[arg(long, value_name = "YEARS", allow_negative_numbers = true, value_parser = number, requires = "poe")]
+    pub years: Option<f64>,
+    /// Smallest value to try, SI units [default: a quarter of the structure's]
+    #[arg(long, help_heading = RARE, value_name = "VALUE", allow_negative_numbers = true, value_parser = number)]
     pub from: Option<f64>,
-    /// Largest value of the search; four times the structure's own where none is given.
+    /// Largest value to try [default: four times the structure's]
+    #[arg(long, help_heading = RARE, value_name = "VALUE", allow_negative_numbers = true, value_parser = number)]
     pub to: Option<f64>,
-    /// What must not happen too often.
-    pub event: TargetEvent,
-    /// How often it may.
-    pub frequency: TargetFrequency,
-    /// How near the values on both sides of a crossing must lie, as a share of the value.
+    /// Relative tolerance of the value
+    #[arg(
+        long, help_heading = RARE, value_name = "SHARE", allow_negative_numbers = true, value_parser = number,
+        default_value_t = TOLERATED
+    )]
     pub tolerance: f64,
-    /// Return periods of the levels at which the found structure is looked at, years.
+    /// Return periods, years, at whose levels the fragility is reported
+    #[arg(
+        long = "at", help_heading = RARE, value_name = "YEARS[,…]", value_delimiter = ',',
+        allow_negative_numbers = true, value_parser = number, default_values_t = RETURN_PERIODS
+    )]
     pub return_periods: Vec<f64>,
-    /// Dispersion β of a generic lognormal fragility, and its probability at the level to design for; none for none.
-    pub generic: Option<(f64, f64)>,
-    /// Leave the frame itself out: the verdict is that of its proxy.
+    /// Dispersion of a generic lognormal fragility to compare with
+    #[arg(long, help_heading = RARE, value_name = "BETA", allow_negative_numbers = true, value_parser = number)]
+    pub generic_dispersion: Option<f64>,
+    /// Probability of that fragility at the design level
+    #[arg(
+        long, help_heading = RARE, value_name = "P", allow_negative_numbers = true, value_parser = number_or_per_cent,
+        default_value_t = GENERIC_PROBABILITY, requires = "generic_dispersion"
+    )]
+    pub generic_probability: f64,
+    /// Judge the proxy alone, without the wobbling frame
+    #[arg(long)]
     pub proxy: bool,
-    /// CSV file of all values tried.
+    /// Write all values tried with their risks
+    #[arg(long = "output", short = 'o', value_name = "FILE.csv")]
     pub table: Option<PathBuf>,
     /// Whether existing files are overwritten.
-    pub force: bool,
+    #[command(flatten)]
+    pub overwriting: Overwriting,
 }
 
 impl TargetOptions {
     /// A search with nothing chosen that has a default.
     pub fn new(quantity: Quantity, event: TargetEvent, frequency: TargetFrequency) -> Self {
-        Self {
+        let mut options = Self {
             manifest: None,
             site: None,
             measure: None,
             quantity,
+            overturning: None,
+            exceed: None,
+            safety_factor: 1.0,
+            per_year: None,
+            poe: None,
+            return_period: None,
+            years: None,
             from: None,
             to: None,
-            event,
-            frequency,
-            tolerance: 0.005,
-            return_periods: vec![475.0, 2475.0],
-            generic: None,
+            tolerance: TOLERATED,
+            return_periods: RETURN_PERIODS.to_vec(),
+            generic_dispersion: None,
+            generic_probability: GENERIC_PROBABILITY,
             proxy: false,
             table: None,
-            force: false,
+            overwriting: Overwriting::default(),
+        };
+        match event {
+            TargetEvent::Overturning => {}
+            TargetEvent::Beyond(displacement_m) => options.exceed = Some(Exceeded::Displacement(displacement_m)),
+            TargetEvent::BeyondCapacity(factor) => {
+                (options.exceed, options.safety_factor) = (Some(Exceeded::Capacity), factor);
+            }
         }
+        match frequency {
+            TargetFrequency::PerYear(per_year) => options.per_year = Some(per_year),
+            TargetFrequency::Probability(poe, years) => (options.poe, options.years) = (Some(poe), years),
+            TargetFrequency::ReturnPeriod(years) => options.return_period = Some(years),
+        }
+        options
+    }
+
+    /// What must not happen too often.
+    pub fn event(&self) -> TargetEvent {
+        match self.exceed {
+            None => TargetEvent::Overturning,
+            Some(Exceeded::Capacity) => TargetEvent::BeyondCapacity(self.safety_factor),
+            Some(Exceeded::Displacement(displacement_m)) => TargetEvent::Beyond(displacement_m),
+        }
+    }
+
+    /// How often it may.
+    pub fn frequency(&self) -> TargetFrequency {
+        match (self.overturning.or(self.per_year), self.poe) {
+            (Some(per_year), _) => TargetFrequency::PerYear(per_year),
+            (None, Some(poe)) => TargetFrequency::Probability(poe, self.years),
+            (None, None) => TargetFrequency::ReturnPeriod(self.return_period.unwrap_or_default()),
+        }
+    }
+
+    /// Dispersion β of a generic lognormal fragility, and its probability at the level to design for.
+    pub(crate) fn generic(&self) -> Option<(f64, f64)> {
+        Some((self.generic_dispersion?, self.generic_probability))
     }
 
     /// Numbers that can be, but are probably in another unit, or no annual frequency.
     pub(super) fn doubtful(&self) -> Vec<Alarm> {
-        let (displacement_m, safety_factor) = match self.event {
+        let (displacement_m, safety_factor) = match self.event() {
             TargetEvent::Beyond(displacement_m) => (Some(displacement_m), None),
             TargetEvent::BeyondCapacity(factor) => (None, Some(factor)),
             TargetEvent::Overturning => (None, None),
         };
-        let per_year = match self.frequency {
+        let per_year = match self.frequency() {
             TargetFrequency::PerYear(per_year) => Some(per_year),
             TargetFrequency::Probability(..) | TargetFrequency::ReturnPeriod(_) => None,
         };
@@ -153,17 +266,27 @@ impl TargetOptions {
         )
     }
 
+    /// Refuses what cannot be asked, all of it at once.
+    pub(super) fn check(&self) -> Result<(), DesignError> {
+        if self.safety_factor != 1.0 && self.exceed != Some(Exceeded::Capacity) {
+            let reason = "--safety-factor divides a capacity: give --exceed capacity";
+            return Err(JobError::Usage(reason.to_owned()).into());
+        }
+        let mistakes = self.mistakes();
+        if mistakes.is_empty() { Ok(()) } else { Err(JobError::Implausible(mistakes).into()) }
+    }
+
     /// Every number that is none, as the command line calls it.
-    pub(super) fn mistakes(&self) -> Vec<Implausible> {
+    fn mistakes(&self) -> Vec<Implausible> {
         let mut asked: Vec<(Range, &'static str, f64)> = vec![(TOLERANCE, "--tolerance", self.tolerance)];
         asked.extend(self.from.map(|from| (VALUE, "--from", from)));
         asked.extend(self.to.map(|to| (VALUE, "--to", to)));
-        match self.event {
+        match self.event() {
             TargetEvent::Beyond(displacement_m) => asked.push((THRESHOLD, "--exceed", displacement_m)),
             TargetEvent::BeyondCapacity(factor) => asked.push((SAFETY_FACTOR, "--safety-factor", factor)),
             TargetEvent::Overturning => {}
         }
-        match self.frequency {
+        match self.frequency() {
             TargetFrequency::PerYear(per_year) => asked.push((PER_YEAR, "the target", per_year)),
             TargetFrequency::Probability(probability, years) => {
                 asked.push((PROBABILITY, "--poe", probability));
@@ -172,7 +295,7 @@ impl TargetOptions {
             TargetFrequency::ReturnPeriod(years) => asked.push((RETURN_PERIOD, "--return-period", years)),
         }
         asked.extend(self.return_periods.iter().map(|&years| (RETURN_PERIOD, "--at", years)));
-        if let Some((dispersion, probability)) = self.generic {
+        if let Some((dispersion, probability)) = self.generic() {
             asked.push((DISPERSION, "--generic-dispersion", dispersion));
             asked.push((PROBABILITY, "--generic-probability", probability));
         }
@@ -208,7 +331,8 @@ mod tests {
             from: Some(-1.0),
             tolerance: f64::NAN,
             return_periods: vec![0.0, 475.0],
-            generic: Some((0.0, 1.0)),
+            generic_dispersion: Some(0.0),
+            generic_probability: 1.0,
             ..TargetOptions::new(Quantity::Width, TargetEvent::Beyond(-0.1), frequency)
         };
         let names: Vec<&str> = asked.mistakes().iter().map(|mistake| mistake.name).collect();

@@ -64,7 +64,7 @@ impl<'a> Trials<'a> {
         let (records, components) = required(found, "a target")?;
         let mut study = source.study.clone();
         // what is lost when a record ends has overturned, whoever looks
-        study.oscillator.free_vibration |= options.event == TargetEvent::Overturning;
+        study.oscillator.free_vibration |= options.event() == TargetEvent::Overturning;
         let restitution = restitution(structure, &study);
         Ok(Self {
             around: Around::from_structure(structure, restitution, records.count())?,
@@ -233,7 +233,7 @@ impl<'a> Trials<'a> {
         };
         // what has no capacity cannot overturn
         let may_happen = |system: &System| {
-            threshold_m(self.options.event, &candidate.system, system) < OVERTURNING_M || system.can_overturn()
+            threshold_m(self.options.event(), &candidate.system, system) < OVERTURNING_M || system.can_overturn()
         };
         if candidate.systems.iter().any(may_happen) {
             risk = bounded(risk, &self.weights, self.pairs());
@@ -261,7 +261,7 @@ impl<'a> Trials<'a> {
         let run = |record: usize, place: usize| {
             let own = place % self.per_record() + if self.is_of_each_record() { record * self.per_record() } else { 0 };
             let system = &candidate.systems[own];
-            (peaks.row_m(record, place), threshold_m(self.options.event, &candidate.system, system))
+            (peaks.row_m(record, place), threshold_m(self.options.event(), &candidate.system, system))
         };
         let of_record = |record: usize| places.clone().map(move |place| run(record, place));
         let told = happenings(&self.measure.plan.levels, (0..records).flat_map(of_record))?;
@@ -315,7 +315,7 @@ impl<'a> Trials<'a> {
         let levels: Vec<f64> = asked.iter().map(|(_, level)| *level).collect();
         let label = format!("{}, {} return periods", self.measure.measure().label(), levels.len());
         let analysed = self.analyse(&label, &levels, std::slice::from_ref(&attempt.candidate))?;
-        let thresholds_m = attempt.candidate.thresholds_m(self.options.event);
+        let thresholds_m = attempt.candidate.thresholds_m(self.options.event());
         let records = self.records.count();
         let runs = records * self.per_record();
         let share = |(scale, &(return_period_years, level)): (usize, &(f64, f64))| {

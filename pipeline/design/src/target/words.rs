@@ -35,7 +35,7 @@ impl Words<'_> {
     /// Why there is none.
     pub(super) fn first_of_met(&self, tried: &[(f64, Attempt)]) -> Result<usize, String> {
         let Self { options, target_per_year } = self;
-        let (key, event) = (options.quantity.key(), options.event.words());
+        let (key, event) = (options.quantity.key(), options.event().words());
         let at = |(value, attempt): &(f64, Attempt)| {
             let frequency = match attempt.risk {
                 EventRisk { per_year: 0.0, at_most_per_year: Some(bound), .. } => format!("less than {}", rate(bound)),

@@ -12,7 +12,7 @@ use serde::Serialize;
 use uplift_job::JobError;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::{table_text, write_atomically};
-use uplift_job::typed::number;
+use uplift_job::typed::{Overwriting, number};
 use uplift_motion::{IntensityMeasure, SelectedComponent, SelectedRecord, SelectedSet, SelectionTool, read_selection};
 
 use crate::at_level::{RECORD, check_bytes, count, level_column, list};
@@ -54,9 +54,9 @@ pub struct AtLevelOptions {
     /// Table to write (CSV)
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
-    /// Overwrite existing outputs (never an input)
-    #[arg(long)]
-    pub force: bool,
+    /// Whether existing files are overwritten.
+    #[command(flatten)]
+    pub overwriting: Overwriting,
 }
 
 /// The set of one level.
@@ -111,7 +111,7 @@ pub fn at_level(options: &AtLevelOptions) -> Result<AtLevelReport, InputsError> 
     let mut inputs = vec![options.manifest.clone()];
     inputs.extend(selections.iter().cloned());
     inputs.extend(manifest::record_files(&options.manifest));
-    outputs::check(&[Output::new(&options.output, OutputKind::Manifest)], &inputs, options.force)?;
+    outputs::check(&[Output::new(&options.output, OutputKind::Manifest)], &inputs, options.overwriting.force)?;
 
     let known = KnownRecords::new(manifest::read(&options.manifest, None).map_err(JobError::Inputs)?);
     let mut mistakes = Vec::new();

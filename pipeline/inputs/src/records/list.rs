@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
+use clap::Args;
 use serde::Serialize;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_motion::{Combination, RecordPair, STANDARD_GRAVITY_M_S2, geometric_mean};
-use uplift_study::RecordSelection;
 
+use super::Criteria;
 use crate::error::InputsError;
 use crate::pairs::CheckedPair;
 use crate::{manifest, pairs, selection};
@@ -75,16 +76,20 @@ fn listed(pair: &RecordPair, intensity: Combination) -> Result<ListedRecord, Inp
 }
 
 /// A manifest, and which of its records.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct SetOptions {
-    /// Manifest of a record set, CSV.
+    /// Manifest, from uplift records import
+    #[arg(value_name = "SET")]
     pub manifest: PathBuf,
-    /// Only rows whose `set_tags` contain this word.
+    /// Only records with this tag
+    #[arg(long, value_name = "WORD")]
     pub tag: Option<String>,
-    /// How the peaks of two components make one.
+    /// Combination of two components: geometric-mean, rotd50 or rotd100
+    #[arg(long, value_name = "WORD", default_value_t = Combination::GeometricMean)]
     pub intensity: Combination,
-    /// Ranges that the records lie in; empty for all.
-    pub selection: RecordSelection,
+    /// Which records.
+    #[command(flatten)]
+    pub criteria: Criteria,
 }
 
 impl SetOptions {
@@ -93,7 +98,7 @@ impl SetOptions {
         let rows = manifest::read(&self.manifest, self.tag.as_deref()).map_err(JobError::Inputs)?;
         let count = rows.len();
         let pairs = pairs::read(rows, STANDARD_GRAVITY_M_S2).map_err(JobError::Inputs)?;
-        let (chosen, notes) = selection::select(pairs, &self.selection, self.intensity, STANDARD_GRAVITY_M_S2)?;
+        let (chosen, notes) = selection::select(pairs, &self.criteria.0, self.intensity, STANDARD_GRAVITY_M_S2)?;
         for note in notes {
             events.note(&note);
         }

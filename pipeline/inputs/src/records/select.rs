@@ -3,27 +3,32 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use serde::Serialize;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::{table_text, write_atomically};
+use uplift_job::typed::Overwriting;
 use uplift_motion::Combination;
 use uplift_study::RecordSelection;
 
-use super::SetOptions;
+use super::{Criteria, SetOptions};
 use crate::error::InputsError;
 use crate::manifest;
 
 /// Which records are chosen, and where they are listed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct SelectOptions {
-    /// The set, and the ranges that the chosen records lie in: at least one.
+    /// The set, and what the chosen records have in common: at least one criterion.
+    #[command(flatten)]
     pub set: SetOptions,
-    /// A manifest of the chosen records; none for no file.
+    /// Write a manifest of the selected records
+    #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Whether existing files are overwritten.
-    pub force: bool,
+    #[command(flatten)]
+    pub overwriting: Overwriting,
 }
 
 /// The records that were chosen.
@@ -46,14 +51,14 @@ pub struct SelectReport {
 /// program's, or cannot be written.
 pub fn select(options: &SelectOptions, events: &dyn Events) -> Result<SelectReport, InputsError> {
     let set = &options.set;
-    let selection = &set.selection;
+    let selection = &set.criteria.0;
     if selection.is_empty() {
         return Err(JobError::Usage("say which records, e.g. --magnitude 6.5:7.5 --pulse-like false".to_owned()).into());
     }
     if let Some(output) = &options.output {
         let mut inputs = vec![set.manifest.clone()];
         inputs.extend(manifest::record_files(&set.manifest));
-        outputs::check(&[Output::new(output, OutputKind::Manifest)], &inputs, options.force)?;
+        outputs::check(&[Output::new(output, OutputKind::Manifest)], &inputs, options.overwriting.force)?;
     }
     let (pairs, count) = set.read(events)?;
     let records: Vec<String> = pairs.into_iter().map(|(pair, _)| pair.id).collect();
@@ -73,7 +78,7 @@ pub fn select(options: &SelectOptions, events: &dyn Events) -> Result<SelectRepo
 
 /// The section of a study.
 fn study_lines(set: &SetOptions) -> String {
-    let SetOptions { manifest, tag, intensity, selection }: &SetOptions = set;
+    let SetOptions { manifest, tag, intensity, criteria: Criteria(selection) } = set;
     let mut lines =
         vec!["[records]".to_owned(), format!("manifest = {}", toml::Value::from(manifest.display().to_string()))];
     lines.extend(tag.as_ref().map(|tag| format!("tag = {}", toml::Value::from(tag.as_str()))));

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use clap::Args;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
@@ -18,16 +19,18 @@ use super::write::{efficiency_path, write_efficiency};
 use crate::error::QuestionsError;
 
 /// Which measures are compared, and how the answer is written.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
 pub struct EfficiencyOptions {
-    /// The measures beside those that the records were scaled to.
+    /// Measure to compare; repeat for several [default: ten usual ones]
+    #[arg(long = "measure", value_name = "MEASURE")]
     pub measures: Vec<IntensityMeasure>,
     /// Whether existing files are overwritten.
+    #[arg(skip)]
     pub force: bool,
 }
 
 /// The measures that researchers of rocking compare, ten with PGV and PGA.
-pub fn usual_measures() -> Vec<IntensityMeasure> {
+fn usual_measures() -> Vec<IntensityMeasure> {
     let period = |period_s| Period::from_s(period_s).into_iter();
     let ordinates = [0.5, 1.0, 2.0].into_iter().flat_map(period).map(IntensityMeasure::Sa);
     let average = period(0.2).zip(period(2.0)).map(|(from, to)| IntensityMeasure::AvgSa { from, to });
@@ -69,15 +72,16 @@ pub fn efficiency(
         }
         measures.push(efficiency_by(&stored, measure, &covariates)?);
     }
+    let asked = if options.measures.is_empty() { usual_measures() } else { options.measures.clone() };
     let mut up_to_m = vec![None; stored.strengths.len()];
     if let Some(own) = stored.measures.first() {
         let studied: BTreeSet<IntensityMeasure> = stored.measures.iter().map(|own| own.measure).collect();
-        for measure in options.measures.iter().filter(|measure| !measure.can_be_scaled_to()) {
+        for measure in asked.iter().filter(|measure| !measure.can_be_scaled_to()) {
             events.note(&format!(
                 "{measure} is not ranked: no factor changes it; durations are among what the residuals are held against"
             ));
         }
-        let wanted = options.measures.iter().copied().filter(|measure| measure.can_be_scaled_to());
+        let wanted = asked.iter().copied().filter(|measure| measure.can_be_scaled_to());
         let wanted: BTreeSet<IntensityMeasure> = wanted.chain(studied.iter().copied()).collect();
         let known = intensities(&file, &wanted, events)?;
         let measured = |measure| Some(Measured { measure, of_records: known.get(&measure)? });

@@ -91,7 +91,7 @@ fn print(population: &Population, tallies: &Tallies, drawn: &str) {
             let stored = &population.stored;
             for ([im, site, poe, strength], held) in tally.worst(&rare, 3) {
                 println!(
-                    "{:11} least: {held:.0} % at {} by {}, {} % in 50 years, strength {}",
+                    "{:11} least: {held} at {} by {}, {} % in 50 years, strength {}",
                     "",
                     stored.sites[site],
                     stored.measures[im].measure.label(),

@@ -84,12 +84,17 @@ impl Tally {
         )
     }
 
-    /// The cells of `rare` probabilities that are held least, with per cent.
-    pub fn worst(&self, rare: &[usize], count: usize) -> Vec<(Cell, f64)> {
+    /// The cells of `rare` probabilities that are held least, with per cent and its standard error of so many bands.
+    pub fn worst(&self, rare: &[usize], count: usize) -> Vec<(Cell, String)> {
         let mut cells = self.rare_cells(rare);
         cells.sort_by(|a, b| a.1.total_cmp(&b.1));
         cells.truncate(count);
-        cells
+        let with_error = |(cell, held): (Cell, f64)| {
+            let bands = self.by_cell[&cell].all();
+            let error = (held * (100.0 - held) / f64::from(bands)).sqrt();
+            (cell, format!("{held:.0} ± {error:.0} % of {bands}"))
+        };
+        cells.into_iter().map(with_error).collect()
     }
 
     /// The cells of `rare` probabilities with bands enough, with per cent that are held.

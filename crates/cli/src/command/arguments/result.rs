@@ -7,7 +7,7 @@ use uplift::result::is_hdf5;
 use uplift::{RunOptions, load_uniform_risk, result_of};
 use uplift_study::{Bootstrap, Repair, Structure};
 
-use super::ForceArgument;
+use super::Overwriting;
 use super::study::command_line;
 use crate::error::CommandError;
 use crate::terminal::Terminal;
@@ -22,7 +22,7 @@ pub(crate) struct ResultArguments {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 /// A result file that is there.

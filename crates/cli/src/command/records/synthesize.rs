@@ -4,12 +4,11 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use uplift::records::{SynthesizeOptions, synthesize as synthesize_records};
+use uplift::records::{SynthesizeOptions, range, synthesize as synthesize_records};
 use uplift_motion::synthetic::{Faulting, ScenarioRange, SyntheticSetOptions};
 use uplift_study::Range;
 
-use super::range;
-use crate::command::arguments::{ForceArgument, number};
+use crate::command::arguments::{Overwriting, number};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -48,7 +47,7 @@ pub(super) struct SynthesizeArguments {
     #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = number)]
     dt_s: f64,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]

@@ -12,7 +12,7 @@ use uplift::study::Structure;
 use uplift_motion::IntensityMeasure;
 use uplift_statics::{Limits, Ranking, Tendon};
 
-use crate::command::arguments::{ForceArgument, number};
+use crate::command::arguments::{Overwriting, number};
 use crate::error::CommandError;
 use crate::show::{print_json, print_restrainer_design};
 use crate::terminal::Terminal;
@@ -103,7 +103,7 @@ pub(super) struct DesignArguments {
     #[arg(long, help_heading = OUTPUT)]
     json: bool,
     #[command(flatten, next_help_heading = "Output")]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 const TARGET: &str = "Target (one of the first five)";

@@ -12,7 +12,7 @@ use uplift::structure::CAPACITY_SHARE;
 use uplift::study::Structure;
 use uplift_motion::IntensityMeasure;
 
-use crate::command::arguments::{ForceArgument, Numbers, all_numbers, number_or_per_cent, numbers};
+use crate::command::arguments::{Numbers, Overwriting, all_numbers, number_or_per_cent, numbers};
 use crate::error::CommandError;
 use crate::show::print_files;
 use crate::terminal::Terminal;
@@ -50,7 +50,7 @@ pub(crate) struct ExportArguments {
     #[command(flatten)]
     risk: AskedRisk,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 /// Fragilities or demands in place of spectra.

@@ -1,8 +1,7 @@
 //! `uplift measures`: which intensity measure to trust.
 
 use clap::Args;
-use uplift::efficiency::{EfficiencyOptions, efficiency, usual_measures};
-use uplift_motion::IntensityMeasure;
+use uplift::efficiency::{EfficiencyOptions, efficiency};
 
 use crate::command::arguments::ResultArguments;
 use crate::error::CommandError;
@@ -14,9 +13,8 @@ use crate::terminal::Terminal;
 pub(crate) struct MeasuresArguments {
     #[command(flatten)]
     result: ResultArguments,
-    /// Measure to compare; repeat for several [default: ten usual ones]
-    #[arg(long = "measure", value_name = "MEASURE")]
-    measures: Vec<IntensityMeasure>,
+    #[command(flatten)]
+    options: EfficiencyOptions,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -24,8 +22,7 @@ pub(crate) struct MeasuresArguments {
 
 pub(crate) fn measures(arguments: &MeasuresArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let found = arguments.result.find(terminal)?;
-    let measures = if arguments.measures.is_empty() { usual_measures() } else { arguments.measures.clone() };
-    let options = EfficiencyOptions { measures, force: arguments.result.force() };
+    let options = EfficiencyOptions { force: arguments.result.force(), ..arguments.options.clone() };
     let report = efficiency(&found.path, &options, terminal)?;
     if arguments.json { print_json(&report) } else { print_efficiency(&report, terminal) }
 }

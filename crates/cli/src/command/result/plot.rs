@@ -6,9 +6,9 @@ use clap::Args;
 use uplift::outputs::beside;
 use uplift::pushover::{PushoverOptions, pushover};
 use uplift::study::Structure;
-use uplift_report::{PlotOptions, plot as plot_result, plot_columns};
+use uplift_report::{FigureOptions, PlotOptions, plot as plot_result, plot_columns};
 
-use crate::command::arguments::{FigureArguments, Numbers, ResultArguments, all_numbers, numbers, require_folder};
+use crate::command::arguments::{Numbers, ResultArguments, all_numbers, numbers, require_folder};
 use crate::error::CommandError;
 use crate::show::print_files;
 use crate::terminal::Terminal;
@@ -30,7 +30,7 @@ pub(crate) struct PlotArguments {
     #[arg(long, value_name = "STRENGTH[,…]", allow_negative_numbers = true, value_parser = numbers)]
     strength: Vec<Numbers>,
     #[command(flatten)]
-    figures: FigureArguments,
+    figures: FigureOptions,
 }
 
 pub(crate) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(), CommandError> {
@@ -45,7 +45,7 @@ pub(crate) fn plot(arguments: &PlotArguments, terminal: &Terminal) -> Result<(),
         folder: arguments.output.clone(),
         only: arguments.only.clone(),
         strengths: all_numbers(&arguments.strength),
-        figures: arguments.figures.options(),
+        figures: arguments.figures,
         force: arguments.result.force(),
     };
     print_files(&plot_result(&options, terminal)?.files, terminal)
@@ -58,7 +58,7 @@ fn plot_structure(file: &Path, arguments: &PlotArguments, terminal: &Terminal) -
     let folder = arguments.output.clone().unwrap_or_else(named_after);
     let options = PushoverOptions { linear: true, ..PushoverOptions::default() };
     let report = pushover(&structure, &options, terminal)?;
-    let (only, figures) = (arguments.only.as_deref(), arguments.figures.options());
+    let (only, figures) = (arguments.only.as_deref(), arguments.figures);
     let files = plot_columns(&structure, &report, &folder, only, figures, arguments.result.force())?;
     print_files(&files, terminal)
 }

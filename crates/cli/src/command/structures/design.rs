@@ -6,7 +6,7 @@ use clap::Args;
 use uplift::structure::{DesignOptions, design as run, design_shard};
 use uplift_report::{check_design_sheet, write_design_sheet};
 
-use crate::command::arguments::{ForceArgument, StructureArguments};
+use crate::command::arguments::{Overwriting, StructureArguments};
 use crate::error::CommandError;
 use crate::show::{print_design, print_json, print_shard};
 use crate::terminal::Terminal;
@@ -25,7 +25,7 @@ pub(crate) struct DesignArguments {
     #[arg(long, value_name = "FILE.html", conflicts_with = "shard")]
     report: Option<PathBuf>,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result<(), CommandError> {

@@ -7,7 +7,7 @@ use clap::Args;
 use uplift::structure::{OverturningOptions, overturning as run, overturning_shard};
 use uplift_report::{check_figure_file, plot_overturning};
 
-use crate::command::arguments::{ForceArgument, StructureArguments};
+use crate::command::arguments::{Overwriting, StructureArguments};
 use crate::error::CommandError;
 use crate::show::{print_json, print_overturning, print_shard};
 use crate::terminal::Terminal;
@@ -29,7 +29,7 @@ pub(crate) struct OverturningArguments {
     #[arg(long, short, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 pub(crate) fn overturning(arguments: &OverturningArguments, terminal: &Terminal) -> Result<(), CommandError> {

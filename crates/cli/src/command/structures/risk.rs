@@ -6,7 +6,7 @@ use clap::Args;
 use uplift::structure::{FrameRiskOptions, frame_risk as run, frame_risk_shard};
 use uplift_report::{check_figure_file, plot_frame_risk};
 
-use crate::command::arguments::{ForceArgument, StructureArguments};
+use crate::command::arguments::{Overwriting, StructureArguments};
 use crate::error::CommandError;
 use crate::show::{print_frame_risk, print_json, print_shard};
 use crate::terminal::Terminal;
@@ -28,7 +28,7 @@ pub(crate) struct FrameRiskArguments {
     #[arg(long, short, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 pub(crate) fn risk(arguments: &FrameRiskArguments, terminal: &Terminal) -> Result<(), CommandError> {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use uplift_study::SiteSlice;
 
-use crate::command::arguments::{ForceArgument, RARE, StudyArguments};
+use crate::command::arguments::{Overwriting, RARE, StudyArguments};
 use crate::error::CommandError;
 use crate::show::{print_json, print_run};
 use crate::terminal::Terminal;
@@ -26,7 +26,7 @@ pub(crate) struct MergeArguments {
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
     /// Print JSON
     #[arg(long)]
     json: bool,

@@ -8,7 +8,7 @@ use uplift::{RunOptions, run_shard};
 use uplift_ida::Shard;
 use uplift_study::SiteSlice;
 
-use crate::command::arguments::{ForceArgument, StudyArguments, shard};
+use crate::command::arguments::{Overwriting, StudyArguments, shard};
 use crate::error::CommandError;
 use crate::show::{print_json, print_run, print_shard};
 use crate::terminal::Terminal;
@@ -23,7 +23,7 @@ pub(crate) struct RunArguments {
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
     /// Compute only shard I of N
     #[arg(
         long,

@@ -6,7 +6,7 @@ use clap::{ArgGroup, Args};
 use uplift::sweep::{SweepOptions, cases, product, sweep as run, sweep_folder};
 use uplift_report::{check_figure_file, plot_sweep};
 
-use crate::command::arguments::{ForceArgument, command_line, require_folder};
+use crate::command::arguments::{Overwriting, command_line, require_folder};
 use crate::error::CommandError;
 use crate::show::{print_json, print_sweep};
 use crate::terminal::Terminal;
@@ -36,7 +36,7 @@ pub(crate) struct SweepArguments {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
-    overwriting: ForceArgument,
+    overwriting: Overwriting,
 }
 
 pub(crate) fn sweep(arguments: &SweepArguments, terminal: &Terminal) -> Result<(), CommandError> {
