@@ -10,6 +10,7 @@ use crate::displacement::{
 use crate::error::StudyError;
 use crate::grid::{Grid, GridRule};
 use crate::keys::{Key, SectionKeys, grid};
+use crate::reading::other_file::Wanted;
 use crate::reading::{Paths, Rule, Section, ZERO_TO_ONE};
 use crate::sections::{record_source, selection, top};
 use crate::study::Study;
@@ -95,7 +96,7 @@ impl LibraryStudy {
     /// # Errors
     /// [`StudyError`] with every mistake in the file and the overrides; those of TOML syntax come alone.
     pub fn load(file: &Path, overrides: &[String]) -> Result<Self, StudyError> {
-        let study = Study::read_or_input(file)?.resolve_by(overrides, read)?;
+        let study = Study::read_or_input(file, Wanted::Library)?.resolve_by(overrides, read)?;
         Ok(Self { file: file.to_owned(), ..study })
     }
 

@@ -41,12 +41,17 @@ impl Study {
     ///
     /// As [`load`](Self::load).
     pub fn load_any(file: &Path, overrides: &[String]) -> Result<AnyStudy, StudyError> {
-        Self::read_or_input(file)?.resolve_any(overrides)
+        Self::read_or_input(file, Wanted::Study)?.resolve_any(overrides)
     }
 
-    /// As [`read`](Self::read); the file `-` is standard input.
-    pub(crate) fn read_or_input(file: &Path) -> Result<Self, StudyError> {
-        if file == Path::new(STANDARD_INPUT) { Self::parse(file, input_text()?) } else { Self::read(file) }
+    /// As [`read`](Self::read), of what is `wanted`; the file `-` is standard input.
+    pub(crate) fn read_or_input(file: &Path, wanted: Wanted) -> Result<Self, StudyError> {
+        let text = if file == Path::new(STANDARD_INPUT) { input_text() } else { read_text(file, wanted) }?;
+        let study = Self::parse(file, text)?;
+        match wanted.refusal_of_table(&study.document) {
+            Some(reason) => Err(StudyError::unreadable(file, reason)),
+            None => Ok(study),
+        }
     }
 
     /// The study of a result, from the text that [`AnyStudy::to_toml`] made of it.
@@ -65,13 +70,9 @@ impl Study {
     ///
     /// # Errors
     ///
-    /// [`StudyError`] where it cannot be read, is no TOML, or is a structure.
+    /// [`StudyError`] where it cannot be read, is no TOML, or is a structure or a library.
     pub fn read(file: &Path) -> Result<Self, StudyError> {
-        let study = Self::parse(file, read_text(file, Wanted::Study)?)?;
-        match Wanted::Study.refusal_of_table(&study.document) {
-            Some(reason) => Err(StudyError::unreadable(file, reason)),
-            None => Ok(study),
-        }
+        Self::read_or_input(file, Wanted::Study)
     }
 
     /// Parses the `text` of a study file whose name is, or would be, `file`.

@@ -13,6 +13,7 @@ use crate::kind::Kind;
 pub(crate) enum Wanted {
     Study,
     Structure,
+    Library,
 }
 
 impl Wanted {
@@ -20,6 +21,7 @@ impl Wanted {
         match self {
             Self::Study => "a study",
             Self::Structure => "a structure",
+            Self::Library => "a library",
         }
     }
 
@@ -28,6 +30,7 @@ impl Wanted {
         match self {
             Self::Study => "configs/europe.toml",
             Self::Structure => "configs/structures/pier.toml",
+            Self::Library => "configs/rocking-library.toml",
         }
     }
 
@@ -41,7 +44,7 @@ impl Wanted {
         let ends = |ending: &str| path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending));
         if begins(&[b"\x89HDF\r\n\x1a\n"]) {
             let advice = match self {
-                Self::Study => "`uplift status`, `table`, `plot`, `report` and `export` take results",
+                Self::Study | Self::Library => "`uplift status`, `table`, `plot`, `report` and `export` take results",
                 Self::Structure => "the structure comes first, and the result after --urs",
             };
             Some(self.refuse("a result", advice))
@@ -66,19 +69,32 @@ impl Wanted {
             Value::Text(kind) => Some(kind.as_str()),
             _ => None,
         });
-        let is_structure = kind.is_some_and(|kind| StructureKind::ALL.iter().any(|known| known.name() == kind));
-        let is_study = kind.is_some_and(|kind| Kind::ALL.iter().any(|known| known.key() == kind))
-            || kind.is_none() && ["sites", "records", "pgv", "pga", "risk"].iter().any(|key| table.get(key).is_some());
+        let has = |keys: &[&str]| kind.is_none() && keys.iter().any(|key| table.get(key).is_some());
+        let is_named = kind.is_some_and(|kind| Kind::ALL.iter().any(|known| known.key() == kind));
+        let found = if kind.is_some_and(|kind| StructureKind::ALL.iter().any(|known| known.name() == kind)) {
+            Self::Structure
+        } else if is_named || has(&["sites", "site_table", "pgv", "pga", "risk"]) {
+            Self::Study
+        } else if has(&["block", "levels"]) {
+            Self::Library
+        } else if has(&["records"]) && self == Self::Structure {
+            Self::Study
+        } else {
+            return None;
+        };
+        (found != self).then(|| Unreadable::Other {
+            found: found.words(),
+            wanted: self.words(),
+            advice: found.commands(),
+        })
+    }
+
+    /// What takes it.
+    fn commands(self) -> &'static str {
         match self {
-            Self::Study if is_structure => Some(self.refuse(
-                "a structure",
-                "`uplift design` and `overturning` take it, with --urs RESULT, and `pushover` without",
-            )),
-            Self::Structure if is_study => Some(self.refuse(
-                "a study",
-                "`uplift run` takes it; a structure is a file such as configs/structures/pier.toml",
-            )),
-            _ => None,
+            Self::Study => "`uplift run` takes it",
+            Self::Structure => "`uplift design` and `overturning` take it, with --urs RESULT, and `pushover` without",
+            Self::Library => "`uplift library` takes it",
         }
     }
 }

@@ -220,7 +220,8 @@ fn study_files_that_cannot_be_read() {
 fn files_of_another_kind_are_named() {
     let folder = Folder::new("");
     let utf_16: Vec<u8> = "\u{feff}[pgv]".encode_utf16().flat_map(u16::to_le_bytes).collect();
-    let files: [(&str, &[u8]); 7] = [
+    let files: [(&str, &[u8]); 8] = [
+        ("library.toml", b"[block]\nsize_m = [1]\n"),
         ("r.h5", b"\x89HDF\r\n\x1a\n\0\0\xff"),
         ("named.toml", b"\x89HDF\r\n\x1a\n\0\0\xff"),
         ("z.zip", b"PK\x03\x04\xff"),
@@ -239,6 +240,7 @@ fn files_of_another_kind_are_named() {
         ("a.AT2", "it is a record, not a study: `uplift response`"),
         ("t.csv", "it is a table, not a study"),
         ("pier.toml", "it is a structure, not a study: `uplift design`"),
+        ("library.toml", "it is a library, not a study: `uplift library`"),
         ("wide.toml", "it is UTF-16 text"),
     ] {
         let error = Study::load_any(&folder.path(name), &[]).unwrap_err();
@@ -255,6 +257,14 @@ fn files_of_another_kind_are_named() {
         assert!(error.to_string().contains(expected), "{error}");
     }
     assert!(crate::Structure::load(&folder.path("pier.toml")).is_ok());
+    for (name, expected) in [
+        ("pier.toml", "it is a structure, not a library: `uplift design`"),
+        ("study.toml", "it is a study, not a library: `uplift run`"),
+    ] {
+        let error = crate::LibraryStudy::load(&folder.path(name), &[]).unwrap_err();
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+    assert!(crate::LibraryStudy::load(&folder.path("library.toml"), &[]).is_ok());
 }
 
 /// A byte order mark and the line ends of Windows make no difference.
