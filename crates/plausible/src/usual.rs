@@ -49,6 +49,14 @@ pub const USUAL_LENGTH: Range = usual(0.02, 150.0, "m", "was it meant in mm or c
 /// Mass of what rocks: from a model on a shaking table to a long deck.
 pub const USUAL_MASS: Range = usual(1.0, 1e9, "kg", "was it meant in t, or is it a weight in N?");
 
+/// Moment of inertia about the pivot over m R²: 1 of a point mass, 4/3 of a uniform block, 2 of a slender one with half
+/// its mass at either end.
+pub const USUAL_INERTIA: Range =
+    usual(1.0, 3.0, "", "4/3 of a uniform block; are the mass in kg and the moment of inertia in kg m2?");
+
+/// Period of a structure on its base: from a squat block on rock to a tall pier.
+pub const USUAL_PERIOD: Range = usual(0.01, 4.0, "s", "of the structure before it uplifts");
+
 /// Mass of a deck over that of its columns; one lighter than a twentieth was probably given in tonnes.
 pub const USUAL_DECK: Range = usual(0.05, 1e4, "", "times the mass of the columns; is it in kg?");
 
@@ -103,8 +111,8 @@ pub const USUAL_YEARS: Range = usual(1.0, 10_000.0, "yr", "50 years are usual");
 mod tests {
     use super::*;
     use crate::{
-        CAPACITY, GRAVITY, LENGTH, MASS, PGA_LEVEL, PGV_LEVEL, SAFETY_FACTOR, STRENGTH, TENDON_STIFFNESS, THRESHOLD,
-        UPLIFT_DISPLACEMENT, VARIATION, YEARS,
+        CAPACITY, GRAVITY, LENGTH, MASS, PERIOD, PGA_LEVEL, PGV_LEVEL, SAFETY_FACTOR, STRENGTH, TENDON_STIFFNESS,
+        THRESHOLD, UPLIFT_DISPLACEMENT, VARIATION, YEARS,
     };
 
     #[test]
@@ -117,6 +125,7 @@ mod tests {
             (USUAL_THRESHOLD, THRESHOLD),
             (USUAL_LENGTH, LENGTH),
             (USUAL_MASS, MASS),
+            (USUAL_PERIOD, PERIOD),
             (USUAL_TENDON_STIFFNESS, TENDON_STIFFNESS),
             (USUAL_SAFETY_FACTOR, SAFETY_FACTOR),
             (USUAL_TOP_PGV, PGV_LEVEL),

@@ -3,7 +3,6 @@
 
 use uplift_consistency::Verdict;
 use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_motion::IntensityMeasure;
 use uplift_result::StoredConsistency;
 use uplift_uniform_risk::MANY_FAILED;
 
@@ -54,25 +53,6 @@ fn in_words(consistency: &StoredConsistency, site: usize, times: f64) -> String 
     let ratios = implied.iter().zip(own).map(|(implied, own)| implied / own).filter(|ratio| ratio.is_finite());
     let (least, most) = ratios.fold((times, times), |(least, most), ratio| (least.min(ratio), most.max(ratio)));
     format!("{least:.1} to {most:.1}")
-}
-
-/// Whether an alarm within the scope, of the curves or of the records, already explains that the spectrum by PGA is
-/// `ratio` times the one by PGV: records that have too little PGA for their PGV reach the site's PGA with too much PGV.
-pub(super) fn explains(evidence: &Evidence, scope: &Scope, site: usize, ratio: f64) -> bool {
-    let pulls_alike = |own: &StoredConsistency| {
-        missed(evidence, scope, own, site).is_some_and(|times| pulls([own.scaled_to, own.other], times, ratio))
-    };
-    curves::are_apart(evidence, site) || evidence.consistency.iter().any(pulls_alike)
-}
-
-/// Whether records scaled to the first measure, with `times` the site's level of the second, make the spectrum by PGA
-/// `ratio` times the one by PGV.
-fn pulls(measures: [IntensityMeasure; 2], times: f64, ratio: f64) -> bool {
-    match measures {
-        [IntensityMeasure::Pgv, IntensityMeasure::Pga] => (times < 1.0) == (ratio > 1.0),
-        [IntensityMeasure::Pga, IntensityMeasure::Pgv] => (times > 1.0) == (ratio > 1.0),
-        _ => false,
-    }
 }
 
 /// Spectra that no weights repair, though the study or a command asked for it.
@@ -145,20 +125,5 @@ fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) ->
             Some(_) => "See what is missing: uplift consistency RESULT --details".to_owned(),
             None => "Repair: uplift consistency RESULT --repair".to_owned(),
         },
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    // Records with half the site's PGA at its PGV reach the site's PGA with twice its PGV: the spectrum by PGA is the
-    // larger one.
-    #[test]
-    fn records_explain_a_gap_in_one_direction() {
-        let (pgv, pga) = (IntensityMeasure::Pgv, IntensityMeasure::Pga);
-        assert!(pulls([pgv, pga], 0.5, 3.0) && pulls([pga, pgv], 2.0, 3.0));
-        assert!(pulls([pgv, pga], 2.0, 0.4) && pulls([pga, pgv], 0.5, 0.4));
-        assert!(!pulls([pgv, pga], 2.0, 3.0) && !pulls([pga, pgv], 0.5, 3.0));
     }
 }

@@ -75,27 +75,6 @@ pub fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsE
     Ok(ranked(alarms))
 }
 
-/// All that any command raises about the spectra of `file`: [`alarms`], and what is raised where the spectra of one
-/// measure are asked for alone.
-///
-/// # Errors
-/// A file that is damaged.
-pub fn every_alarm(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError> {
-    let mut every = alarms(file)?;
-    if file.kind() == Kind::UniformRisk && !file.axes()?.sites.is_empty() {
-        let evidence = Evidence::read(file, &Scope::default())?;
-        for measure in file.measures() {
-            let scope = Scope { measure: Some(measure), ..Scope::default() };
-            for alarm in ranked(spectra_alarms(&evidence, &scope)?) {
-                if every.iter().all(|known| known.kind != alarm.kind) {
-                    every.push(alarm);
-                }
-            }
-        }
-    }
-    Ok(ranked(every))
-}
-
 /// The alarms that concern a structure which is read into the spectra of `file` within `scope`; not ranked yet.
 ///
 /// # Errors

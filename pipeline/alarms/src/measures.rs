@@ -1,9 +1,9 @@
-//! Spectra of one site and probability by PGV and by PGA that disagree, and neither the curves nor the records say why:
-//! the demand is one, and two numbers for it are one too many.
+//! Spectra of one site and probability by PGV and by PGA that disagree, and not because one of the curves is wrong: the
+//! demand is one, and two numbers for it are one too many.
 
 use uplift_motion::IntensityMeasure;
 
-use super::consistency;
+use super::curves;
 use super::evidence::{Evidence, Scope};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
@@ -56,15 +56,13 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     // both measures are looked at, whichever is asked about
     for (site, name) in spectra.sites.iter().enumerate() {
         for (poe, &probability) in spectra.poes.iter().enumerate() {
-            if !(scope.site.is_none_or(|wanted| wanted == site) && scope.holds_poe(poe)) {
+            let is_asked = scope.site.is_none_or(|wanted| wanted == site) && scope.holds_poe(poe);
+            if !is_asked || curves::are_apart(evidence, site) {
                 continue;
             }
             let side = |of_measure| side(of_measure, evidence.bands.as_ref(), [site, poe]);
             let (one, other) = (side(pgv), side(pga));
             let Some(gap) = largest_gap(one, other, &strengths) else { continue };
-            if consistency::explains(evidence, scope, site, gap.ratio) {
-                continue;
-            }
             let banded = one.band_m.is_some() && other.band_m.is_some();
             let subject = format!("{name}, {}", risk_name(probability, spectra.years));
             cases.push(case(evidence, subject, gap, banded));

@@ -68,6 +68,11 @@ impl Bands {
         self.quoted_by_earthquake().unwrap_or(self.by_record)
     }
 
+    /// What the quoted band is of, as a result keeps it.
+    pub fn source(&self) -> &'static str {
+        self.words()[usize::from(self.quoted_by_earthquake().is_some())]
+    }
+
     /// What to say behind the quoted band of whom it is; nothing of one by record.
     pub fn of_whom(&self) -> &'static str {
         if self.quoted_by_earthquake().is_some() { " by earthquake" } else { "" }

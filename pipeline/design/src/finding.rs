@@ -304,7 +304,7 @@ impl TargetReport {
     }
 }
 
-/// What its bands are of.
+/// What the bands of errors are of.
 const RESAMPLED: &str = "resampled records";
 
 impl FrameRiskReport {
@@ -342,7 +342,9 @@ impl FrameRiskReport {
 
 fn model_demands(of: &ModelDemand, [site, im]: [&str; 2]) -> Vec<FindingRow> {
     let row = |what: &str, value: f64, unit: &str| FindingRow::new(format!("{what}, {}", of.model), value, unit);
-    let demand = row("demand", of.demand_m.value, "m").within([of.demand_m.lower, of.demand_m.upper], RESAMPLED);
+    let demand = row("demand", of.demand_m.value, "m");
+    let limits_m = [of.demand_m.lower, of.demand_m.upper];
+    let demand = of.band_of.map_or_else(|| demand.clone(), |source| demand.clone().within(limits_m, source));
     let repaired = of.repaired_m.map(|demand_m| row("demand, repaired", demand_m, "m"));
     let error = of.error.map(|of| row("error", of.value, "1").within([of.lower, of.upper], RESAMPLED));
     [Some(demand), repaired, error].into_iter().flatten().map(|row| row.at(site, im)).collect()

@@ -96,6 +96,9 @@ pub struct DisplacementReport {
     pub band_of: BandOf,
     /// What was shaken, but for its strength.
     pub oscillator: Oscillator,
+    /// Whether its properties are drawn, `[uncertainty]`: the oscillator is the structure as described.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub is_uncertain: bool,
     /// The displacement capacity asked for, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub capacity_m: Option<f64>,
@@ -166,6 +169,7 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
         measure,
         repaired: asked.repaired,
         band_of: units.of,
+        is_uncertain: study.structures_of_a_motion() > 1,
         oscillator: study.oscillator,
         capacity_m: asked.capacity_m,
         displacements,

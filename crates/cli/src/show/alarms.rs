@@ -15,17 +15,16 @@ const SHOWN: usize = 3;
 /// What shows the others.
 pub(super) const DETAILS: &str = "--details";
 
-/// The worst warnings, a line each, of an answer from `result`; all of them in detail. Nothing on a quiet terminal.
+/// The worst warnings, a line each, of an answer from `result`; all of them in detail. A quiet terminal gets no others
+/// than probable mistakes.
 pub(super) fn print_warnings(
     out: &mut impl Write,
     alarms: &[Alarm],
     result: Option<&Path>,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
-    if terminal.is_quiet() {
-        return Ok(());
-    }
-    print_lines(out, &warnings(alarms, result), terminal.shows_details()).map(drop)
+    let lines = warnings(&told(alarms, terminal), result);
+    print_lines(out, &lines, terminal.shows_details()).map(drop)
 }
 
 /// The same of a `result` itself, of which another command shows the others.
@@ -35,12 +34,14 @@ pub(super) fn print_result_warnings(
     result: &Path,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
-    if terminal.is_quiet() {
-        return Ok(());
-    }
-    let lines = warnings(alarms, Some(result));
+    let lines = warnings(&told(alarms, terminal), Some(result));
     let shown = number_shown(&lines, terminal.shows_details());
     print_shown(out, &lines[..shown], lines.len() - shown, &format!("uplift warnings {}", typed_path(result)))
+}
+
+fn told(alarms: &[Alarm], terminal: &Terminal) -> Vec<Alarm> {
+    let is_told = |alarm: &&Alarm| !terminal.is_quiet() || alarm.severity == Severity::Mistake;
+    alarms.iter().filter(is_told).cloned().collect()
 }
 
 /// That the records are synthetic, of answers that have no other warning of a result.

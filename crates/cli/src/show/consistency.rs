@@ -42,7 +42,13 @@ fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
     let table = Table::of(&report.rows)
         .left("site", |row| &row.site)
         .left("records scaled to", |row| row.scaled_to)
-        .right("level over the site's", |row| format!("{} {}", row.shows, number(row.bias, 2)))
+        .right("level over the site's", |row| {
+            // where the bias alone would have another verdict
+            let decides = row.bias.is_some_and(|bias| row.verdict != Some(Verdict::from_bias(bias, 0.0).key()));
+            let at_one_rate = most_off(row).filter(|_| decides && !is_repaired);
+            let at_one_rate = at_one_rate.map_or_else(String::new, |most| format!(", {most:.2} off at one rate"));
+            format!("{} {}{at_one_rate}", row.shows, number(row.bias, 2))
+        })
         .right("verdict", |row| row.verdict.unwrap_or("-"))
         .when(is_repaired, |table| table.right("repaired, effective records", repair));
     writeln!(out, "{table}")?;
@@ -101,15 +107,16 @@ fn nearest(report: &ConsistencyReport) -> Option<String> {
     })
 }
 
-/// Warnings that details alone show.
+/// Warnings that details alone show: all but the first.
 fn more_warnings(report: &ConsistencyReport) -> usize {
-    report.warnings.len() - usize::from(nearest(report).is_some())
+    report.warnings.len().saturating_sub(1)
 }
 
 /// What speaks against the records, and how many other warnings there are.
 fn print_warnings(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     let synthetic = report.synthetic.then(|| warning(&synthetic_records(), None));
-    let shown: Vec<String> = nearest(report).into_iter().chain(synthetic).collect();
+    let first = nearest(report).or_else(|| report.warnings.first().cloned());
+    let shown: Vec<String> = first.into_iter().chain(synthetic).collect();
     print_shown(out, &shown, more_warnings(report), DETAILS)
 }
 
@@ -121,10 +128,8 @@ pub(super) fn consistency_lines(report: &ConsistencyReport) -> Vec<String> {
         let (site, scaled_to, shows) = (&row.site, row.scaled_to, row.shows);
         lines.push(match (row.bias, row.verdict) {
             (Some(bias), Some(verdict)) => {
-                // a mean that is right may hide a rate at which it is not
-                let most = row.max.map(f64::exp).filter(|most| *most > 1.1 * bias.max(1.0 / bias));
                 let at_one_rate =
-                    most.map_or_else(String::new, |most| format!(", and {most:.2} times off at one rate"));
+                    most_off(row).map_or_else(String::new, |most| format!(", and {most:.2} times off at one rate"));
                 format!(
                     "{site} by {scaled_to}: the records have {bias:.2} times the site's {shows}{at_one_rate}: \
                      {verdict} (uplift consistency)"
@@ -140,6 +145,12 @@ pub(super) fn consistency_lines(report: &ConsistencyReport) -> Vec<String> {
         lines.push(format!("{consistent} of {} analyses are consistent with the other measure", report.rows.len()));
     }
     lines
+}
+
+/// How many times the level is off at the worst rate, where a mean that is nearly right hides it.
+fn most_off(row: &ConsistencyRow) -> Option<f64> {
+    let bias = row.bias?;
+    row.max.map(f64::exp).filter(|most| *most > 1.1 * bias.max(1.0 / bias))
 }
 
 /// A number with a sensible number of digits, or a dash.

@@ -7,13 +7,13 @@ use uplift::structure::{
     Bands, DemandBands, DemandRounding, DesignReport, EventRisk, ExactDemand, FrameReport, RuleCheck, RuleOutcome,
     Sensitivity, StructureReport, verdict_word,
 };
-use uplift::text::{self, Table, cell_with_band, metres_with_band, risk_in_words, short};
+use uplift::text::{self, Table, cell_with_band, metres_with_band, risk_in_words, short, two_digits};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
 use super::alarms::print_warnings_and_more;
 use super::shown_path;
-use super::structure::{band_after, band_in_cell, lines, rate, risk_cells};
+use super::structure::{band_after, band_in_cell, demand_in_words, lines, rate, risk_cells};
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -170,14 +170,16 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     }
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();
-        let demand = metres_with_band(exact.demand_m, bands.map(|bands| bands.demand_m.quoted()));
         let of_whom = bands.map_or("", |bands| bands.demand_m.of_whom());
-        writeln!(
-            out,
-            "Demand    {} on {}",
-            demand.strip_suffix(')').map_or(demand.clone(), |open| format!("{open}{of_whom})")),
-            if report.wobbles { "the equivalent oscillator" } else { "the structure itself" }
-        )?;
+        let demand = demand_in_words(exact.demand_m, bands.map(|bands| bands.demand_m.quoted()), of_whom);
+        let whose = if report.wobbles { "the equivalent oscillator" } else { "the structure itself" };
+        let uplift_m = report.structure.uplift_displacement_m;
+        let rests = if exact.demand_m < uplift_m {
+            format!(", which does not uplift: it would at {} m", two_digits(uplift_m))
+        } else {
+            String::new()
+        };
+        writeln!(out, "Demand    {demand} on {whose}{rests}")?;
         if let Some(risk) = &exact.beyond_capacity {
             let [beyond, ..] = risk_cells(risk);
             let [overturning, ..] = risk_cells(&exact.overturning);

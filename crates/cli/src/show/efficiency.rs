@@ -145,8 +145,11 @@ impl Shown<'_> {
             .right("scatter, initiation", |rows| mean(rows, |row| row.dispersion_initiation))
             .right("trend with", |rows| insufficient(rows));
         writeln!(out, "\n{table}")?;
-        if let Some(told) = self.rows().find(|row| row.is_told()) {
-            writeln!(out, "+ has no hazard curve here: read in runs scaled to {}", told.scaled_to)?;
+        if let Some(first) = self.report.stored.measures.first() {
+            writeln!(out, "displacement: all measures in the runs scaled to {}", first.measure.label())?;
+        }
+        if self.rows().any(|row| row.is_told()) {
+            writeln!(out, "+ has no hazard curve in this study")?;
         }
         if self.report.stored.records.len() < 30 {
             writeln!(out, "With {} records only strong trends are found.", self.report.stored.records.len())?;

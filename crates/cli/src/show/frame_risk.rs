@@ -2,12 +2,12 @@
 
 use std::io::Write;
 
-use uplift::structure::{Banded, FrameRiskReport, ModelDemand};
+use uplift::structure::{Banded, FrameRiskReport, ModelDemand, StateAtDemand};
 use uplift::text::{self, Table, metres_with_band, risk_in_words, short};
 
 use super::alarms::print_warnings_and_more;
 use super::shown_path;
-use super::structure::{band_after, lines, risk_cells};
+use super::structure::{band_after, demand_in_words, lines, risk_cells};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -38,11 +38,19 @@ pub(crate) fn print_frame_risk(report: &FrameRiskReport, terminal: &Terminal) ->
 fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
     let [frame, proxies @ ..] = &report.demands[..] else { return Ok(()) };
     let Banded { value, lower, upper } = frame.demand_m;
-    let demand = metres_with_band(value, Some([lower, upper]));
+    let of_whom = if frame.band_of == Some("earthquakes") { " by earthquake" } else { "" };
+    let demand = demand_in_words(value, Some([lower, upper]), of_whom);
     writeln!(out, "Demand       {demand} on {}, {}", report.structure.name, frame.model)?;
     for proxy in proxies {
         let of = proxy.error.as_ref().map_or_else(String::new, |error| format!(" (error {})", per_cent(error.value)));
         writeln!(out, "  {}: {}{of}", proxy.model, metres_with_band(proxy.demand_m.value, None))?;
+    }
+    match report.at_demand.as_ref().map(restrainers) {
+        Some(words) if report.at_demand.as_ref().is_some_and(is_exceeded) => {
+            writeln!(out, "  restrainers there: {}", words.join(", "))?;
+        }
+        None if value.is_finite() => writeln!(out, "  restrainers there: beyond their law")?,
+        _ => {}
     }
     let [per_year, _, return_period] = risk_cells(&report.overturning.risk);
     let band = band_after(report.overturning.bands);
@@ -95,11 +103,28 @@ fn print_demands(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
         });
     writeln!(
         out,
-        "\nDisplacement demand of the deck: the frame, then its proxies and their errors; bands from {} resamples of \
-         the records\n{table}",
+        "\nDisplacement demand of the deck: the frame, then its proxies and their errors; bands of errors from {} \
+         resamples of the records\n{table}",
         report.replicates
     )?;
     Ok(())
+}
+
+/// Whether a tendon yields or springs are flat.
+fn is_exceeded(at: &StateAtDemand) -> bool {
+    [at.tendon_over_yield, at.spring_over_flat].into_iter().flatten().any(|of| of >= 1.0)
+}
+
+/// What tendons and springs have at the demand.
+fn restrainers(at: &StateAtDemand) -> Vec<String> {
+    let share = |of: Option<f64>, limit| of.map_or_else(String::new, |of| format!(", {:.0} % of {limit}", 100.0 * of));
+    let tendon = at
+        .tendon_n
+        .map(|tendon_n| format!("tendon {} kN{}", short(1e-3 * tendon_n), share(at.tendon_over_yield, "its yield")));
+    let springs = at
+        .spring_m
+        .map(|spring_m| format!("springs {} mm{}", short(1e3 * spring_m), share(at.spring_over_flat, "flat")));
+    tendon.into_iter().chain(springs).collect()
 }
 
 fn print_state(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
@@ -110,15 +135,7 @@ fn print_state(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Com
         )?);
     };
     let mut words = vec![format!("drift {:.2} %", 100.0 * at.drift), format!("rotation {:.4} rad", at.rotation_rad)];
-    if let Some(tendon_n) = at.tendon_n {
-        let of_yield =
-            at.tendon_over_yield.map_or_else(String::new, |of| format!(", {:.0} % of its yield", 100.0 * of));
-        words.push(format!("tendon {} kN{of_yield}", short(1e-3 * tendon_n)));
-    }
-    if let Some(spring_m) = at.spring_m {
-        let of_flat = at.spring_over_flat.map_or_else(String::new, |of| format!(", {:.0} % of flat", 100.0 * of));
-        words.push(format!("springs {} mm{of_flat}", short(1e3 * spring_m)));
-    }
+    words.extend(restrainers(at));
     words.push(format!("moment at the top of a column {} kN m", short(1e-3 * at.top_moment_n_m)));
     Ok(writeln!(out, "\nAt the demand on the frame: {}", words.join("; "))?)
 }

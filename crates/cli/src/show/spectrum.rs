@@ -30,7 +30,8 @@ pub(crate) fn print_spectrum(report: &SpectrumReport, result: &Path, terminal: &
 
 /// What the displacements are of.
 pub(super) fn print_oscillator(out: &mut impl Write, report: &DisplacementReport) -> Result<(), CommandError> {
-    Ok(writeln!(out, "Oscillator: {}", report.oscillator.in_words())?)
+    let drawn = if report.is_uncertain { "; uncertain, drawn as [uncertainty] says" } else { "" };
+    Ok(writeln!(out, "Oscillator: {}{drawn}", report.oscillator.in_words())?)
 }
 
 /// The number first, then what it is of.

@@ -42,6 +42,12 @@ pub(super) fn limits(per_year: [f64; 2]) -> String {
     per_year.map(text::rate).join(" to ")
 }
 
+/// A demand with the quoted band, and of whom that is.
+pub(super) fn demand_in_words(value_m: f64, band_m: Option<[f64; 2]>, of_whom: &str) -> String {
+    let demand = text::metres_with_band(value_m, band_m);
+    demand.strip_suffix(')').map_or_else(|| demand.clone(), |open| format!("{open}{of_whom})"))
+}
+
 /// The quoted band of a rate in brackets, after the rate in a sentence; nothing where there is none.
 pub(super) fn band_after(per_year: Option<Bands>) -> String {
     per_year.map_or_else(String::new, |bands| format!(" ({}{})", limits(bands.quoted()), bands.of_whom()))

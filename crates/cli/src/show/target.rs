@@ -31,7 +31,10 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let safe = limit(report.safe_value, report);
     let band = report.bands.last().map_or_else(String::new, |band| {
         let upper = if report.safe_value.is_finite() { report.safe_value.to_string() } else { "beyond".to_owned() };
-        format!(" (90 % band {} to {upper}, by {})", short(band.value[0]), band.of)
+        // where the range begins it is no limit
+        let is_open = report.tried.first().is_some_and(|least| band.value[0] <= least.value);
+        let below = if is_open { "below " } else { "" };
+        format!(" (90 % band {below}{} to {upper}, by {})", short(band.value[0]), band.of)
     });
     let best = format!("best estimate {}{band}", unit(value.to_string()));
     match &report.frame {
@@ -59,16 +62,21 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let years = 1.0 / target_per_year;
     writeln!(out, "Target    {event} at most {} per year (once in {years:.0} years)", rate(*target_per_year))?;
     let [per_year, ..] = risk_cells(&report.risk);
+    // the line above has the best estimate but for a frame that wobbles
+    let [whose, best] = match &report.frame {
+        Some(frame) if !frame.wobbling().is_safe => ["proxy: ".to_owned(), format!(" {}", unit(value.to_string()))],
+        _ => [String::new(), String::new()],
+    };
     let at_safe =
         report.safe_risk.map_or_else(String::new, |risk| format!(", {} at the safe value", risk_cells(&risk)[0]));
-    writeln!(out, "Risk      {per_year} per year at the best estimate{at_safe}")?;
+    writeln!(out, "Risk      {whose}{per_year} per year at the best estimate{best}{at_safe}")?;
     let at = unit(if report.safe_value.is_finite() { report.safe_value } else { *value }.to_string());
     let whose = if report.frame.is_some() || report.by_proxy { "its proxy by" } else { "by" };
     for other in &report.by_other_measures {
         let [per_year, ..] = risk_cells(&other.risk);
         let verdict = match other.is_met {
             Some(true) => "meets the target",
-            Some(false) => "MISSES the target",
+            Some(false) => "MISSES the target (--measure sizes by it)",
             None => "the levels are too low to tell",
         };
         writeln!(out, "          {whose} {} {per_year} per year at {at}: {verdict}", other.im)?;

@@ -1,8 +1,8 @@
 //! What a description says that can be, but is unlikely: numbers in another unit than the key's, mostly.
 
 use uplift_plausible::{
-    Range, USUAL_BULK, USUAL_DECK, USUAL_GRAVITY, USUAL_LENGTH, USUAL_MASS, USUAL_RESTITUTION, USUAL_ROTATION,
-    USUAL_TENDON_STIFFNESS, USUAL_UPLIFT_DISPLACEMENT, Unlikely,
+    Range, USUAL_BULK, USUAL_DECK, USUAL_GRAVITY, USUAL_INERTIA, USUAL_LENGTH, USUAL_MASS, USUAL_PERIOD,
+    USUAL_RESTITUTION, USUAL_ROTATION, USUAL_TENDON_STIFFNESS, USUAL_UPLIFT_DISPLACEMENT, Unlikely,
 };
 
 use super::{Kind, StructureDescription};
@@ -11,7 +11,7 @@ use super::{Kind, StructureDescription};
 pub(super) fn unlikely(of: &StructureDescription) -> Vec<Unlikely> {
     // what may be absent is no mistake of unit
     let given = |value: Option<f64>| value.filter(|value| *value > 0.0);
-    let quantities: [(&'static str, Option<f64>, Range); 13] = [
+    let quantities: [(&'static str, Option<f64>, Range); 15] = [
         ("width_m", of.width_m, USUAL_LENGTH),
         ("height_m", of.height_m, USUAL_LENGTH),
         ("centre_height_m", of.centre_height_m, USUAL_LENGTH),
@@ -22,6 +22,8 @@ pub(super) fn unlikely(of: &StructureDescription) -> Vec<Unlikely> {
         ("deck_mass_kg", given(of.deck_mass_kg), USUAL_MASS),
         ("tendon_stiffness_n_m", given(of.tendon_stiffness_n_m), USUAL_TENDON_STIFFNESS),
         ("uplift_displacement_m", given(of.uplift_displacement_m), USUAL_UPLIFT_DISPLACEMENT),
+        ("period_s", of.period_s, USUAL_PERIOD),
+        ("moment_of_inertia_kg_m2 over mass_kg × R²", inertia_ratio(of), USUAL_INERTIA),
         ("gravity_m_s2", of.gravity_m_s2, USUAL_GRAVITY),
         ("restitution", of.restitution, USUAL_RESTITUTION),
         ("the rotation at the displacement capacity (over the height)", rotation_rad(of), USUAL_ROTATION),
@@ -33,6 +35,11 @@ pub(super) fn unlikely(of: &StructureDescription) -> Vec<Unlikely> {
     );
     found.extend(bulk_kg_m3(of).and_then(|(name, bulk)| USUAL_BULK.unlikely(name, bulk)));
     found
+}
+
+/// Of a body; none of others.
+fn inertia_ratio(of: &StructureDescription) -> Option<f64> {
+    Some(three_digits(of.body().ok().filter(|_| of.kind == Kind::Body)?.inertia_ratio()))
 }
 
 /// Mass of the deck over that of the columns; none where one of them has no mass.
@@ -68,5 +75,5 @@ fn rotation_rad(of: &StructureDescription) -> Option<f64> {
     if !matches!(of.kind, Kind::RestrainedFrame | Kind::CurvedFrame) {
         return None;
     }
-    Some(of.resolve().ok()?.capacity_m()? / of.geometry().ok()?.height_m())
+    Some(three_digits(of.resolve().ok()?.capacity_m()? / of.geometry().ok()?.height_m()))
 }

@@ -34,6 +34,8 @@ pub struct ModelDemand {
     /// Demand of the target rate in the displacement of the deck, m, with its confidence band, as that of a design;
     /// infinite where it overturns more often.
     pub demand_m: Banded,
+    /// What that band is of: `records` or `earthquakes`; none where a single record has none.
+    pub band_of: Option<&'static str>,
     /// The same of records weighted so that they bring the site's hazard, m; none where the result has no repair, and
     /// for a spectrum.
     pub repaired_m: Option<f64>,
@@ -69,6 +71,7 @@ pub(super) struct Resampled {
     pub(super) demand_m: f64,
     /// NaN of a single record.
     limits_m: [f64; 2],
+    band_of: Option<&'static str>,
     pub(super) replicates_m: Vec<f64>,
     repaired_m: Option<f64>,
     risk_curve: Vec<RiskPoint>,
@@ -90,6 +93,7 @@ impl Question<'_> {
         let asked = (self.target_per_year, self.confidence);
         let bands = record_bands(&pool, (self.weights, None), self.scatter, asked)?;
         Ok(Resampled {
+            band_of: bands.map(|bands| bands.source()),
             limits_m: bands.map_or([f64::NAN; 2], |bands| bands.quoted().map(|limit_m| factor * limit_m)),
             demand_m: demand_m(SiteWeights::Alike(self.weights))?,
             replicates_m: self.plan.samples().par_iter().map(replicate).collect::<Result<_, _>>()?,
@@ -129,6 +133,7 @@ impl Question<'_> {
         ModelDemand {
             model,
             demand_m: Banded { value: of.demand_m, lower: of.limits_m[0], upper: of.limits_m[1] },
+            band_of: of.band_of,
             repaired_m: of.repaired_m,
             error,
             risk_curve: of.risk_curve,
@@ -152,7 +157,7 @@ impl Resampled {
         let replicates_m = self.replicates_m.iter().map(|of| rule(*of)).collect::<Result<_, _>>()?;
         let [lower_m, upper_m] = self.limits_m;
         let limits_m = if upper_m.is_nan() { self.limits_m } else { [rule(lower_m)?, rule(upper_m)?] };
-        Ok(Self { demand_m, limits_m, replicates_m, repaired_m: None, risk_curve: Vec::new() })
+        Ok(Self { demand_m, limits_m, replicates_m, repaired_m: None, risk_curve: Vec::new(), ..*self })
     }
 }
 

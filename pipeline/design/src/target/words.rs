@@ -52,7 +52,7 @@ impl Words<'_> {
         let missed = tried.iter().rposition(|(_, attempt)| !attempt.meets(*target_per_year));
         match missed {
             None => Err(format!(
-                "the target is met at every {key} of the range: {event} has {} per year, and {allowed} is allowed: \
+                "the target is met at every {key} tried: the annual rate of {event} is {}; the target is {allowed}: \
                   give a lower --from, or a rarer target",
                 ends()
             )),
@@ -61,8 +61,8 @@ impl Words<'_> {
                 let found = crossings(tried, |attempt| attempt.meets(*target_per_year));
                 if found.is_empty() {
                     return Err(format!(
-                        "the target is missed at every {key} of the range: {event} has {} per year, and \
-                         {allowed} is allowed: give a higher --to, or vary something else",
+                        "the target is missed at every {key} tried: the annual rate of {event} is {}; the target is \
+                         {allowed}: give a higher --to, or vary something else",
                         ends()
                     ));
                 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use uplift::alarms::every_alarm;
+use uplift::alarms::alarms;
 use uplift::result::{AskedRisk, ResultFile, at};
 
 use crate::error::CommandError;
@@ -22,6 +22,6 @@ pub(crate) struct WarningsArguments {
 }
 
 pub(crate) fn warnings(arguments: &WarningsArguments) -> Result<(), CommandError> {
-    let alarms = every_alarm(&at(ResultFile::open(&arguments.result)?, &arguments.risk)?)?;
-    if arguments.json { print_json(&alarms) } else { print_all_warnings(&alarms, &arguments.result) }
+    let found = alarms(&at(ResultFile::open(&arguments.result)?, &arguments.risk)?)?;
+    if arguments.json { print_json(&found) } else { print_all_warnings(&found, &arguments.result) }
 }
