@@ -195,6 +195,7 @@ fn wrong_arguments_are_refused() {
         .fails(2, &["rectangular section", "column_shape"]);
     shaken(at, "mass.toml", &["--h1", "a.txt"]).fails(2, &["mass.toml", "point-mass", "restrained-frame"]);
     shaken(at, "held.toml", &[]).fails(2, &["--h1"]);
+    shaken(at, "held.toml", &["a.txt"]).fails(2, &["write --h1 a.txt"]);
     shaken(at, "held.toml", &["--h1", "none.txt"]).fails(4, &["none.txt"]);
     shaken(at, "held.toml", &["--h1", "a.txt", "--h2", "b.txt", "--channel", "1"])
         .fails(2, &["--channel", "2 components"]);

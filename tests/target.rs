@@ -195,7 +195,7 @@ fn a_strength_known_by_hand() {
 fn an_unreachable_target_is_reported() {
     let study = study();
     let ask = |more: &[&str]| study.uplift(&[&["target", "frame.toml", "--urs", "r.h5"], more].concat());
-    ask(&["--overturning", "1e-9", "--vary", "width"]).fails(2, &["too rare for these stripes", "pga.levels_g"]);
+    ask(&["--overturning", "1e-9", "--vary", "width"]).fails(2, &["too rare for these levels", "pga.levels_g"]);
     ask(&["--overturning", "10", "--vary", "width"]).fails(2, &["met at every width", "--from"]);
     ask(&["--overturning", "2e-3", "--vary", "width", "--to", "0.2"]).fails(2, &["missed at every width", "--to"]);
     ask(&["--overturning", "2e-3", "--vary", "tendon-stiffness"])

@@ -276,7 +276,7 @@ fn it_is_reported_in_sentences_and_refused_in_words() {
          analyses",
         "of the distribution is outside the possible range, and is cut off",
         "overturning, Here, PGA: ",
-        "it owes that to ",
+        "of its variance ",
         "strength and capacity ",
     ] {
         assert!(run.stdout.contains(words), "{words}: {}", run.stdout);

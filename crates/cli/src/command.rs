@@ -36,8 +36,8 @@ const GENERAL: &str = "General options";
 
 /// Uniform risk spectra for rocking structures.
 ///
-/// From ground motions and site hazard to the displacement that a structure of a given uplift strength must survive so
-/// that its annual risk is what the engineer chose.
+/// From ground motions and site hazard to the displacement that a structure of a given uplift strength must accommodate
+/// so that its annual risk is what the engineer chose.
 #[derive(Debug, Parser)]
 #[command(name = "uplift", version = uplift::VERSION_AND_COMMIT, max_term_width = 100)]
 #[command(after_help = "Start with:\n  uplift init first\n  uplift run first/study.toml\n\n\

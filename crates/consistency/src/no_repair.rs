@@ -57,17 +57,17 @@ impl NoRepair {
             Self::NarrowRange(range) => {
                 let high = match range.high_limit {
                     HighLimit::Target => "1.5 times the largest target rate".to_owned(),
-                    HighLimit::FirstStripe => format!("half the rate of the first stripe of {x}"),
+                    HighLimit::FirstStripe => format!("half the rate at the first level of {x}"),
                     HighLimit::OtherCurve => format!("half the rate at the first level of the curve of {y}"),
                 };
                 let low = match range.low_limit {
                     LowLimit::Target => "a quarter of the smallest target rate".to_owned(),
-                    LowLimit::LastStripe => format!("twice the rate of the last stripe of {x}"),
+                    LowLimit::LastStripe => format!("twice the rate at the last level of {x}"),
                     LowLimit::OtherCurve => format!("twice the rate at the last level of the curve of {y}"),
                 };
                 format!(
                     "only rates from {:.2e} per year ({high}) down to {:.2e} ({low}) can be compared, less than a \
-                     factor of 5: add stripes or levels of the curve there",
+                     factor of 5: add levels, or points of the curve, there",
                     range.high_per_year, range.low_per_year
                 )
             }
@@ -91,7 +91,7 @@ impl NoRepair {
                 if words.has_level_sets { ", or more records at each level" } else { "" }
             ),
             Self::TooFew { least, other_level } => format!(
-                "the weights leave {:.1} effective records at the stripe {}, fewer than 5: add records with {y} near \
+                "the weights leave {:.1} effective records at the level {}, fewer than 5: add records with {y} near \
                  {} {} there",
                 least.records,
                 words.level(least.level),
@@ -122,7 +122,7 @@ mod tests {
             for (reason, parts) in [
                 (
                     NoRepair::NarrowRange(range),
-                    ["1.00e-3 per year (half the rate of the first stripe of PGV)", "5.00e-4"],
+                    ["1.00e-3 per year (half the rate at the first level of PGV)", "5.00e-4"],
                 ),
                 (
                     NoRepair::OutOfReach { reach: Reach { set_above: 12, set_below: 0 }, nearest },
@@ -146,7 +146,7 @@ mod tests {
                 (NoRepair::NotReached { nearest }, ["0.6 g is exceeded 1.8 times", "below 0.6 g at PGV 48 cm/s"]),
                 (
                     NoRepair::TooFew { least: LeastEffective { records: 3.21, level: 2 }, other_level: 0.3141 },
-                    ["3.2 effective records at the stripe 40 cm/s", "PGA near 0.314 g there"],
+                    ["3.2 effective records at the level 40 cm/s", "PGA near 0.314 g there"],
                 ),
             ] {
                 let sentence = reason.sentence(words);

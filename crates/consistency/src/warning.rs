@@ -116,18 +116,18 @@ impl Warning {
         let (x, y) = (words.scaled_to, words.other);
         match *self {
             Self::FewEffective { records, level, limit } => format!(
-                "the weights leave {records:.1} effective records at the stripe {}, fewer than {limit}: choose records \
+                "the weights leave {records:.1} effective records at the level {}, fewer than {limit}: choose records \
                  whose {y}/{x} is like the site's",
                 words.level(level)
             ),
             Self::OneRecord { record, share, level } => format!(
-                "record {} has {:.0} % of the weight at the stripe {}",
+                "record {} has {:.0} % of the weight at the level {}",
                 (words.record)(record),
                 100.0 * share,
                 words.level(level)
             ),
             Self::OneEvent { event, share, level } => format!(
-                "the earthquake {} has {:.0} % of the weight at the stripe {}",
+                "the earthquake {} has {:.0} % of the weight at the level {}",
                 (words.event)(event),
                 100.0 * share,
                 words.level(level)
@@ -138,7 +138,7 @@ impl Warning {
                 (words.target)(target)
             ),
             Self::LowerTail => format!(
-                "the stripes begin too high for the most frequent target: add stripes of {x} below {}",
+                "the levels begin too high for the most frequent target: add levels of {x} below {}",
                 words.level(0)
             ),
             Self::FailedResamples { size, share } => format!(
@@ -204,11 +204,11 @@ mod tests {
         assert_eq!(found, expected);
         with_words(|words| {
             let sentences = expected.map(|warning| warning.sentence(words));
-            assert!(sentences[0].starts_with("the weights leave 12.3 effective records at the stripe 2.5 cm/s"));
-            assert_eq!(sentences[1], "record RSN40 has 30 % of the weight at the stripe 2.5 cm/s");
-            assert_eq!(sentences[2], "the earthquake event 7 has 60 % of the weight at the stripe 2.5 cm/s");
+            assert!(sentences[0].starts_with("the weights leave 12.3 effective records at the level 2.5 cm/s"));
+            assert_eq!(sentences[1], "record RSN40 has 30 % of the weight at the level 2.5 cm/s");
+            assert_eq!(sentences[2], "the earthquake event 7 has 60 % of the weight at the level 2.5 cm/s");
             assert!(sentences[3].starts_with("ln(PGA/PGV) scatters by only 0.31 at the level of 10 % in 50 years"));
-            assert!(Warning::LowerTail.sentence(words).ends_with("add stripes of PGV below 1 cm/s"));
+            assert!(Warning::LowerTail.sentence(words).ends_with("add levels of PGV below 1 cm/s"));
         });
     }
 

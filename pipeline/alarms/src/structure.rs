@@ -75,7 +75,10 @@ fn outside_levels(own: &OwnRisk) -> Option<Case> {
         badness: share,
         subject: own.subject.clone(),
         what,
-        what_to_do: format!("Extend {}, and the hazard curve if it ends there", levels_key(own.measure)),
+        what_to_do: format!(
+            "Add higher levels to {}; extend the hazard curve if it ends there",
+            levels_key(own.measure)
+        ),
     })
 }
 

@@ -405,11 +405,9 @@ fn beside(plain: Option<SpectrumDemand>, repaired: Option<SpectrumDemand>) -> Op
 fn require_zero_stiffness(source: &StudyOfResult) -> Result<(), DesignError> {
     let (what, key) = match source.study.oscillator.post_uplift {
         PostUplift::Zero => return Ok(()),
-        PostUplift::Negative { capacity_m } => {
-            (format!("of negative stiffness, with a capacity of {capacity_m} m"), "capacity_m")
-        }
+        PostUplift::Negative { capacity_m } => (format!("negative stiffness (capacity {capacity_m} m)"), "capacity_m"),
         PostUplift::Positive { stiffness_per_s2 } => {
-            (format!("of positive stiffness, {stiffness_per_s2} 1/s2 after uplift"), "post_uplift_stiffness_per_s2")
+            (format!("positive stiffness ({stiffness_per_s2} 1/s2 after uplift)"), "post_uplift_stiffness_per_s2")
         }
     };
     Err(JobError::input(format!(

@@ -1,7 +1,7 @@
 //! The rules of Section 3.3.2 applied to a structure, and the capacity that they ask for (Eq. 3.15).
 
 use serde::Serialize;
-use uplift_job::text::per_cent;
+use uplift_job::text::{per_cent, to_the_centimetre};
 use uplift_result::RULES;
 use uplift_structure::{Check, Demand, PostUpliftForce, Rule, StructureError, relative_error};
 use uplift_study::Structure;
@@ -71,7 +71,7 @@ impl OwnCheck {
     /// change the demand.
     pub fn in_words(&self, safety_factor: f64) -> String {
         if self.required_capacity_m.is_finite() {
-            format!("{safety_factor} times its own demand ({:.2} m)", self.required_capacity_m)
+            format!("{safety_factor} times its own demand ({} m)", to_the_centimetre(self.required_capacity_m))
         } else {
             "its own demand (overturns)".to_owned()
         }
@@ -92,7 +92,7 @@ pub(super) fn verdicts_in_words(rules: &[RuleOutcome], own: Option<(OwnCheck, f6
         let check = outcome.check()?;
         let required_m = check.required_capacity_m;
         let required = if required_m.is_finite() {
-            format!("requires {required_m:.2} m")
+            format!("requires {} m", to_the_centimetre(required_m))
         } else {
             "no capacity suffices".to_owned()
         };

@@ -50,6 +50,11 @@ pub fn two_digits(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
+/// A length as an engineer rounds it, m: `1.05`, and below 0.1 m two digits, `0.014`.
+pub fn to_the_centimetre(value_m: f64) -> String {
+    if value_m.abs() < 0.1 { two_digits(value_m) } else { format!("{value_m:.2}") }
+}
+
 /// A displacement with its confidence band in a sentence: `0.35 m (0.24 to 0.84)`.
 pub fn metres_with_band(u_m: f64, band_m: Option<[f64; 2]>) -> String {
     with_band((u_m, band_m), " m", ["", " to "])

@@ -123,9 +123,9 @@ group! {
     pub const REPAIRED_SPECTRA: Ordinate = CONSISTENCY.path;
     "u_m" [SITE, POE, STRENGTH] F64 "m" "uniform risk displacement of the weighted records"
         ("the spectra of the weighted records, as `/urs`; NaN where there is no repair") = |of, _at| of.displacement_m;
-    "lower_tail_share" [SITE, POE, STRENGTH] Made "1" "share of its risk from below the first stripe"
+    "lower_tail_share" [SITE, POE, STRENGTH] Made "1" "share of its risk from below the first level"
         ("as that of `/urs`; NaN where there is no repair") = |of, _at| of.lower_tail_share;
-    "upper_tail_share" [SITE, POE, STRENGTH] Made "1" "share of its risk from above the last stripe"
+    "upper_tail_share" [SITE, POE, STRENGTH] Made "1" "share of its risk from above the last level"
         ("as that of `/urs`; NaN where there is no repair") = |of, _at| of.upper_tail_share;
     "flag" [SITE, POE, STRENGTH] Flag "1"
         "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored, 3 no repair"

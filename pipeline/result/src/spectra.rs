@@ -61,10 +61,10 @@ pub mod urs {
         ("0 regular; 1 no exceedance, ordinate 0; 2 censored") = |of, at| of.flags[at]);
     /// The risk from below the first stripe.
     pub const LOWER_TAIL_SHARE: Quantity<MeasureSpectra> = quantity!("lower_tail_share" [SITE, POE, STRENGTH] F64 "1"
-        "share of the risk from below the first stripe" = |of, at| of.lower_tail_share[at]);
+        "share of the risk from below the first level" = |of, at| of.lower_tail_share[at]);
     /// The risk from above the last stripe.
     pub const UPPER_TAIL_SHARE: Quantity<MeasureSpectra> = quantity!("upper_tail_share" [SITE, POE, STRENGTH] F64 "1"
-        "share of the risk from above the last stripe" = |of, at| of.upper_tail_share[at]);
+        "share of the risk from above the last level" = |of, at| of.upper_tail_share[at]);
 }
 
 /// Coefficients of Eq. 4.11: the arrays of `/regression/<im>`.

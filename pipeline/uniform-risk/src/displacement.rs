@@ -96,9 +96,9 @@ pub struct DisplacementReport {
     pub band_of: BandOf,
     /// What was shaken, but for its strength.
     pub oscillator: Oscillator,
-    /// Whether its properties are drawn, `[uncertainty]`: the oscillator is the structure as described.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub is_uncertain: bool,
+    /// Oscillators that each record shakes, 1 but for those that `[uncertainty]` draws about it: each makes a record of
+    /// its own.
+    pub structures: usize,
     /// The displacement capacity asked for, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub capacity_m: Option<f64>,
@@ -169,7 +169,7 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
         measure,
         repaired: asked.repaired,
         band_of: units.of,
-        is_uncertain: study.structures_of_a_motion() > 1,
+        structures: study.structures_of_a_motion(),
         oscillator: study.oscillator,
         capacity_m: asked.capacity_m,
         displacements,

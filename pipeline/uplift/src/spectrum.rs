@@ -21,7 +21,7 @@ pub struct SpectrumReport {
     pub alarms: Vec<Alarm>,
 }
 
-/// The displacements that a structure must survive, read off the result at `path` for the strengths and risks asked
+/// The displacements that a structure must accommodate, read off the result at `path` for the strengths and risks asked
 /// for.
 ///
 /// # Errors

@@ -25,7 +25,7 @@ use crate::terminal::Terminal;
     uplift response --structure configs/structures/footbridge.toml --h1 x.at2 --h2 y.at2")]
 pub(super) struct ResponseArguments {
     /// Record file
-    #[arg(required_unless_present = "structure", conflicts_with = "structure")]
+    #[arg(required_unless_present = "structure")]
     record: Option<PathBuf>,
     /// Uplift strength: uplift force over weight
     #[arg(
@@ -230,6 +230,12 @@ pub(super) fn response(arguments: &ResponseArguments, terminal: &Terminal) -> Re
         check_figure_file(figure, &arguments.inputs(), arguments.overwriting.force)?;
     }
     if let Some(file) = &arguments.frame.structure {
+        if let Some(record) = &arguments.record {
+            let record = record.display();
+            return Err(CommandError::Usage(format!(
+                "a structure takes its records by --h1, --h2 and --v: write --h1 {record}"
+            )));
+        }
         let report = frame_response(&Structure::load(file)?, &arguments.of_frame()?)?;
         if let Some(figure) = figure {
             plot_frame_response(&report, figure)?;

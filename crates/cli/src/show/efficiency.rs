@@ -148,7 +148,7 @@ impl Shown<'_> {
         if let Some(first) = self.report.stored.measures.first() {
             writeln!(out, "displacement: all measures in the runs scaled to {}", first.measure.label())?;
         }
-        if self.rows().any(|row| row.is_told()) {
+        if self.rows().any(EfficiencyRow::is_told) {
             writeln!(out, "+ has no hazard curve in this study")?;
         }
         if self.report.stored.records.len() < 30 {

@@ -209,7 +209,7 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
         Table::new(header, rows)
     )?;
     let others = [
-        (1, "The band if the earthquakes of these records were others:"),
+        (1, "90 % band with each earthquake as one observation:"),
         (2, "The band with the site's weighted hazard curves:"),
     ];
     for (place, title) in others {

@@ -30,7 +30,7 @@ pub(crate) fn print_spectrum(report: &SpectrumReport, result: &Path, terminal: &
 
 /// What the displacements are of.
 pub(super) fn print_oscillator(out: &mut impl Write, report: &DisplacementReport) -> Result<(), CommandError> {
-    let drawn = if report.is_uncertain { "; uncertain, drawn as [uncertainty] says" } else { "" };
+    let drawn = if report.structures > 1 { "; uncertain, drawn as [uncertainty] says" } else { "" };
     Ok(writeln!(out, "Oscillator: {}{drawn}", report.oscillator.in_words())?)
 }
 
@@ -68,8 +68,10 @@ pub(super) fn print_displacements(out: &mut impl Write, report: &DisplacementRep
     let poes: Vec<f64> = rows.iter().map(|row| row[0].poe).collect();
     let risk = if risks == 1 { Some(risk(first)) } else { kind_of_risks(&poes, first.years) };
     let risk = risk.map_or_else(String::new, |risk| format!("{risk}, "));
-    let records = counted(report.records, record);
-    writeln!(out, "\n{kind}, {records}, {risk}by {}", first.im)?;
+    let records = counted(report.records / report.structures.max(1), record);
+    let structures =
+        if report.structures > 1 { format!(" × {} structures", report.structures) } else { String::new() };
+    writeln!(out, "\n{kind}, {records}{structures}, {risk}by {}", first.im)?;
     let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
     let is_banded = report.displacements.iter().any(|own| own.band_m.is_some());
     // wider than the number of records suggests

@@ -59,7 +59,7 @@ fn site_map(sites: &SiteArrays, shown: &[usize], (measure, poe): (usize, usize),
         id: format!("map-{key}-{}pct", rounded(100.0 * sites.poes[poe], 6)),
         title: format!("Displacement of {risk}, by {}", key.to_uppercase()),
         caption:
-            "Displacement that a structure of this uplift strength must survive. Where sites overlap, the largest \
+            "Displacement that a structure of this uplift strength must accommodate. Where sites overlap, the largest \
                   is drawn."
                 .to_owned(),
         remark: remark.to_owned(),

@@ -57,7 +57,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
     ];
     let mut facts = vec![("Seed", stored.seed.to_string()), ("Uplift strengths", stored.strengths.len().to_string())];
     if file.is_asked() {
-        facts.push(("Probabilities", "read after the run, from the stripes of the result".to_owned()));
+        facts.push(("Probabilities", "read after the run, from the analyses of the result".to_owned()));
     }
     Ok(Content {
         subject: "Uniform risk spectra",

@@ -150,7 +150,7 @@ impl<'a> Trials<'a> {
         let levels = &self.measure.plan.levels;
         let measure = self.measure.measure();
         Err(JobError::Usage(format!(
-            "the target of {} per year is too rare for these stripes at {site}: motions above the last level, {} {}, \
+            "the target of {} per year is too rare for these levels at {site}: motions above the last level, {} {}, \
              come {} times a year, so even if none of {} fails there the rate can be up to {} per year. Raise the \
              last of {} and run the study again, use more records, or give a target above that rate",
             rate(target_per_year),

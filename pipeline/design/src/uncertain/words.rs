@@ -100,7 +100,7 @@ fn owed(shares: &[VarianceShare]) -> String {
     if shares.iter().all(|of| !is_told(of.total_error) && !is_told(of.first_order_error)) {
         return "shares of the variance need more samples (samples of [uncertainty])".to_owned();
     }
-    format!("it owes that to {}", shares.iter().map(share).collect::<Vec<_>>().join(", "))
+    format!("of its variance {}", shares.iter().map(share).collect::<Vec<_>>().join(", "))
 }
 
 /// Whether a share of this standard error can be told from others.

@@ -251,7 +251,7 @@ impl Tally {
     fn warnings(&self, study: &UniformRiskStudy, list: &SiteList) -> Vec<String> {
         const WORDS: [&str; FINDINGS] = [
             "have ordinates that are censored: overturned runs, or the last threshold, exceed the target risk",
-            "have ordinates that take more than 1 % of their risk from outside the stripes: add lower or higher levels",
+            "have ordinates that take more than 1 % of their risk from outside the levels: add lower or higher levels",
             "have no fit: the column `problem` says why",
             "have a spectrum that is no decaying exponential: its coefficients mean nothing one by one",
         ];
