@@ -171,6 +171,6 @@ fn the_answer_is_short_and_mistakes_are_reported_before_the_work() {
     folder.write("bad.toml", "[block]\nsize_m = 0\nslenderness_rad = 2\n[levels]\nsa = 1\n");
     folder.uplift(&["library", "bad.toml"]).fails(3, &["bad.toml", "size_m", "slenderness_rad", "`sa`"]);
     folder.uplift(&["library", "absent.toml"]).fails(3, &["absent.toml", "no such file"]);
-    folder.uplift(&["library", "study.toml"]).fails(3, &["the library has nothing to shake"]);
+    folder.uplift(&["library", "study.toml"]).fails(3, &["it is a study, not a library"]);
     uplift(folder.path(), &["library", "library.toml", "--set", "records.first=0"]).fails(3, &["records.first"]);
 }
