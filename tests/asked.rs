@@ -211,7 +211,9 @@ fn what_is_no_risk_is_refused() {
     assert!(!study.path().join("r.spectra.csv").exists() && !study.path().join("r.html").exists());
     // a look at what the result has already
     study.uplift(&["influence", "r.h5", "--return-period", "475", "-q"]).ok();
-    study.uplift(&["influence", "r.h5", "--return-period", "500"]).fails(2, &["--return-period 500", "474.6"]);
+    study
+        .uplift(&["influence", "r.h5", "--return-period", "500"])
+        .fails(2, &["the result has no return period 500: it has 2474.9, 474.6, 72.1"]);
 }
 
 #[test]

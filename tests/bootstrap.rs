@@ -414,7 +414,7 @@ fn mistakes_are_said_before_anything_is_computed() {
     study.uplift(&["bootstrap", "r.h5", "--set", "bootstrap.replicates=9"]).fails(2, &["--set changes a study"]);
     study.write("bad.csv", "site,size\nHere,20\n");
     study.uplift(&["bootstrap", "r.h5", "--reference", "bad.csv"]).fails(4, &["bad.csv", "sample_size"]);
-    study.uplift(&["influence", "r.h5", "--poe", "0.3"]).fails(2, &["--poe", "0.02"]);
+    study.uplift(&["influence", "r.h5", "--poe", "0.3"]).fails(2, &["no probability 0.3: it has", "0.02"]);
     let bad = [
         "bootstrap.sizes=[20, 20]",
         "bootstrap.replicates=0",

@@ -503,10 +503,10 @@ fn mistakes_are_said_at_once_with_their_lines() {
 fn questions_that_do_not_fit_the_result() {
     let study = study();
     let design = |more: &[&str]| study.uplift(&[&["design", "block.toml", "--urs", "r.h5"], more].concat());
-    design(&["--site", "Nowhere"]).fails(2, &["--site", "Here"]);
+    design(&["--site", "Nowhere"]).fails(2, &["no site Nowhere: it has Here"]);
     design(&["--poe", "30"]).fails(2, &["30 % is --poe 30%", "a return period is --return-period 30"]);
     design(&["--poe", "0.1,0.3"]).fails(2, &["0.1,0.3", "write a probability, 0.1 or 10%"]);
-    design(&["--measure", "pga"]).fails(2, &["--measure", "pgv"]);
+    design(&["--measure", "pga"]).fails(2, &["the result has no measure pga: it has pgv"]);
     design(&["--measure", "pgx"]).fails(2, &["pgx"]);
     design(&["--safety-factor", "0.5"]).fails(2, &["--safety-factor is 0.5"]);
     study.uplift(&["design", "block.toml", "--urs", "absent.h5"]).fails(4, &["absent.h5"]);

@@ -66,14 +66,14 @@ fn demands_of_a_structure_known_by_hand() {
     }
     let export = |more: &[&str]| study.uplift(&[&["export", "r.h5", "--demand", "Here"], more].concat());
     export(&[]).fails(2, &["--strength", "--structure"]);
-    export(&["--strength", "0.3"]).fails(2, &["--strength 0.3", "0.1"]);
+    export(&["--strength", "0.3"]).fails(2, &["no strength 0.3: it has 0.1"]);
     export(&["--strength", "0.1", "--poe", "0.02,0.1"]).fails(2, &["one probability"]);
     export(&["--strength", "0.1", "--poe", "0.02", "--years", "500"]).fails(2, &["last level, 0.8 g"]);
     export(&["--strength", "0.1", "--capacity-share", "0.4"]).fails(2, &["--capacity-share"]);
     export(&["--strength", "0.1", "--fragility", "csv"]).fails(2, &["--fragility"]);
     export(&["--strength", "0.1", "--displacement-m", "0.1"]).fails(2, &["--displacement-m"]);
     export(&["--strength", "0.1", "--manifest", "x.csv"]).fails(2, &["--manifest"]);
-    study.uplift(&["export", "r.h5", "--demand", "Rome", "--strength", "0.1"]).fails(2, &["--demand Rome", "Here"]);
+    study.uplift(&["export", "r.h5", "--demand", "Rome", "--strength", "0.1"]).fails(2, &["no site Rome", "Here"]);
     study.uplift(&["export", "r.h5", "--strength", "0.1"]).fails(2, &["--fragility", "--demand"]);
 }
 
@@ -127,9 +127,10 @@ fn what_cannot_be_exported_is_named() {
     let export = |more: &[&str]| study.uplift(&[&["export", "r.h5", "--fragility", "csv"], more].concat());
     export(&[]).fails(2, &["--displacement-m", "--structure"]);
     export(&["--displacement-m", "0.1"]).fails(2, &["--strength"]);
-    export(&["--displacement-m", "0.1", "--strength", "0.15"]).fails(2, &["--strength 0.15", "0.1"]);
+    export(&["--displacement-m", "0.1", "--strength", "0.15"]).fails(2, &["no strength 0.15: it has 0, 0.05, 0.1"]);
     export(&["--displacement-m", "-1", "--strength", "0.1"]).fails(2, &["--displacement-m -1", "positive"]);
-    export(&["--displacement-m", "0.1", "--strength", "0.1", "--measure", "cav"]).fails(2, &["--measure", "pga"]);
+    export(&["--displacement-m", "0.1", "--strength", "0.1", "--measure", "cav"])
+        .fails(2, &["no measure cav: it has pgv, pga"]);
     export(&["--displacement-m", "0.1", "--strength", "0.1", "--csv"]).fails(2, &["--csv"]);
     // of both measures, at two strengths
     export(&["--displacement-m", "0.1,0.3", "--strength", "0.1,0.2", "-q"]).ok();

@@ -315,12 +315,12 @@ fn probabilities_as_they_are_typed() {
     for (asked, words) in [
         (["--return-period", "0.02"], "--return-period 0.02: is in years, e.g. 475; a probability is --poe 0.02"),
         (["--poe", "475"], "a return period is --return-period 475"),
-        (["--site", "Her"], "--site Her: did you mean Here? The result has Here, There"),
+        (["--site", "Her"], "the result has no site Her: it has Here, There; did you mean Here?"),
     ] {
         study.uplift(&[&["spectrum", "r.h5"], &asked[..]].concat()).fails(2, &[words]);
     }
     study.uplift(&["influence", "r.h5", "--poe", "10"]).fails(2, &["10 per cent is 10%"]);
-    study.uplift(&["influence", "r.h5", "--poe", "20%"]).fails(2, &["--poe 0.2", "1e-9, 0.1"]);
+    study.uplift(&["influence", "r.h5", "--poe", "20%"]).fails(2, &["no probability 0.2: it has 1e-9, 0.1"]);
 }
 
 /// Records in cm/s² whose files say g.

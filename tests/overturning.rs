@@ -269,8 +269,8 @@ fn what_rounding_decides_is_marked() {
 fn mistakes_are_said() {
     let study = steps();
     let overturning = |more: &[&str]| study.uplift(&[&["overturning", "block.toml", "--urs", "r.h5"], more].concat());
-    overturning(&["--site", "Nowhere"]).fails(2, &["--site", "Here"]);
-    overturning(&["--measure", "pgv"]).fails(2, &["--measure", "pga"]);
+    overturning(&["--site", "Nowhere"]).fails(2, &["no site Nowhere: it has Here"]);
+    overturning(&["--measure", "pgv"]).fails(2, &["the result has no measure pgv: it has pga"]);
     overturning(&["--restitution", "1.5"]).fails(2, &["--restitution", "1.5", "between 0 and 1"]);
     overturning(&["--plot", "b.pdf"]).fails(2, &[".svg or .png"]);
     overturning(&["-o", "b.txt"]).fails(2, &[".csv"]);

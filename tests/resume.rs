@@ -186,7 +186,7 @@ fn shards_make_the_same_result() {
 
     std::fs::remove_file(study.path().join("results/study.h5")).unwrap();
     study.uplift(&["merge", "study.toml", &one, &three]).fails(4, &["1 shard missing: 2/3"]);
-    study.uplift(&["merge", "study.toml", &one, &one, &two, &three]).fails(4, &["shard 1 of 3", "too"]);
+    study.uplift(&["merge", "study.toml", &one, &one, &two, &three]).fails(4, &["shard 1 of 3 is given twice"]);
     study.uplift(&["run", "study.toml", "--shard", "1/2", "-o", "half"]).ok();
     study
         .uplift(&["merge", "study.toml", &one, &two, &three, "half"])
@@ -208,7 +208,7 @@ fn shards_make_the_same_result() {
     study
         .uplift(&["merge", "study.toml", "study.toml"])
         .fails(4, &["study.toml", "not a file of finished analysis rows"]);
-    study.uplift(&["run", "study.toml", "--shard", "4/3"]).fails(2, &["1/8"]);
+    study.uplift(&["run", "study.toml", "--shard", "4/3"]).fails(2, &["there is no shard 4 of 3"]);
 }
 
 #[test]
@@ -358,6 +358,8 @@ fn shards_that_start_together_do_not_meet() {
         let files: Vec<&str> = files.iter().map(String::as_str).collect();
         study.uplift(&[&["merge", "study.toml", "-o", "merged.h5"][..], &files].concat()).ok();
         assert_eq!(content(&study.path().join("merged.h5")), content(&study.path().join("whole.h5")));
+        let other = [&["merge", "study.toml", "-o", "other.h5", "--set", "gravity_m_s2=9.81"][..], &files].concat();
+        study.uplift(&other).fails(4, &["is a shard of other work (\"small\"): of another study, of other records"]);
         // a shard of other work is not gone on with
         let other = ["run", "study.toml", "--shard", "1/4", "--set", "gravity_m_s2=9.81"];
         study.uplift(&other).fails(4, &["shard-1-of-4", "other work"]);

@@ -371,7 +371,9 @@ fn arrays_hold_what_the_tables_hold() {
     study.uplift(&["plot", "r.h5", "--only", "map-pgv-2pct", "--strength", "0.4", "-o", "maps"]).ok();
     let map = read(study.path(), "maps/map-pgv-2pct.svg");
     assert!(map.contains("strength 0.4") && !map.contains("strength 0.2"), "{map}");
-    study.uplift(&["plot", "r.h5", "--only", "map", "--strength", "0.3"]).fails(2, &["--strength 0.3", "0.2, 0.4"]);
+    study
+        .uplift(&["plot", "r.h5", "--only", "map", "--strength", "0.3"])
+        .fails(2, &["no strength 0.3: it has 0.2, 0.4"]);
     // without tables the arrays alone
     study.uplift(&["run", "study.toml", "-o", "alone.h5", "--set", "output.csv=false"]).ok();
     assert!(!study.path().join("alone.sites.csv").exists());
@@ -437,6 +439,9 @@ fn slices_that_do_not_make_the_table_are_refused() {
     study.uplift(&other).fails(4, &["slice-1-of-3.h5: is a slice of another study"]);
     study.uplift(&["run", "study.toml", "-o", "whole.h5", "-q"]).ok();
     merge(&["whole.h5", &two]).fails(4, &["whole.h5: is no slice of a table"]);
+    for ask in ["table", "spectrum"] {
+        study.uplift(&[ask, "whole.h5"]).fails(4, &["not in the result, but in whole.sites.h5 and whole.sites.csv"]);
+    }
     // a table that was edited is not joined
     let table = "results/study.slice-2-of-3.sites.csv";
     study.write(table, &read(study.path(), table).replacen("PGV", "PGA", 1));
@@ -444,10 +449,19 @@ fn slices_that_do_not_make_the_table_are_refused() {
     study.uplift(&["run", "study.toml", "--sites", "2/3", "-q", "--again"]).ok();
     merge(&[&one, &two, &three]).ok();
     std::fs::remove_file(study.path().join("results/study.slice-3-of-3.sites.h5")).unwrap();
-    study.uplift(&["merge", "study.toml", &one, &two, &three, "-o", "j.h5"]).fails(4, &["slice-3-of-3.sites.h5"]);
+    let gone = study.uplift(&["merge", "study.toml", &one, &two, &three, "-o", "j.h5"]);
+    let gone = gone.fails(4, &["slice-3-of-3.sites.h5: cannot open the file"]).stderr;
+    assert_eq!(gone.matches("slice-3-of-3.sites.h5").count(), 1, "{gone}");
     study.uplift(&["run", "study.toml", "--sites", "8/8"]).fails(4, &["has 7 sites: at most 7 slices"]);
     study.uplift(&["status", "whole.sites.h5"]).fails(4, &["the sites of a result as arrays"]);
-    SmallStudy::new().uplift(&["run", "study.toml", "--sites", "1/4"]).fails(3, &["there is no table of sites"]);
+    let plain = SmallStudy::new();
+    plain.uplift(&["run", "study.toml", "--sites", "1/4"]).fails(3, &["there is no table of sites"]);
+    plain.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    plain
+        .uplift(&["merge", "study.toml", "r.h5", "-o", "m.h5"])
+        .fails(4, &["r.h5: is a result", "has no [site_table]"]);
+    plain.uplift(&["export", "r.h5", "--csv", "--json", "-o", "e.csv"]).fails(2, &["-o takes one format, and 2 are"]);
+    plain.uplift(&["bootstrap", "r.urs.csv"]).fails(3, &["it is a table, not a study", "its result is r.h5"]);
     study.uplift(&["run", "study.toml", "--sites", "0/8"]).fails(2, &["write 3/1000"]);
 }
 
@@ -489,6 +503,11 @@ fn mistakes_in_the_files() {
         4,
         &["row 2", "with a decimal point", "row 3", "\"x\"", "row 4", "are they swapped?", "row 5", "latitude is \"\""],
     );
+    check("lon,lat,name\n10,45,A\n12,45,B\n10,45,a\n12,45.2,\n12,45.2,\n").fails(
+        4,
+        &["table.csv, row 3 below the header: site a is in row 1 too: remove one of them, or give each a name"],
+    );
+    check("lon,lat\n10,45\n10,45\n").ok();
     check(&format!("lon,lat\n{}", "x,y\n".repeat(30))).fails(4, &["22 more rows like these"]);
     // none of the sites: said once for each export, before anything is computed
     check("lon,lat,name\n0,0,A\n1,1,B\n")

@@ -289,7 +289,7 @@ fn mistakes_are_reported_at_once() {
     );
     let words = [
         "3 mistakes",
-        "uncertainty.samples: samples is of the other kind",
+        "uncertainty.samples: samples belongs to kind = \"epistemic\"",
         "a study has many strengths, and each scatters about its own value",
         "the oscillator has no capacity: its force does not fall after uplift",
     ];

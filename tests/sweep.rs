@@ -101,7 +101,11 @@ fn a_table_of_cases_names_its_results() {
     study.uplift(&bad).fails(4, &["a/b", "row 3: name \"x\" is given twice"]);
     // each mistake by its row and column, in our words
     for (table, code, words) in [
-        ("name,records.first\nx,3\nX,4\n", 4, &["row 2: name \"X\" is given twice, capitals apart"][..]),
+        (
+            "name,records.first\nx,3\nX,4\n",
+            4,
+            &["row 2: name \"X\" is given twice (upper and lower case are the same)"][..],
+        ),
         ("name,records.first\nx,2\ny,3,4\n", 4, &["line 3: it has 3 cells, and the header has 2 columns"]),
         ("name\n\"a\n", 4, &["line 2: a quote (\") is opened and not closed"]),
         ("", 4, &["it is empty"]),

@@ -60,7 +60,7 @@ const MOST_DRAWN: u64 = 1_000_000_000;
 /// ValueError
 ///     As `urs`; for a size of 0, above 100 000 or given twice, no replicates, more than 1e9 records drawn.
 /// TypeError
-///     For what is no hazard curve.
+///     If `hazard` is not a hazard curve.
 ///
 /// Notes
 /// -----

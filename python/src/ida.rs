@@ -5,6 +5,7 @@ use std::sync::Arc;
 use numpy::PyArrayDyn;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use rayon::prelude::*;
 use uplift_ida::{Plan, StripeRecord, System, analyse};
 use uplift_motion::{Accelerogram, Combination, IntensityMeasure, RecordPair};
@@ -58,7 +59,7 @@ use crate::record::Record;
 ///     For an empty axis, levels that do not ascend, a measure that records cannot be scaled to, numbers that no
 ///     oscillator has, a record that cannot be scaled.
 /// TypeError
-///     For what is no record or no number.
+///     If `records` holds something else than records and pairs of them; if a number is none.
 ///
 /// Examples
 /// --------
@@ -158,6 +159,11 @@ fn motions(records: &Bound<'_, PyAny>) -> PyResult<Vec<Motion>> {
     };
     if records.cast::<Record>().is_ok() {
         return Err(PyTypeError::new_err("records is one record: give a list, [record]"));
+    }
+    if records.is_instance_of::<PyTuple>() && records.extract::<(Bound<'_, Record>, Bound<'_, Record>)>().is_ok() {
+        return Err(PyTypeError::new_err(
+            "records is one pair of records: give a list, [(h1, h2)]; of two records that are no pair, [h1, h2]",
+        ));
     }
     let motion = |item: PyResult<Bound<'_, PyAny>>| {
         let item = item?;

@@ -113,7 +113,7 @@ impl Record {
     /// ValueError
     ///     For a stream of several traces or none, a trace with gaps, and as `from_array`.
     /// AttributeError
-    ///     For what is neither.
+    ///     If `trace` is neither a trace nor a stream.
     #[classmethod]
     #[pyo3(signature = (trace, *, unit, gravity_m_s2 = 9.806_65))]
     fn from_obspy(

@@ -40,7 +40,7 @@ use crate::response::{History, Response, Responses};
 /// post_uplift_stiffness_per_s2 : float or array_like, optional
 ///     Stiffness after uplift divided by the mass, 1/s²; not beside `capacity_m`.
 /// scale : float or array_like, default 1
-///     Factor on the record.
+///     Factor on the record; a negative one reverses its sign.
 /// free_vibration : bool, default True
 ///     Whether the first peak after the end of the record counts, as in studies.
 /// free_vibration_s : float, optional
@@ -63,7 +63,7 @@ use crate::response::{History, Response, Responses};
 ///     For numbers that no oscillator has, all of one oscillator at once; for shapes that do not broadcast; for runs of
 ///     more than ten million steps.
 /// TypeError
-///     For what is no number.
+///     If an argument is not a number.
 /// MemoryError
 ///     For more runs than fit the memory.
 ///

@@ -88,7 +88,7 @@ pub(crate) fn fragility<'py>(
 /// ValueError
 ///     As `fragility`; for levels outside a hazard curve.
 /// TypeError
-///     For what is no hazard curve.
+///     If `hazard` is not a hazard curve.
 ///
 /// Notes
 /// -----
@@ -178,7 +178,7 @@ pub(crate) fn risk_curve<'py>(
 /// ValueError
 ///     As `risk_curve`; for a probability outside 0 to 1, or a time that is not above 0.
 /// TypeError
-///     For what is no hazard curve.
+///     If `hazard` is not a hazard curve.
 ///
 /// Examples
 /// --------

@@ -211,3 +211,5 @@ def test_analyses(records):
     for wrong in (records[0], [1], [None], None, [(records[0],)], [[records[0]] * 3]):
         with pytest.raises(TypeError):
             uplift.ida(wrong, [0.1], [5])
+    with pytest.raises(TypeError, match=r"one pair of records: give a list, \[\(h1, h2\)\]"):
+        uplift.ida((records[0], records[1]), [0.1], [5])

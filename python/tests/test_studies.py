@@ -161,6 +161,8 @@ def test_the_peaks_are_read_without_a_copy(folder):
 def test_what_changes_under_a_dataset_is_told(folder):
     uplift.run(folder / "study.toml", output=folder / "again.h5")
     spectra = uplift.open_result(folder / "again.h5").urs
+    with pytest.raises(uplift.StudyError, match=r"another name \(output=\), or force=True"):
+        uplift.run(folder / "study.toml", output=folder / "again.h5", oscillator={"restitution": 0.5})
     uplift.run(folder / "study.toml", output=folder / "again.h5", force=True, oscillator={"restitution": 0.5})
     with pytest.raises(OSError, match="open the result again"):
         spectra.u_m.values.sum()

@@ -258,6 +258,8 @@ def _error(code: int, told: _Told) -> Exception:
         ended = f"signal {-code}" if code < 0 else f"exit code {code}"
         return RuntimeError(f"the program uplift ended with {ended}: {words or 'without a word'}")
     message = failure["message"]
+    for option, name in [("(-o)", "(output=)"), ("with -o", "with output="), ("--force", "force=True")]:
+        message = message.replace(option, name)
     if failure["kind"] == "interrupted":
         return Cancelled(message)
     if failure["kind"] == "file":

@@ -39,7 +39,12 @@ impl AtomicFile {
         }
         let folder = folder_of(&target);
         fs::create_dir_all(folder).map_err(io_error(folder, "create the folder"))?;
-        let (partial, lock) = take_partial(&target).map_err(io_error(folder, "create a file in the folder"))?;
+        let (partial, lock) = take_partial(&target).map_err(|error| {
+            // the folder is there, so that no missing one is meant: /proc says so
+            let is_missing = error.kind() == io::ErrorKind::NotFound && folder.is_dir();
+            let error = if is_missing { io::Error::other("it takes no files") } else { error };
+            io_error(folder, "create a file in the folder")(error)
+        })?;
         let mut file = Self { replaced: false, permissions: None, target, partial, lock };
         file.permissions = fs::metadata(&file.target).ok().map(|metadata| metadata.permissions());
         if let Some(permissions) = &file.permissions {

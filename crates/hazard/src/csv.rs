@@ -49,7 +49,8 @@ impl Declared {
         let unit = unit.map(str::to_owned).or(said_unit).or_else(of_field);
         let unit = unit.ok_or_else(|| {
             fail(format!(
-                "unknown intensity measure {}: give the unit of its levels (--unit; in Python unit=)",
+                "unknown intensity measure {}: use PGV, PGA, SA(1.0) of any period, AvgSA, PGD, CAV, IA or SI, or give \
+                 the unit of its levels (--unit; in Python unit=)",
                 excerpt(&measure)
             ))
         })?;
@@ -342,11 +343,12 @@ fn two_fields<'a>(line: &'a str, place: &Place) -> Result<Option<[&'a str; 2]>, 
             } else {
                 "; keep one column of intensity levels and one of annual rates or probabilities"
             };
-            let count = if fields.len() > 8 { "more than 8".to_owned() } else { fields.len().to_string() };
-            Err(HazardError::Row {
-                place: place.clone(),
-                reason: format!("{count} columns where 2 are expected{hint}"),
-            })
+            let count = match fields.len() {
+                1 => "1 column".to_owned(),
+                count @ 2..=8 => format!("{count} columns"),
+                _ => "more than 8 columns".to_owned(),
+            };
+            Err(HazardError::Row { place: place.clone(), reason: format!("{count} where 2 are expected{hint}") })
         }
     }
 }

@@ -100,8 +100,9 @@ pub enum HazardError {
     },
     /// Rates that do not decrease.
     #[error(
-        "{place}: annual rate {value} 1/yr is not below {previous} 1/yr at {previous_place}; a hazard curve must fall \
-         strictly{}", if *value == 1.0 && *previous == 1.0 { OF_ONES } else { OF_RATES }
+        "{place}: annual rate {value} 1/yr {} at {previous_place}; rates must fall{}",
+        if value == previous { "equals that".to_owned() } else { format!("is not below {previous} 1/yr") },
+        if *value == 1.0 && *previous == 1.0 { OF_ONES } else { OF_RATES }
     )]
     RatesNotDecreasing {
         /// Where the offending rate stands.

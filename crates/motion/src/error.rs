@@ -224,8 +224,8 @@ pub enum MotionError {
     },
     /// Neither the file nor the caller says the time step.
     #[error(
-        "{name}: one column of accelerations and no time step; give the time step in seconds, or a file with two \
-         columns (time, acceleration)"
+        "{name}: one column of accelerations and no time step; give the time step in seconds (--dt-s; dt_s in \
+         a manifest and in Python), or a file with two columns (time, acceleration)"
     )]
     MissingTimeStep {
         /// The file.

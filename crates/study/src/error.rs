@@ -88,7 +88,7 @@ pub enum Unreadable {
         /// What was to be read.
         wanted: &'static str,
         /// What takes such a file.
-        advice: &'static str,
+        advice: String,
     },
     /// It is text of two bytes a letter.
     #[error("it is UTF-16 text, which PowerShell and Notepad call Unicode: save it as UTF-8")]

@@ -17,6 +17,7 @@ mod open;
 mod row_file;
 
 pub use error::CheckpointError;
+pub(crate) use error::in_brackets;
 pub use key::{RowKey, RowKeys, oscillator_key};
 pub use open::{Checkpoint, path_beside};
 pub use row_file::{Finding, FinishedRows, RowFile, RowFileHead, checkpoint_path};

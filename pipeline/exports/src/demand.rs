@@ -135,7 +135,7 @@ pub fn export_demand(options: &DemandOptions, events: &dyn Events) -> Result<Dem
     let intensity = pelicun(measure).ok_or_else(|| {
         JobError::Usage(format!("--demand: pelicun has no {}: choose another with --measure", measure.long_name()))
     })?;
-    let site = &stored.sites[site_index("--demand", &stored.sites, &options.site)?];
+    let site = &stored.sites[site_index("--demand SITE", &stored.sites, &options.site)?];
     let poe = stored.poe_index(None)?;
     let study = file.stored_study()?;
     let rate_per_year = stored.targets_per_year[poe];

@@ -100,10 +100,11 @@ pub struct ExportReport {
 /// No format, or several for one file; a file that is no result, is damaged or has no spectra; a file that would
 /// overwrite the result or what is not this program's, or cannot be written.
 pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportReport, ExportsError> {
-    if options.formats.is_empty() || (options.output.is_some() && options.formats.len() > 1) {
-        return Err(
-            JobError::Usage("give a format: --csv, --json, --mat, --xlsx or --web (with -o one)".to_owned()).into()
-        );
+    if options.formats.is_empty() {
+        return Err(JobError::Usage("give a format: --csv, --json, --mat, --xlsx or --web".to_owned()).into());
+    }
+    if let (Some(_), several @ 2..) = (&options.output, options.formats.len()) {
+        return Err(JobError::Usage(format!("-o takes one format, and {several} are given")).into());
     }
     let result = ResultFile::open(&options.result)?;
     let kind = result.kind();

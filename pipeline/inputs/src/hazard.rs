@@ -316,10 +316,13 @@ impl SiteReader<'_> {
                 .map_or_else(
                     || ". In".to_owned(),
                     |unlikely| {
-                        let unit = curve_line(self.measure, !self.file.branches.is_empty(), "unit = …");
+                        let units: Vec<String> =
+                            self.file.other_units().map(|unit| format!("\"{}\"", unit.symbol())).collect();
+                        let unit = format!("unit = {}", units.join(" or "));
+                        let line = curve_line(self.measure, !self.file.branches.is_empty(), &unit);
                         format!(
-                            ": {unlikely}. If so, write {unit} (and in the head of the file, if it says another). If \
-                             not, in"
+                            ": {unlikely}. If so, write {line} (and in the head of the file, if it says another), or \
+                             convert numbers in any other unit. If not, in"
                         )
                     },
                 );

@@ -115,7 +115,7 @@ pub(super) fn with_remedy(error: &HazardError, study: &UniformRiskStudy, site: &
         _ => return error.to_string(),
     };
     format!(
-        "{place}: the file says {what} {found}, and the study takes it for {declared}: where the file is right, \
+        "{place}: the file declares its {what} as {found}, but the study declares {declared}: if the file is right, \
          {remedy}; else correct the file"
     )
 }
@@ -216,15 +216,15 @@ pub fn unit_that_explains(study: &UniformRiskStudy, site: &str, too_high: f64) -
             }
         }
     }
-    // probabilities that are taken for those of other years do the same
-    let years: Vec<String> = [pgv, pga]
-        .into_iter()
-        .filter_map(|file| match file.kind {
-            CurveKind::Poe { years } => Some(format!("; or is {} not of {years} years?", file.measure.label())),
-            CurveKind::Maf => None,
-        })
-        .collect();
-    let years = years.concat();
+    // probabilities and rates that are taken for those of other years do the same
+    let of_probabilities = |file: &CurveFile| match file.kind {
+        CurveKind::Poe { years } => Some(format!("; or is {} not of {years} years?", file.measure.label())),
+        CurveKind::Maf => None,
+    };
+    let mut years: String = [pgv, pga].into_iter().filter_map(of_probabilities).collect();
+    if years.is_empty() {
+        years += "; or are the rates of one curve those of another number of years?";
+    }
     match &explanations[..] {
         [] => None,
         [(what, remedy)] => Some(format!("are the numbers {what}, which would explain it? Then {remedy}{years}")),

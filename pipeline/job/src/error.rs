@@ -99,10 +99,14 @@ fn choice(option: &str, wanted: Option<&str>, known: &[String]) -> String {
     let names: Vec<&str> = known.iter().map(String::as_str).collect();
     // a number is no mistyped number
     let is_word = wanted.parse::<f64>().is_err();
-    let Some(meant) = did_you_mean(wanted, &names).filter(|_| is_word) else {
-        return format!("{option} {wanted}; the result has {all}");
+    let what = match option {
+        "--poe" => "probability".to_owned(),
+        _ if option.contains("SITE") => "site".to_owned(),
+        _ => option.trim_start_matches('-').replace('-', " "),
     };
-    format!("{option} {wanted}: {} The result has {all}", meant.replace('`', ""))
+    let meant = did_you_mean(wanted, &names).filter(|_| is_word && known.len() > 1);
+    let meant = meant.map_or_else(String::new, |meant| format!("; {}", meant.replace('`', "")));
+    format!("the result has no {what} {wanted}: it has {all}{meant}")
 }
 
 /// Several mistakes as one message; `place` says where they are.

@@ -1,11 +1,11 @@
 //! One run at a time for one result.
 
 use std::fs::{File, TryLockError};
-use std::io::{Read, Seek, Write};
+use std::io::{ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use uplift_atomic_file::{final_place, is_still_at};
+use uplift_atomic_file::{final_place, io_error, is_still_at};
 
 use crate::error::JobError;
 use crate::outputs::provide_folder;
@@ -25,8 +25,18 @@ impl ResultLock {
     /// Where another run has it, and where the folder cannot be written.
     pub fn acquire(result: &Path) -> Result<Self, JobError> {
         let path = lock_path(result);
-        provide_folder(path.parent().unwrap_or(Path::new("")))?;
-        let fail = |error: std::io::Error| JobError::input(format!("{}: {error}", path.display()));
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        provide_folder(folder)?;
+        let fail = |error: std::io::Error| match error.kind() {
+            ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem if result.is_file() => {
+                JobError::input(format!(
+                    "{}: cannot add the answer to the result, since its folder is read-only: copy the result to a \
+                     folder that you can write to",
+                    result.display()
+                ))
+            }
+            _ => io_error(folder, "create a file in the folder")(error).into(),
+        };
         let mut tries = 0;
         loop {
             let mut file =
@@ -49,7 +59,7 @@ impl ResultLock {
                     )));
                 }
                 // some file systems have no locks: better to run without than not at all
-                Err(TryLockError::Error(error)) if error.kind() == std::io::ErrorKind::Unsupported => {}
+                Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
                 Err(TryLockError::Error(error)) => return Err(fail(error)),
             }
             // whoever had it before may have taken the file away between our opening and our locking

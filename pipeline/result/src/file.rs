@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_job::outputs::SITES_KIND;
+use uplift_job::outputs::{SITES_KIND, beside};
 use uplift_job::{Array, JobError};
 use uplift_labelled::{LabelledArray, LabelledReader};
 use uplift_study::Kind;
@@ -169,13 +169,20 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn axes_with_sites(&self) -> Result<RiskAxes, ResultError> {
         let axes = self.axes()?;
-        if axes.sites.is_empty() {
-            return Err(self.fail(
-                "the study has no sites, so the result has no spectra (those of a site table are in the CSV beside \
-                 it): add [[sites]] and run it again",
+        if axes.sites.is_empty() { Err(self.without_spectra()) } else { Ok(axes) }
+    }
+
+    /// Why a result of uniform risk without sites has no spectra, and where those of a table of sites are.
+    pub fn without_spectra(&self) -> ResultError {
+        if self.stored_study().is_ok_and(|study| study.site_table.is_some()) {
+            let [arrays, table] = ["sites.h5", "sites.csv"].map(|ending| beside(&self.path, ending));
+            let (name, arrays, table) = (self.path.display(), arrays.display(), table.display());
+            return self.fail(format!(
+                "the spectra of a table of sites are not in the result, but in {arrays} and {table}: open these, or \
+                 draw the map, `uplift plot {name} --only map`"
             ));
         }
-        Ok(axes)
+        self.fail("the study has no sites, so the result has no spectra: add [[sites]] and run it again")
     }
 
     /// Refuses a result of another kind than `wanted`.

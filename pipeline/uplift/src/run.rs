@@ -4,16 +4,19 @@
 //! the same files in it: `plan` (what it costs), `run` (from the inputs to the result file), `report` (what a run
 //! tells).
 
+use std::io::ErrorKind;
 use std::path::Path;
 use std::time::Instant;
 
 use serde::Serialize;
-use uplift_engine::checkpoint::FinishedRows;
+use uplift_atomic_file::FileError;
+use uplift_engine::checkpoint::{FinishedRows, checkpoint_path};
 use uplift_inputs::manifest;
 use uplift_job::events::Events;
 use uplift_job::outputs::Output;
 use uplift_job::study_run::Place;
-use uplift_job::{JobError, outputs};
+use uplift_job::{JobError, cause, outputs};
+use uplift_labelled::LabelledError;
 use uplift_study::AnyStudy;
 
 use crate::error::UpliftError;
@@ -123,14 +126,31 @@ pub fn run_with(
         events.note(&format!("{doubt}{warning}"));
     }
     let place = Place { path, options, start };
-    match study {
-        AnyStudy::UniformRisk(study) => {
-            Ok(uniform_risk::run(study, &place, known, events)
-                .map(|report| RunReport::UniformRisk(Box::new(report)))?)
-        }
+    let report: Result<RunReport, UpliftError> = match study {
+        AnyStudy::UniformRisk(study) => uniform_risk::run(study, &place, known, events)
+            .map(|report| RunReport::UniformRisk(Box::new(report)))
+            .map_err(UpliftError::from),
         AnyStudy::Displacement(study) => {
-            Ok(displacement::run(study, &place, known, events).map(RunReport::Displacement)?)
+            displacement::run(study, &place, known, events).map(RunReport::Displacement).map_err(UpliftError::from)
         }
-        AnyStudy::ShakeTable(study) => Ok(shake_table::run(study, &place, events).map(RunReport::ShakeTable)?),
+        AnyStudy::ShakeTable(study) => {
+            shake_table::run(study, &place, events).map(RunReport::ShakeTable).map_err(UpliftError::from)
+        }
+    };
+    let checkpoint = checkpoint_path(path);
+    if report.as_ref().is_err_and(is_of_disk) && checkpoint.is_file() {
+        let name = checkpoint.display();
+        events
+            .note(&format!("the finished analyses are in {name}: free some space, and run the same command to resume"));
     }
+    report
+}
+
+/// What the operating system says where there is no room.
+const FULL: [ErrorKind; 3] = [ErrorKind::StorageFull, ErrorKind::FileTooLarge, ErrorKind::QuotaExceeded];
+
+/// Whether a result could not be written, as on a full disk.
+fn is_of_disk(error: &UpliftError) -> bool {
+    matches!(cause(error), Some(LabelledError::Hdf5 { .. }))
+        || matches!(cause(error), Some(FileError::Io { source, .. }) if FULL.contains(&source.kind()))
 }

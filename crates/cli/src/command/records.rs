@@ -6,6 +6,8 @@ use clap::{Args, Subcommand};
 use uplift::import::{ImportOptions, import as import_folder};
 use uplift::records::{self, AtLevelOptions, SelectOptions, SetOptions, ShowOptions, at_level as write_at_level};
 
+use uplift::text::counted;
+
 use crate::error::CommandError;
 use crate::show::{print_at_level, print_import, print_record, print_records, print_selection, tell_remarks};
 use crate::terminal::Terminal;
@@ -57,10 +59,10 @@ fn import(options: &ImportOptions, terminal: &Terminal) -> Result<(), CommandErr
     if report.manifest.is_none() {
         tell_remarks(&report, terminal);
         return Err(CommandError::input(format!(
-            "no pair of horizontal components in {}: {} files read, {} components found",
+            "no pair of horizontal components in {}: {} in {}",
             options.folder.display(),
-            report.files,
-            report.components
+            counted(report.components, "component"),
+            counted(report.files, "file")
         )));
     }
     print_import(&report, terminal)?;

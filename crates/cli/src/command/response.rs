@@ -37,7 +37,7 @@ pub(super) struct ResponseArguments {
         value_parser = number,
     )]
     strength: Option<f64>,
-    /// Scale factor of the record
+    /// Scale factor of the record; negative reverses its sign
     #[arg(long, default_value_t = 1.0, allow_negative_numbers = true, value_parser = number)]
     scale: f64,
     /// Displacement at uplift, m

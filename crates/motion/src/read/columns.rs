@@ -241,8 +241,8 @@ mod tests {
         assert_eq!(motion.acceleration_m_s2(), [1.0, -2.0, 3.0]);
         assert_eq!(
             message("1\n2\n", None),
-            "a.txt: one column of accelerations and no time step; give the time step in seconds, or a file with two \
-             columns (time, acceleration)"
+            "a.txt: one column of accelerations and no time step; give the time step in seconds (--dt-s; dt_s in \
+             a manifest and in Python), or a file with two columns (time, acceleration)"
         );
     }
 

@@ -1,6 +1,6 @@
 //! Files of another kind than the one that is read, told by what they hold.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use uplift_structure::Kind as StructureKind;
 
@@ -34,8 +34,8 @@ impl Wanted {
         }
     }
 
-    fn refuse(self, found: &'static str, advice: &'static str) -> Unreadable {
-        Unreadable::Other { found, wanted: self.words(), advice }
+    fn refuse(self, found: &'static str, advice: &str) -> Unreadable {
+        Unreadable::Other { found, wanted: self.words(), advice: advice.to_owned() }
     }
 
     /// Why the file at `path` with these first `bytes` cannot be what is wanted; none where it may be.
@@ -57,7 +57,9 @@ impl Wanted {
                           folder of records, and a study names that: [records] manifest = \"…\"";
             Some(self.refuse("a record", advice))
         } else if ends("csv") {
-            Some(self.refuse("a table", "a study names the tables that it reads: manifest, hazard curves, sites"))
+            let advice = "a study names the tables that it reads: manifest, hazard curves, sites";
+            let of_result = result_of(path).map(|result| format!("{advice}; its result is {}", result.display()));
+            Some(self.refuse("a table", of_result.as_deref().unwrap_or(advice)))
         } else {
             None
         }
@@ -85,7 +87,7 @@ impl Wanted {
         (found != self).then(|| Unreadable::Other {
             found: found.words(),
             wanted: self.words(),
-            advice: found.commands(),
+            advice: found.commands().to_owned(),
         })
     }
 
@@ -97,6 +99,13 @@ impl Wanted {
             Self::Library => "`uplift library` takes it",
         }
     }
+}
+
+/// The result beside the table at `path` that is named after it: `site.h5` of `site.urs.csv`.
+fn result_of(path: &Path) -> Option<PathBuf> {
+    let shorter = |path: &PathBuf| path.extension().map(|_| path.with_extension(""));
+    let names = std::iter::successors(Some(path.to_owned()), shorter);
+    names.map(|name| name.with_extension("h5")).filter(|result| result.is_file()).last()
 }
 
 /// Whether the first lines have the number of points of an AT2 file, and not in a comment of TOML.

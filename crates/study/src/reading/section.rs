@@ -78,9 +78,10 @@ impl<'a> Section<'a> {
 
     /// Records a mistake about `key`, one that this section should have or should not.
     pub(crate) fn mistake(&self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+        let given = self.table.and_then(|table| table.get(key)).map(|entry| &entry.node.origin);
         self.findings.add(Finding {
             key: self.join(key),
-            origin: self.origin.clone(),
+            origin: given.unwrap_or(&self.origin).clone(),
             message: message.into(),
             help: Some(help.into()),
         });
@@ -126,6 +127,10 @@ impl<'a> Section<'a> {
 /// What an unknown key was meant to be; `measures` tells whether keys here are the names of measures, `is_top` whether
 /// it stands before all sections.
 fn did_you_mean_key(key: &str, known: &[&str], measures: bool, is_top: bool) -> Option<String> {
+    let in_another_case = || {
+        let meant = known.iter().find(|known| known.eq_ignore_ascii_case(key))?;
+        Some(format!("write `{meant}`: upper and lower case differ"))
+    };
     let measure = || measures.then(|| measure_by_its_key(key, is_top)).flatten();
-    other_unit(key, known).or_else(measure).or_else(|| did_you_mean(key, known))
+    in_another_case().or_else(|| other_unit(key, known)).or_else(measure).or_else(|| did_you_mean(key, known))
 }

@@ -86,12 +86,11 @@ pub(crate) fn measure_by_its_key(key: &str, is_top: bool) -> Option<String> {
 
 /// What to do where `key` is one of `known` but for its unit.
 pub(crate) fn other_unit(key: &str, known: &[&str]) -> Option<String> {
-    let stem = stem_and_unit(key).0;
+    let (stem, own) = stem_and_unit(key);
     known.iter().find(|&&candidate| stem_and_unit(candidate).0 == stem).map(|&candidate| {
         match stem_and_unit(candidate).1 {
-            Some(unit) => {
-                format!("unit: it is given in {unit}, as `{candidate}`; convert the value")
-            }
+            Some(unit) if own.is_none() => format!("write `{candidate}`, in {unit}"),
+            Some(unit) => format!("unit: it is given in {unit}, as `{candidate}`; convert the value"),
             None => format!("unit: it has none, write `{candidate}`"),
         }
     })

@@ -31,7 +31,7 @@ pub(crate) fn read(section: &mut Section<'_>, what: &str, example: &str, names: 
     if names.contains(&folded) {
         field.mistake(
             format!("there is another {what} {name}"),
-            format!("give each {what} a name of its own; capitals make no difference"),
+            format!("give each {what} a name of its own (upper and lower case are the same)"),
         );
         return None;
     }

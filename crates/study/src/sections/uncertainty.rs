@@ -158,20 +158,23 @@ pub(crate) fn read(
     let samples = section.read(&SAMPLES);
     let draws = section.read(&DRAWS);
     let seed = section.read(&SEED);
-    let (foreign, own) = match kind {
-        Some(UncertaintyKind::Aleatory) => (SAMPLES.name, "draws, the structures of each record"),
-        _ => (DRAWS.name, "samples, the rows of each sample"),
+    let (foreign, other, own) = match kind {
+        Some(UncertaintyKind::Aleatory) => {
+            (SAMPLES.name, UncertaintyKind::Epistemic, "draws, the structures of each record")
+        }
+        _ => (DRAWS.name, UncertaintyKind::Aleatory, "samples, the rows of each sample"),
     };
     if kind.is_some()
         && let Some(field) = section.field(foreign)
     {
-        field.mistake(format!("{foreign} is of the other kind"), format!("leave it out, or give {own}"));
+        let message = format!("{foreign} belongs to kind = \"{}\"", other.key());
+        field.mistake(message, format!("leave it out, or give {own}"));
     }
     if let (Some(Sampling::Sobol), Some(samples)) = (sampling, samples)
         && kind != Some(UncertaintyKind::Aleatory)
         && !samples.is_power_of_two()
     {
-        let message = format!("{samples} samples by Sobol' points, which are even for powers of two alone");
+        let message = format!("Sobol' points are even only for powers of two, and {samples} is none");
         let (below, above) = (samples.next_power_of_two() / 2, samples.next_power_of_two());
         section.mistake("samples", message, format!("write {below} or {above}, or sampling = \"latin-hypercube\""));
     }
@@ -396,7 +399,14 @@ fn read_quantity(
             let doubtful = &doubts[asked_before..];
             let refused = format!("{} cannot be distributed so: {error}", quantity.name());
             let message = doubtful.iter().fold(refused, |told, doubt| format!("{told}; {}{}", doubt.key, doubt.what));
-            section.mistake("", message, quantity.range().hint);
+            let (key, help) = match error {
+                UncertaintyError::Limits { lower, upper, .. } if lower < upper => {
+                    (MODE.name, "without a mode it is the middle of the limits")
+                }
+                UncertaintyError::Limits { .. } => ("", "give the lower limit as lower, and the upper one as upper"),
+                _ => ("", quantity.range().hint),
+            };
+            section.mistake(key, message, help);
             None
         }
     };

@@ -160,7 +160,7 @@ impl RestrainerFile {
                     crate::Unreadable::Other {
                         found: "a structure without a restrainer",
                         wanted: "a restrainer",
-                        advice: "its kind is \"none\": write \"linear\", \"tendon\" or \"disc-springs\"",
+                        advice: "its kind is \"none\": write \"linear\", \"tendon\" or \"disc-springs\"".to_owned(),
                     },
                 ));
             }

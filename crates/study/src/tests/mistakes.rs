@@ -75,6 +75,7 @@ something = 1
 capacity_mm = 300
 [[site]]
 name = \"Athens\"
+[Records]
 ",
     );
     let error = folder.load(&[]).unwrap_err();

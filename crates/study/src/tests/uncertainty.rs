@@ -5,7 +5,7 @@ use std::path::Path;
 use uplift_structure::UncertainQuantity;
 use uplift_uncertainty::{Family, Sampling};
 
-use crate::{AnyStudy, Structure, Study, StudyError, UncertaintyKind};
+use crate::{AnyStudy, Place, Structure, Study, StudyError, UncertaintyKind};
 
 const BLOCK: &str = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 7.0\nmass_kg = 9000\n";
 
@@ -44,12 +44,12 @@ fn the_example() {
 
 #[test]
 fn a_key_of_the_other_kind_is_refused() {
-    for (kind, key) in [("epistemic", "draws"), ("aleatory", "samples")] {
+    for (kind, key, other) in [("epistemic", "draws", "aleatory"), ("aleatory", "samples", "epistemic")] {
         let found = mistakes(&format!(
             "[uncertainty]\nkind = \"{kind}\"\n{key} = 9\n[uncertainty.strength]\ndistribution = \"normal\"\n\
              coefficient_of_variation = 0.1\n"
         ));
-        assert_eq!(found, [format!("uncertainty.{key}: {key} is of the other kind")]);
+        assert_eq!(found, [format!("uncertainty.{key}: {key} belongs to kind = \"{other}\"")]);
     }
 }
 
@@ -71,7 +71,7 @@ fn every_mistake_is_reported() {
     for what in [
         "mass_t: unknown key `mass_t`",
         "uncertainty.kind: unknown kind: the text \"random\"",
-        "uncertainty.samples: 60 samples by Sobol' points, which are even for powers of two alone",
+        "uncertainty.samples: Sobol' points are even only for powers of two, and 60 is none",
         "uncertainty.strength.distribution: how is it distributed?",
         "uncertainty.restitution.mean: its mean is missing",
         "uncertainty.capacity_m: one of its limits is missing",
@@ -82,6 +82,20 @@ fn every_mistake_is_reported() {
         assert!(found.iter().any(|told| told.starts_with(what)), "{what}: {found:#?}");
     }
     assert_eq!(found.len(), 9, "{found:#?}");
+}
+
+#[test]
+fn mistakes_stand_where_their_keys_do() {
+    let text = format!(
+        "{BLOCK}[uncertainty]\nsamples = 20\n[uncertainty.restitution]\ndistribution = \"triangular\"\nlower = 0.9\n\
+         upper = 0.97\nmode = 0.5\n"
+    );
+    let error = load(&text).unwrap_err();
+    for (line, key) in [(6, "samples"), (11, "restitution.mode")] {
+        let found = error.mistakes().iter().find(|found| found.key == format!("uncertainty.{key}")).unwrap();
+        assert!(matches!(found.place, Place::File { line: at, .. } if at == line), "{found:?}");
+        assert!(found.help.as_ref().is_some_and(|help| !help.contains("velocity after an impact")), "{found:?}");
+    }
 }
 
 #[test]

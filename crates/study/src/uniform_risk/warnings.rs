@@ -26,8 +26,8 @@ pub(super) fn of(study: &UniformRiskStudy) -> Vec<Warning> {
     if fitted < 4 {
         warnings.push(Warning::new(
             format!(
-                "regression.strength_above = {above} leaves {fitted} of the strengths for a fit of 3 coefficients: \
-                 there will be none"
+                "regression.strength_above = {above} leaves {}, too few to fit 3 coefficients: no fit will be made",
+                if fitted == 1 { "1 strength".to_owned() } else { format!("{fitted} strengths") }
             ),
             "lower it, or give more strengths.values",
         ));

@@ -12,7 +12,7 @@ use uplift_job::outputs::beside;
 use uplift_job::text::counted;
 
 use super::Work;
-use crate::checkpoint::{Checkpoint, FinishedRows, RowFile, RowFileHead};
+use crate::checkpoint::{Checkpoint, FinishedRows, RowFile, RowFileHead, in_brackets};
 use crate::error::EngineError;
 
 /// Most shards that a work is cut into.
@@ -110,9 +110,9 @@ pub fn join(paths: &[PathBuf], work: &Work<'_>) -> Result<FinishedRows, EngineEr
         }
         if finding.head.work != head.work {
             mistakes.push(format!(
-                "{name}: is a shard of other work ({:?}): another study, other records, or another version of the \
+                "{name}: is a shard of other work{}: of another study, of other records, or of another version of the \
                  program",
-                finding.head.title
+                in_brackets(&finding.head.title)
             ));
             continue;
         }
@@ -126,7 +126,7 @@ pub fn join(paths: &[PathBuf], work: &Work<'_>) -> Result<FinishedRows, EngineEr
             continue;
         }
         if let Some(other) = found.insert(shard, path) {
-            mistakes.push(format!("{name}: is shard {shard} of {shards}, which {} is too", other.display()));
+            mistakes.push(format!("shard {shard} of {shards} is given twice: {} and {name}", other.display()));
         }
         let [has, of_shard] = work.share_of(Shard { index: shard - 1, count: shards }, &finding.rows);
         if has < of_shard {

@@ -6,6 +6,11 @@ use thiserror::Error;
 
 use super::row_file::FORMAT;
 
+/// The title of a study behind its mention; nothing where it has none.
+pub(crate) fn in_brackets(title: &str) -> String {
+    if title.is_empty() { String::new() } else { format!(" ({title:?})") }
+}
+
 /// Why a file of finished analysis rows cannot be used.
 #[derive(Debug, Error)]
 pub enum CheckpointError {
@@ -33,9 +38,9 @@ pub enum CheckpointError {
     },
     /// It is a shard of other work, which must not be lost.
     #[error(
-        "{}: is there already, as shard {shard} of {shards} of other work ({title:?}): remove it, or give another \
-         name (-o)",
-        path.display()
+        "{}: is there already, as shard {shard} of {shards} of other work{}: remove it, or give another name (-o)",
+        path.display(),
+        in_brackets(title)
     )]
     OtherWork {
         /// The file.

@@ -53,7 +53,7 @@ impl Checkpoint {
         match opened {
             Ok(checkpoint) => checkpoint,
             Err(reason) => {
-                events.note(&format!("cannot write the checkpoint, so an interruption loses all progress: {reason}"));
+                events.note(&format!("no checkpoint can be written ({reason}): an interrupted run starts again"));
                 Self::none()
             }
         }

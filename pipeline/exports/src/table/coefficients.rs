@@ -85,6 +85,9 @@ pub(super) fn read(
 ) -> Result<CoefficientTable, ExportsError> {
     let result = file.spectra()?;
     let study = file.stored_study()?;
+    if result.sites.is_empty() {
+        return Err(file.without_spectra().into());
+    }
     let known: Vec<IntensityMeasure> = result.measures.iter().map(|of| of.measure).collect();
     let wanted = options.measure_of_rows(&known);
     let references = options.reference.as_deref().map_or_else(|| Ok(Vec::new()), read_reference)?;
@@ -106,12 +109,11 @@ pub(super) fn read(
         .collect();
     if rows.is_empty() {
         let keys: Vec<&str> = known.iter().map(|measure| measure.key()).collect();
-        let found =
-            if keys.is_empty() { "it has none".to_owned() } else { format!("use --measure {}", keys.join(" or ")) };
         return Err(JobError::input(format!(
-            "{}: has no spectra by {}: {found}",
+            "{}: has no spectra by {}: use --measure {}",
             options.result.display(),
-            wanted.map_or("ALL", IntensityMeasure::label)
+            wanted.map_or("ALL", IntensityMeasure::label),
+            keys.join(" or ")
         ))
         .into());
     }

@@ -1,5 +1,6 @@
 //! The table of sites: where they are, and what they are called.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use polars::prelude::{DataFrame, StringChunked};
@@ -46,8 +47,9 @@ pub(super) fn read(path: &Path) -> Result<Places, Vec<String>> {
     let mut mistakes = Vec::new();
     let mut more = 0;
     let mut sites = Vec::with_capacity(table.height());
+    let mut named = HashMap::new();
     for row in 0..table.height() {
-        match columns.site(row) {
+        match columns.site(row).and_then(|site| columns.once(row, site, &mut named)) {
             Ok(site) => sites.push(site),
             Err(reason) if mistakes.len() < MISTAKES_TOLD => {
                 mistakes.push(format!("site table {name}, row {} below the header: {reason}", row + 1));
@@ -96,6 +98,26 @@ impl<'a> Columns<'a> {
         })
     }
 
+    /// The `site` of this row if it is no other's by name, as in `[[sites]]`; `named` holds the rows of those before.
+    fn once(&self, row: usize, site: ListedSite, named: &mut HashMap<String, usize>) -> Result<ListedSite, String> {
+        if self.name(row).is_none() {
+            return Ok(site);
+        }
+        match named.insert(site.name.to_lowercase(), row) {
+            None => Ok(site),
+            Some(before) => Err(format!(
+                "site {} is in row {} too: remove one of them, or give each a name of its own",
+                site.name.escape_debug(),
+                before + 1
+            )),
+        }
+    }
+
+    /// The name that the row gives.
+    fn name(&self, row: usize) -> Option<&str> {
+        self.name.map(|column| cell(column, row)).filter(|name| !name.is_empty())
+    }
+
     fn site(&self, row: usize) -> Result<ListedSite, String> {
         let longitude_deg = degrees("longitude", cell(self.longitude, row))?;
         let latitude_deg = degrees("latitude", cell(self.latitude, row))?;
@@ -105,8 +127,7 @@ impl<'a> Columns<'a> {
                 "longitude {longitude_deg}, latitude {latitude_deg} is no place on earth: give degrees{swapped}"
             ));
         }
-        let name = self.name.map(|column| cell(column, row)).filter(|name| !name.is_empty());
-        let name = name.map_or_else(|| (row + 1).to_string(), str::to_owned).into();
+        let name = self.name(row).map_or_else(|| (row + 1).to_string(), str::to_owned).into();
         let cells: Vec<String> =
             self.carried.iter().map(|column| cell(column, row).replace(BETWEEN_CELLS, " ")).collect();
         Ok(ListedSite { name, longitude_deg, latitude_deg, carried: cells.join(&BETWEEN_CELLS.to_string()).into() })

@@ -145,7 +145,8 @@ fn keyed(table: &Peaks, key: impl Fn(&Row) -> Vec<String>) -> Result<BTreeMap<Ve
     let others = twice.len().saturating_sub(TOLD);
     twice.truncate(TOLD);
     if others > 0 {
-        twice.push(format!("{}: so do {others} more rows", table.name));
+        let rows = if others == 1 { "row repeats" } else { "rows repeat" };
+        twice.push(format!("{}: {others} more {rows} an identifier", table.name));
     }
     Err(JobError::Inputs(twice).into())
 }

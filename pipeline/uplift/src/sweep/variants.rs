@@ -190,7 +190,8 @@ pub fn cases(path: &Path) -> Result<Vec<Variant>, UpliftError> {
         }
         let own = |other: &Variant| other.name.as_deref().is_some_and(|other| is_same_name(other, name));
         if variants[..place].iter().any(own) {
-            mistakes.push(format!("row {}: name {name:?} is given twice, capitals apart", place + 1));
+            mistakes
+                .push(format!("row {}: name {name:?} is given twice (upper and lower case are the same)", place + 1));
         }
     }
     if mistakes.is_empty() { Ok(variants) } else { Err(fail(mistakes.join("; ")).into()) }

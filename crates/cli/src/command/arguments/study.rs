@@ -72,6 +72,9 @@ pub(crate) fn shard(text: &str) -> Result<Shard, String> {
         Some((index, count)) if index >= 1 && index <= count && count <= MOST_SHARDS => {
             Ok(Shard { index: index - 1, count })
         }
+        Some((index, count)) if index > count && count >= 1 => {
+            Err(format!("there is no shard {index} of {count}: the first number is from 1 to {count}"))
+        }
         _ => Err(format!("write 1/8 for the first of eight shards; at most {MOST_SHARDS}")),
     }
 }

@@ -86,7 +86,8 @@ impl SiteTableFiles {
             let (file, slice) = (path.display(), slice.display());
             JobError::input(format!("{file}: {why}: repeat the run of {slice} with --again"))
         };
-        let reader = LabelledReader::open(&path).map_err(|error| again(&path, &error.to_string()))?;
+        let reader = LabelledReader::open(&path)
+            .map_err(|error| JobError::input(format!("{error}: repeat the run of {} with --again", slice.display())))?;
         if !is_of_digest(&reader, digest)? {
             return Err(again(&path, "is not of this result").into());
         }

@@ -62,6 +62,10 @@ pub fn sorted_slices(study: &UniformRiskStudy, paths: &[PathBuf]) -> Result<Vec<
             }
         };
         match what_slices_share(&head.study_toml) {
+            _ if own.is_none() => mistakes.push(format!(
+                "{name}: is a result, and the study has no [site_table] of which it could be a slice: give the shards \
+                 of the run"
+            )),
             Some((_, None)) | None => {
                 mistakes.push(format!(
                     "{name}: is no slice of a table of sites; `uplift run STUDY --sites 1/8` writes one"
