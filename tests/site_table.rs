@@ -432,7 +432,8 @@ fn slices_that_do_not_make_the_table_are_refused() {
     assert!(said.contains("1 of 2; missing 2\n") && said.contains("3 of 3; ready for `uplift merge`"), "{said}");
     study.write("copy.h5", "");
     std::fs::copy(study.path().join(&one), study.path().join("copy.h5")).unwrap();
-    merge(&[&one, "copy.h5", &two, &three]).fails(4, &["copy.h5: slice 1/3 is there twice, as results/study.slice-1"]);
+    merge(&[&one, "copy.h5", &two, &three])
+        .fails(4, &["copy.h5: slice 1/3 is given twice, also as results/study.slice-1"]);
     merge(&[&one, &two, &three, "results/study.slice-1-of-2.h5"]).fails(4, &["of 2 and 3"]);
     merge(&[&one, "results/study.shard-1-of-2"]).fails(2, &["is a result, and others are shards"]);
     let other = ["merge", "study.toml", &one, &two, &three, "-o", "joined.h5", "--set", "risk.years=10"];

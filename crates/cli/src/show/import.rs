@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::import::ImportReport;
-use uplift::text::one_line;
+use uplift::text::{counted, one_line};
 
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -37,7 +37,8 @@ pub(crate) fn print_import(report: &ImportReport, terminal: &Terminal) -> Result
     }
     if let Some(manifest) = report.manifest.as_ref().filter(|_| !terminal.is_quiet()) {
         let ImportReport { pairs, files, seconds, .. } = report;
-        writeln!(output(), "{pairs} pairs from {files} files in {seconds:.1} s: {}", manifest.display())?;
+        let (pairs, files) = (counted(*pairs, "pair"), counted(*files, "file"));
+        writeln!(output(), "{pairs} from {files} in {seconds:.1} s: {}", manifest.display())?;
     }
     Ok(())
 }

@@ -46,11 +46,16 @@ pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
     Ok(())
 }
 
+/// A title behind what it is of; nothing where there is none.
+fn after(title: &str) -> String {
+    if title.is_empty() { String::new() } else { format!(": {}", one_line(title)) }
+}
+
 fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), CommandError> {
     let ResultStatus { created, version, commit, study, title, record_set, .. } = result;
     let file = result.file.display();
     writeln!(out, "{file}: finished {created}, uplift {version} ({commit})")?;
-    writeln!(out, "  study    {study} {}", one_line(title))?;
+    writeln!(out, "  study    {study}{}", after(title))?;
     if !result.overrides.is_empty() {
         writeln!(out, "  changed  {}", one_line(&format!("--set {}", result.overrides.join(" --set "))))?;
     }
@@ -95,7 +100,8 @@ fn print_unfinished(out: &mut impl Write, unfinished: &UnfinishedStatus) -> Resu
     let what =
         if *shards > 1 { format!("shard {shard} of {shards}") } else { "checkpoint of an unfinished run".to_owned() };
     let share = 100.0 * *done as f64 / (*analyses).max(1) as f64;
-    writeln!(out, "{}: {what}, {done} of {analyses} analyses ({share:.0} %) {}", file.display(), one_line(title))?;
+    let title = after(title);
+    writeln!(out, "{}: {what}, {done} of {analyses} analyses ({share:.0} %){title}", file.display())?;
     if *damaged_bytes > 0 {
         writeln!(out, "  analyses that were cut off or damaged ({damaged_bytes} bytes) will be computed again")?;
     }

@@ -11,8 +11,9 @@ use crate::reading::{Field, Paths, Value};
 use crate::sections::name;
 
 pub(super) const KEYS: SectionKeys = SectionKeys::new("sites", &[&NAME, &CURVE, &FURTHER_CURVE]).shape(Shape::List);
-const NAME: Key<Text> =
-    name::KEY.meaning("name").note(r#"each once, capitals aside; at most 100 bytes, none of `/ \ : * ? " < > \|`"#);
+const NAME: Key<Text> = name::KEY
+    .meaning("name")
+    .note(r#"each once (capitals do not count); at most 100 bytes, none of `/ \ : * ? " < > \|`"#);
 const CURVE: Key<Special> = special("pgv", || json!({}))
     .also(&["pga"])
     .without_default("needed if the measure is switched on")

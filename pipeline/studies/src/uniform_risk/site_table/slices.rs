@@ -77,7 +77,7 @@ pub fn sorted_slices(study: &UniformRiskStudy, paths: &[PathBuf]) -> Result<Vec<
             Some((_, Some(slice))) => {
                 counts.push(slice.count);
                 if let Some(twice) = found.insert(slice.number, path) {
-                    mistakes.push(format!("{name}: slice {slice} is there twice, as {} too", twice.display()));
+                    mistakes.push(format!("{name}: slice {slice} is given twice, also as {}", twice.display()));
                 }
             }
         }
