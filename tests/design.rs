@@ -120,6 +120,19 @@ fn holds(range: &Value, values: impl Iterator<Item = f64>) {
 
 // Every number once more, for a block that uplifts at 5 mm, so that no chaos of hundreds of impacts blurs them: Table
 // 3.1 for a block by hand, driven by Γ times the motion, the readable solver, plain sums.
+/// A demand below the displacement at uplift is no demand of rocking.
+#[test]
+fn a_demand_below_uplift_is_said_to_be_one() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    for (period, rocks) in [("0.2", true), ("3", false)] {
+        let block = format!("kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 6000\nperiod_s = {period}\n");
+        study.write("block.toml", &block);
+        let told = study.uplift(&["design", "block.toml", "--urs", "r.h5", "--site", "here", "-q"]).ok().stdout;
+        assert_eq!(told.contains("at this risk it does not rock"), !rocks, "{told}");
+    }
+}
+
 #[test]
 fn every_number_by_hand() {
     const UPLIFT_M: f64 = 0.005;

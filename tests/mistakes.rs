@@ -72,7 +72,7 @@ fn hazard_curves() {
     spoil("iml,maf\n0.5,0.1\n10,NaN\n300,0.01\n", &["NaN"]);
     // all lines at once, up to a number that can be read
     spoil("iml,maf\n0.5,0.1\n10,abc\n20,0,05\n30,x\n300,0.01\n", &["line 3", "abc", "line 4", "line 5"]);
-    spoil(&format!("iml,maf\n{}300,0.01\n", "1,what\n".repeat(500)), &["line 2", "and 499 lines more"]);
+    spoil(&format!("iml,maf\n{}300,0.01\n", "1,what\n".repeat(500)), &["line 2", "and 499 more lines"]);
     spoil("# IM: PGV [m/s]\niml,maf\n0.5,0.1\n300,0.01\n", &["m/s", "cm/s"]);
     spoil("", &["point"]);
     // the last stripe, 100 cm/s, is outside

@@ -171,3 +171,16 @@ fn nothing_but_what_was_asked_for() {
         }
     }
 }
+
+/// A verdict or a spectrum that is probably wrong is not told without that word.
+#[test]
+fn probable_mistakes_are_told_all_the_same() {
+    let study = SmallStudy::new();
+    let run = ["run", "study.toml", "-o", "g.h5", "-q", "--set", "gravity_m_s2=980.665"];
+    for arguments in [&run[..], &["spectrum", "g.h5", "-q"]] {
+        let said = study.uplift(arguments).ok().stdout;
+        let warnings: Vec<&str> = said.lines().skip_while(|line| *line != "Warnings").skip(1).collect();
+        let is_told = |line: &&str| line.contains("mistake? ") || line.contains(" more: ");
+        assert!(!warnings.is_empty() && warnings.iter().all(is_told), "{said}");
+    }
+}

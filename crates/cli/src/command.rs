@@ -52,7 +52,7 @@ pub(crate) struct Arguments {
         value_parser = clap::value_parser!(u16).range(1..=4096)
     )]
     threads: Option<u16>,
-    /// Print only results and errors
+    /// Print only results, probable mistakes and errors
     #[arg(long, short, global = true, help_heading = GENERAL)]
     pub(crate) quiet: bool,
     /// Show every table and warning

@@ -50,8 +50,8 @@ pub(crate) struct Terminal {
 }
 
 impl Terminal {
-    /// A terminal that hears Ctrl-C and SIGTERM from now on; a quiet one tells results and errors only, one
-    /// with `details` every table.
+    /// A terminal that hears Ctrl-C and SIGTERM from now on; a quiet one tells results, probable mistakes and errors
+    /// only, one with `details` every table.
     pub(crate) fn new(quiet: bool, details: bool, form: Form) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
         let interruption_message = Arc::new(Mutex::new(JobError::Interrupted.to_string()));

@@ -33,7 +33,7 @@ impl fmt::Display for Place {
 fn list(mistakes: &[HazardError], more: usize) -> String {
     let mut lines: Vec<String> = mistakes.iter().map(ToString::to_string).collect();
     if more > 0 {
-        lines.push(format!("and {more} lines more"));
+        lines.push(format!("and {more} more line{}", if more == 1 { "" } else { "s" }));
     }
     lines.join("; ")
 }

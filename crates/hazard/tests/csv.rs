@@ -170,7 +170,7 @@ fn every_broken_line_is_named() {
         (
             "iml,maf\n0,1,0,2\n0,2,0,1\n0,3,0,05\n",
             "site.csv, line 2: 4 columns where 2 are expected; if these are decimal commas, write decimal points, or \
-             semicolons between the columns; and 2 lines more",
+             semicolons between the columns; and 2 more lines",
         ),
         (
             "iml,maf\n1,1\n2,1\n",

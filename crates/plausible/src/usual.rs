@@ -50,12 +50,13 @@ pub const USUAL_LENGTH: Range = usual(0.02, 150.0, "m", "was it meant in mm or c
 pub const USUAL_MASS: Range = usual(1.0, 1e9, "kg", "was it meant in t, or is it a weight in N?");
 
 /// Moment of inertia about the pivot over m R²: 1 of a point mass, 4/3 of a uniform block, 2 of a slender one with half
-/// its mass at either end.
+/// its mass at either end, 4 of a tower with a heavy top on a heavy foundation.
 pub const USUAL_INERTIA: Range =
-    usual(1.0, 3.0, "", "4/3 of a uniform block; are the mass in kg and the moment of inertia in kg m2?");
+    usual(1.0, 5.0, "", "4/3 of a uniform block, R to its centre; are mass_kg in kg and the inertia in kg m2?");
 
 /// Period of a structure on its base: from a squat block on rock to a tall pier.
-pub const USUAL_PERIOD: Range = usual(0.01, 4.0, "s", "of the structure before it uplifts");
+pub const USUAL_PERIOD: Range =
+    usual(0.01, 4.0, "s", "piers have 0.2 to 2 s before they uplift; is it the period of rocking?");
 
 /// Mass of a deck over that of its columns; one lighter than a twentieth was probably given in tonnes.
 pub const USUAL_DECK: Range = usual(0.05, 1e4, "", "times the mass of the columns; is it in kg?");

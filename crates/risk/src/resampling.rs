@@ -46,13 +46,14 @@ impl<'a> ResamplingTable<'a> {
         }
         let row = demand.record_count().next_multiple_of(LANES);
         let quanta = weights.quanta();
-        let mut sums = vec![0_u128; demand.record_count()];
+        let (mut sums, mut rates) = (vec![0_u128; demand.record_count()], vec![0.0; row]);
         let mut before = Vec::with_capacity((demand.runs().len() / BLOCK + 1) * row);
         for block in demand.runs().chunks(BLOCK) {
-            before.extend(sums.iter().map(|&sum| rate_per_year(sum, 1)));
-            before.resize(before.len().next_multiple_of(row), 0.0);
+            before.extend_from_slice(&rates);
             for run in block {
-                sums[usize::from(run.record)] += quanta[usize::from(run.level)];
+                let (sum, rate) = (&mut sums[usize::from(run.record)], &mut rates[usize::from(run.record)]);
+                *sum += quanta[usize::from(run.level)];
+                *rate = rate_per_year(*sum, 1);
             }
         }
         // every term of a sum is rounded once or twice and passes through at most so many additions

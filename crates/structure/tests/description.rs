@@ -173,6 +173,16 @@ fn numbers_in_other_units_are_accepted_and_reported() {
     assert_eq!(unlikely(pier), ["height_m", "mass_kg over width² × height"]);
     let block = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 8000\n";
     assert_eq!(unlikely(block), [""; 0]);
+    // a pier of 560 t, in tonnes; and one whose period is that of its rocking
+    let pier = |mass: &str, period: &str| {
+        format!(
+            "kind = \"body\"\nwidth_m = 4\ncentre_height_m = 9\nmass_kg = {mass}\nmoment_of_inertia_kg_m2 = 57.55e6\n\
+             period_s = {period}\n"
+        )
+    };
+    assert_eq!(unlikely(&pier("560900", "0.6")), [""; 0]);
+    assert_eq!(unlikely(&pier("560.9", "0.6")), ["moment_of_inertia_kg_m2 over mass_kg × R²"]);
+    assert_eq!(unlikely(&pier("560900", "5")), ["period_s"]);
     for (key, value) in [("uplift_displacement_m", 0.5), ("gravity_m_s2", 981.0), ("restitution", 0.05)] {
         assert_eq!(unlikely(&format!("{block}{key} = {value}\n")), [key]);
     }

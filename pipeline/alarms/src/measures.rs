@@ -7,7 +7,7 @@ use super::curves;
 use super::evidence::{Evidence, Scope};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_job::text::{per_cent, risk_name, rounded, two_digits};
+use uplift_job::text::{per_cent, risk_name, rounded, short, two_digits};
 use uplift_result::{MeasureSpectra, StoredBands};
 use uplift_risk::{COMPARED_FROM_M, MEASURES_APART, MEASURES_APART_DECISIVE};
 
@@ -84,7 +84,7 @@ fn case(evidence: &Evidence, subject: String, gap: Gap, banded: bool) -> Case {
         subject,
         what: format!(
             "the {larger} spectrum is {} times {smaller}'s at strength {}{allowed}",
-            two_digits(times),
+            if times < 1e6 { two_digits(times) } else { short(times) },
             rounded(evidence.spectra.strengths[gap.strength], 4)
         ),
         what_to_do: "Choose between them: uplift measures RESULT".to_owned(),

@@ -124,7 +124,8 @@ pub struct FrameRiskReport {
     pub confidence: f64,
     /// The frame itself first, then its proxies.
     pub demands: Vec<ModelDemand>,
-    /// Columns and restrainers at the demand on the frame; none where it overturns more often than the target.
+    /// Columns and restrainers at the demand on the frame; none where it overturns more often than the target, or goes
+    /// beyond the law of its restrainers.
     pub at_demand: Option<StateAtDemand>,
     /// How often each event of the frame happens.
     pub events: Vec<EventReport>,

@@ -96,8 +96,8 @@ pub struct DisplacementReport {
     pub band_of: BandOf,
     /// What was shaken, but for its strength.
     pub oscillator: Oscillator,
-    /// Oscillators that each record shakes, 1 but for those that `[uncertainty]` draws about it: each makes a record of
-    /// its own.
+    /// Oscillators that each recorded motion shakes: 1, or as many as `[uncertainty]` draws about `oscillator`.
+    /// `records` counts each of them.
     pub structures: usize,
     /// The displacement capacity asked for, m.
     #[serde(skip_serializing_if = "Option::is_none")]

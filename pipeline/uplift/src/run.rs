@@ -140,8 +140,9 @@ pub fn run_with(
     let checkpoint = checkpoint_path(path);
     if report.as_ref().is_err_and(is_of_disk) && checkpoint.is_file() {
         let name = checkpoint.display();
-        events
-            .note(&format!("the finished analyses are in {name}: free some space, and run the same command to resume"));
+        events.note(&format!(
+            "the finished analyses are in {name}: mend what it says, and run the same command to resume"
+        ));
     }
     report
 }
@@ -151,6 +152,6 @@ const FULL: [ErrorKind; 3] = [ErrorKind::StorageFull, ErrorKind::FileTooLarge, E
 
 /// Whether a result could not be written, as on a full disk.
 fn is_of_disk(error: &UpliftError) -> bool {
-    matches!(cause(error), Some(LabelledError::Hdf5 { .. }))
+    matches!(cause(error), Some(LabelledError::Hdf5 { action: "write" | "create" | "close" | "flush", .. }))
         || matches!(cause(error), Some(FileError::Io { source, .. }) if FULL.contains(&source.kind()))
 }

@@ -231,9 +231,10 @@ pub(super) fn response(arguments: &ResponseArguments, terminal: &Terminal) -> Re
     }
     if let Some(file) = &arguments.frame.structure {
         if let Some(record) = &arguments.record {
-            let record = record.display();
+            let (record, h1) = (record.display(), &arguments.frame.h1);
+            let mend = if h1.is_some() { "leave out" } else { "write --h1" };
             return Err(CommandError::Usage(format!(
-                "a structure takes its records by --h1, --h2 and --v: write --h1 {record}"
+                "a structure takes its records by --h1, --h2 and --v: {mend} {record}"
             )));
         }
         let report = frame_response(&Structure::load(file)?, &arguments.of_frame()?)?;

@@ -46,7 +46,7 @@ fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
             // where the bias alone would have another verdict
             let decides = row.bias.is_some_and(|bias| row.verdict != Some(Verdict::from_bias(bias, 0.0).key()));
             let at_one_rate = most_off(row).filter(|_| decides && !is_repaired);
-            let at_one_rate = at_one_rate.map_or_else(String::new, |most| format!(", {most:.2} off at one rate"));
+            let at_one_rate = at_one_rate.map_or_else(String::new, |most| format!(", {most:.2} times off at one rate"));
             format!("{} {}{at_one_rate}", row.shows, number(row.bias, 2))
         })
         .right("verdict", |row| row.verdict.unwrap_or("-"))

@@ -175,7 +175,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         let whose = if report.wobbles { "the equivalent oscillator" } else { "the structure itself" };
         let uplift_m = report.structure.uplift_displacement_m;
         let rests = if exact.demand_m < uplift_m {
-            format!(", which does not uplift: it would at {} m", two_digits(uplift_m))
+            format!(", below its uplift at {} m: at this risk it does not rock", two_digits(uplift_m))
         } else {
             String::new()
         };

@@ -149,7 +149,7 @@ impl Shown<'_> {
             writeln!(out, "displacement: all measures in the runs scaled to {}", first.measure.label())?;
         }
         if self.rows().any(EfficiencyRow::is_told) {
-            writeln!(out, "+ has no hazard curve in this study")?;
+            writeln!(out, "+ has no hazard curve in this study: in the same runs throughout")?;
         }
         if self.report.stored.records.len() < 30 {
             writeln!(out, "With {} records only strong trends are found.", self.report.stored.records.len())?;

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::structure::{Banded, FrameRiskReport, ModelDemand, StateAtDemand};
-use uplift::text::{self, Table, metres_with_band, risk_in_words, short};
+use uplift::text::{self, Table, metres_with_band, risk_in_words, short, two_digits};
 
 use super::alarms::print_warnings_and_more;
 use super::shown_path;
@@ -41,16 +41,12 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     let of_whom = if frame.band_of == Some("earthquakes") { " by earthquake" } else { "" };
     let demand = demand_in_words(value, Some([lower, upper]), of_whom);
     writeln!(out, "Demand       {demand} on {}, {}", report.structure.name, frame.model)?;
+    if let Some(exceeded) = exceeded(report, value) {
+        writeln!(out, "  {exceeded}")?;
+    }
     for proxy in proxies {
         let of = proxy.error.as_ref().map_or_else(String::new, |error| format!(" (error {})", per_cent(error.value)));
         writeln!(out, "  {}: {}{of}", proxy.model, metres_with_band(proxy.demand_m.value, None))?;
-    }
-    match report.at_demand.as_ref().map(restrainers) {
-        Some(words) if report.at_demand.as_ref().is_some_and(is_exceeded) => {
-            writeln!(out, "  restrainers there: {}", words.join(", "))?;
-        }
-        None if value.is_finite() => writeln!(out, "  restrainers there: beyond their law")?,
-        _ => {}
     }
     let [per_year, _, return_period] = risk_cells(&report.overturning.risk);
     let band = band_after(report.overturning.bands);
@@ -110,9 +106,16 @@ fn print_demands(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
     Ok(())
 }
 
-/// Whether a tendon yields or springs are flat.
-fn is_exceeded(at: &StateAtDemand) -> bool {
-    [at.tendon_over_yield, at.spring_over_flat].into_iter().flatten().any(|of| of >= 1.0)
+/// What restrainers cannot give at the demand; none where they can.
+fn exceeded(report: &FrameRiskReport, demand_m: f64) -> Option<String> {
+    let Some(at) = &report.at_demand else {
+        return demand_m.is_finite().then(|| "its restrainers do not reach that far".to_owned());
+    };
+    let tendons = at.tendon_over_yield.filter(|of| *of >= 1.0);
+    let tendons = tendons.map(|of| format!("tendons yield (elastic, {} times their yield)", two_digits(of)));
+    let springs = at.spring_over_flat.filter(|of| *of >= 1.0).map(|_| "springs are flat".to_owned());
+    let words: Vec<String> = tendons.into_iter().chain(springs).collect();
+    (!words.is_empty()).then(|| format!("there {}", words.join(", ")))
 }
 
 /// What tendons and springs have at the demand.

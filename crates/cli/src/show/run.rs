@@ -17,7 +17,7 @@ use super::{displacement, shake_table, shown_path, typed_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
-/// The spectrum, warnings, and where the files are; a quiet terminal gets the spectrum alone.
+/// The spectrum, warnings, and where the files are; a quiet terminal gets the spectrum and probable mistakes.
 pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
     match report {
@@ -32,10 +32,10 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
         RunReport::Displacement(report) => displacement::print_spectra(&mut out, report)?,
         RunReport::ShakeTable(report) => shake_table::print_tests(&mut out, &report.table)?,
     }
+    print_end(&mut out, report.head(), terminal)?;
     if terminal.is_quiet() {
         return Ok(());
     }
-    print_end(&mut out, report.head(), terminal)?;
     if let RunReport::UniformRisk(report) = report
         && let Some(found) = &report.displacements
     {
@@ -100,6 +100,9 @@ fn print_spread(
 fn print_end(out: &mut impl Write, head: &RunHead, terminal: &Terminal) -> Result<(), CommandError> {
     let Some((result, tables)) = head.files.split_first() else { return Ok(()) };
     print_result_warnings(out, &head.alarms, result, terminal)?;
+    if terminal.is_quiet() {
+        return Ok(());
+    }
     let result = shown_path(result).display();
     let done_already = if head.done_already { " (done already; recompute: --again)" } else { "" };
     writeln!(out, "\nResult   {result}{done_already}")?;

@@ -33,7 +33,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         let upper = if report.safe_value.is_finite() { report.safe_value.to_string() } else { "beyond".to_owned() };
         // where the range begins it is no limit
         let is_open = report.tried.first().is_some_and(|least| band.value[0] <= least.value);
-        let below = if is_open { "below " } else { "" };
+        let below = if is_open { "from below " } else { "" };
         format!(" (90 % band {below}{} to {upper}, by {})", short(band.value[0]), band.of)
     });
     let best = format!("best estimate {}{band}", unit(value.to_string()));
@@ -76,7 +76,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         let [per_year, ..] = risk_cells(&other.risk);
         let verdict = match other.is_met {
             Some(true) => "meets the target",
-            Some(false) => "MISSES the target (--measure sizes by it)",
+            Some(false) => "MISSES the target (--measure to size by it)",
             None => "the levels are too low to tell",
         };
         writeln!(out, "          {whose} {} {per_year} per year at {at}: {verdict}", other.im)?;

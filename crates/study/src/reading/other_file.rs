@@ -103,9 +103,12 @@ impl Wanted {
 
 /// The result beside the table at `path` that is named after it: `site.h5` of `site.urs.csv`.
 fn result_of(path: &Path) -> Option<PathBuf> {
-    let shorter = |path: &PathBuf| path.extension().map(|_| path.with_extension(""));
-    let names = std::iter::successors(Some(path.to_owned()), shorter);
-    names.map(|name| name.with_extension("h5")).filter(|result| result.is_file()).last()
+    let named_after = |path: &Path| path.with_extension("h5");
+    // the program's own tables have two endings
+    path.file_stem()
+        .filter(|stem| stem.to_string_lossy().contains('.'))
+        .map(|stem| named_after(&path.with_file_name(stem)))
+        .filter(|result| result.is_file())
 }
 
 /// Whether the first lines have the number of points of an AT2 file, and not in a comment of TOML.

@@ -174,7 +174,7 @@ pub(crate) fn read(
         && kind != Some(UncertaintyKind::Aleatory)
         && !samples.is_power_of_two()
     {
-        let message = format!("Sobol' points are even only for powers of two, and {samples} is none");
+        let message = format!("Sobol' points fill a range evenly only in powers of two, and {samples} is none");
         let (below, above) = (samples.next_power_of_two() / 2, samples.next_power_of_two());
         section.mistake("samples", message, format!("write {below} or {above}, or sampling = \"latin-hypercube\""));
     }

@@ -71,7 +71,7 @@ fn every_mistake_is_reported() {
     for what in [
         "mass_t: unknown key `mass_t`",
         "uncertainty.kind: unknown kind: the text \"random\"",
-        "uncertainty.samples: Sobol' points are even only for powers of two, and 60 is none",
+        "uncertainty.samples: Sobol' points fill a range evenly only in powers of two, and 60 is none",
         "uncertainty.strength.distribution: how is it distributed?",
         "uncertainty.restitution.mean: its mean is missing",
         "uncertainty.capacity_m: one of its limits is missing",

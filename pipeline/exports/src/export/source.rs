@@ -2,7 +2,6 @@
 
 use uplift_alarms::alarms;
 use uplift_hazard::return_period_from_probability;
-use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_questions::efficiency::Figure;
 use uplift_result::{
@@ -72,7 +71,7 @@ impl Export {
         let path = file.path();
         let spectra = file.spectra()?;
         if spectra.measures.is_empty() {
-            return Err(JobError::input(format!("{}: has no spectra: the study has no sites", path.display())).into());
+            return Err(file.without_spectra().into());
         }
         let head = file.head()?;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();

@@ -82,7 +82,7 @@ pub struct SetOptions {
     #[arg(value_name = "SET")]
     pub manifest: PathBuf,
     /// Only records with this tag
-    #[arg(long, value_name = "WORD")]
+    #[arg(long, value_name = "WORD", help = "Only records with this tag (a word of set_tags)")]
     pub tag: Option<String>,
     /// Combination of two components: geometric-mean, rotd50 or rotd100
     #[arg(long, value_name = "WORD", default_value_t = Combination::GeometricMean)]

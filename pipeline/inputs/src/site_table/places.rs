@@ -49,7 +49,10 @@ pub(super) fn read(path: &Path) -> Result<Places, Vec<String>> {
     let mut sites = Vec::with_capacity(table.height());
     let mut named = HashMap::new();
     for row in 0..table.height() {
-        match columns.site(row).and_then(|site| columns.once(row, site, &mut named)) {
+        // rows without a column of names are called by their numbers
+        let is_named = columns.name.is_some();
+        let site = columns.site(row);
+        match site.and_then(|site| if is_named { once(row, site, &mut named) } else { Ok(site) }) {
             Ok(site) => sites.push(site),
             Err(reason) if mistakes.len() < MISTAKES_TOLD => {
                 mistakes.push(format!("site table {name}, row {} below the header: {reason}", row + 1));
@@ -65,6 +68,18 @@ pub(super) fn read(path: &Path) -> Result<Places, Vec<String>> {
     }
     let carried = columns.carried.iter().map(|column| column.name().to_string()).collect();
     if mistakes.is_empty() { Ok(Places { sites, carried }) } else { Err(mistakes) }
+}
+
+/// The `site` of this row if it is no other's by name, as in `[[sites]]`; `named` holds the rows of those before.
+fn once(row: usize, site: ListedSite, named: &mut HashMap<String, usize>) -> Result<ListedSite, String> {
+    match named.insert(site.name.to_lowercase(), row) {
+        None => Ok(site),
+        Some(before) => Err(format!(
+            "site {} is in row {} too: remove one of them, or give each a name of its own",
+            site.name.escape_debug(),
+            before + 1
+        )),
+    }
 }
 
 struct Columns<'a> {
@@ -96,21 +111,6 @@ impl<'a> Columns<'a> {
             name: name.map(|index| texts[index]),
             carried: carried.collect(),
         })
-    }
-
-    /// The `site` of this row if it is no other's by name, as in `[[sites]]`; `named` holds the rows of those before.
-    fn once(&self, row: usize, site: ListedSite, named: &mut HashMap<String, usize>) -> Result<ListedSite, String> {
-        if self.name(row).is_none() {
-            return Ok(site);
-        }
-        match named.insert(site.name.to_lowercase(), row) {
-            None => Ok(site),
-            Some(before) => Err(format!(
-                "site {} is in row {} too: remove one of them, or give each a name of its own",
-                site.name.escape_debug(),
-                before + 1
-            )),
-        }
     }
 
     /// The name that the row gives.
