@@ -135,7 +135,8 @@ fn where_link_leads(path: &Path) -> Result<PathBuf, FileError> {
     Ok(place)
 }
 
-fn folder_of(target: &Path) -> &Path {
+/// The folder that a file is in: the current one of a name alone.
+pub fn folder_of(target: &Path) -> &Path {
     match target.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),

@@ -20,7 +20,7 @@ mod identity;
 mod partial;
 mod read;
 
-pub use atomic_file::{AtomicFile, final_place, write_whole};
+pub use atomic_file::{AtomicFile, final_place, folder_of, write_whole};
 pub use error::{FileError, io_error, reason};
 pub use identity::is_still_at;
 pub use read::{open_file, read_file, require_file};

@@ -344,7 +344,10 @@ fn model_demands(of: &ModelDemand, [site, im]: [&str; 2]) -> Vec<FindingRow> {
     let row = |what: &str, value: f64, unit: &str| FindingRow::new(format!("{what}, {}", of.model), value, unit);
     let demand = row("demand", of.demand_m.value, "m");
     let limits_m = [of.demand_m.lower, of.demand_m.upper];
-    let demand = of.band_of.map_or_else(|| demand.clone(), |source| demand.clone().within(limits_m, source));
+    let demand = match of.band_of {
+        Some(source) => demand.within(limits_m, source),
+        None => demand,
+    };
     let repaired = of.repaired_m.map(|demand_m| row("demand, repaired", demand_m, "m"));
     let error = of.error.map(|of| row("error", of.value, "1").within([of.lower, of.upper], RESAMPLED));
     [Some(demand), repaired, error].into_iter().flatten().map(|row| row.at(site, im)).collect()

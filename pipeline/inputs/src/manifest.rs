@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component as PathPart, Path, PathBuf};
 
 use polars::prelude::{Column, DataFrame};
-use uplift_atomic_file::read_file;
+use uplift_atomic_file::{folder_of, read_file};
 use uplift_job::table::plain;
 use uplift_job::text_table;
 use uplift_motion::{AccelerationUnit, RecordFormat};
@@ -167,8 +167,7 @@ pub fn relative(path: &Path, folder: &Path) -> String {
     let absolute = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     // the last part may be a link to elsewhere, and keeps its name
     let file = path.file_name().unwrap_or_default();
-    let path =
-        absolute(path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))).join(file);
+    let path = absolute(folder_of(path)).join(file);
     let folder = absolute(if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
     let (mut from, mut to) = (folder.components().peekable(), path.components().peekable());
     while from.peek().is_some() && from.peek() == to.peek() {

@@ -5,7 +5,7 @@ use std::io::{ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use uplift_atomic_file::{final_place, io_error, is_still_at};
+use uplift_atomic_file::{final_place, folder_of, io_error, is_still_at};
 
 use crate::error::JobError;
 use crate::outputs::provide_folder;
@@ -25,7 +25,7 @@ impl ResultLock {
     /// Where another run has it, and where the folder cannot be written.
     pub fn acquire(result: &Path) -> Result<Self, JobError> {
         let path = lock_path(result);
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = folder_of(&path);
         provide_folder(folder)?;
         let fail = |error: std::io::Error| match error.kind() {
             ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem if result.is_file() => {

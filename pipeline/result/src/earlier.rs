@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use uplift_atomic_file::folder_of;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{beside, digest_said, is_of_digest, is_of_result, provide_folder};
@@ -175,7 +176,7 @@ fn free_folder(all: &Path, name: &str, within: &Path) -> PathBuf {
 /// numbers than those of `digest`.
 pub fn made_of(result: &Path, digest: &str) -> Vec<PathBuf> {
     let start = beside(result, "").file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let folder = result.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder_of(result);
     let files = |folder: &Path, start: &str| -> Vec<PathBuf> {
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
         let named = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(start));

@@ -59,10 +59,10 @@ pub mod urs {
     pub const FLAG: Quantity<MeasureSpectra> = quantity!("flag" [SITE, POE, STRENGTH] Flag "1"
         "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored"
         ("0 regular; 1 no exceedance, ordinate 0; 2 censored") = |of, at| of.flags[at]);
-    /// The risk from below the first stripe.
+    /// The risk from below the first level.
     pub const LOWER_TAIL_SHARE: Quantity<MeasureSpectra> = quantity!("lower_tail_share" [SITE, POE, STRENGTH] F64 "1"
         "share of the risk from below the first level" = |of, at| of.lower_tail_share[at]);
-    /// The risk from above the last stripe.
+    /// The risk from above the last level.
     pub const UPPER_TAIL_SHARE: Quantity<MeasureSpectra> = quantity!("upper_tail_share" [SITE, POE, STRENGTH] F64 "1"
         "share of the risk from above the last level" = |of, at| of.upper_tail_share[at]);
 }

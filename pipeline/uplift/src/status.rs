@@ -5,6 +5,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use uplift_atomic_file::folder_of;
 use uplift_engine::checkpoint::{Finding, RowFile, checkpoint_path};
 use uplift_job::JobError;
 use uplift_job::lock::ResultLock;
@@ -187,8 +188,7 @@ fn slices_of(result: &Path) -> Vec<SlicesStatus> {
 
 /// What is in the folder of a result, with the name of each.
 fn neighbours(result: &Path) -> impl Iterator<Item = (String, PathBuf)> {
-    let folder = result.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let entries = std::fs::read_dir(folder_of(result)).into_iter().flatten().flatten();
     entries.map(|entry| (entry.file_name().to_string_lossy().into_owned(), entry.path()))
 }
 

@@ -23,7 +23,7 @@ pub(super) fn print_warnings(
     result: Option<&Path>,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
-    let lines = warnings(&told(alarms, terminal), result);
+    let lines = warnings(alarms, result, terminal);
     print_lines(out, &lines, terminal.shows_details()).map(drop)
 }
 
@@ -34,14 +34,9 @@ pub(super) fn print_result_warnings(
     result: &Path,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
-    let lines = warnings(&told(alarms, terminal), Some(result));
+    let lines = warnings(alarms, Some(result), terminal);
     let shown = number_shown(&lines, terminal.shows_details());
     print_shown(out, &lines[..shown], lines.len() - shown, &format!("uplift warnings {}", typed_path(result)))
-}
-
-fn told(alarms: &[Alarm], terminal: &Terminal) -> Vec<Alarm> {
-    let is_told = |alarm: &&Alarm| !terminal.is_quiet() || alarm.severity == Severity::Mistake;
-    alarms.iter().filter(is_told).cloned().collect()
 }
 
 /// That the records are synthetic, of answers that have no other warning of a result.
@@ -114,8 +109,9 @@ pub(super) fn warning(alarm: &Alarm, result: Option<&Path>) -> String {
     format!("{mark}{alarm}{} {}", full_stop(alarm), remedy(alarm, result)).trim_end().to_owned()
 }
 
-fn warnings(alarms: &[Alarm], result: Option<&Path>) -> Vec<String> {
-    alarms.iter().map(|alarm| warning(alarm, result)).collect()
+fn warnings(alarms: &[Alarm], result: Option<&Path>, terminal: &Terminal) -> Vec<String> {
+    let is_told = |alarm: &&Alarm| !terminal.is_quiet() || alarm.severity == Severity::Mistake;
+    alarms.iter().filter(is_told).map(|alarm| warning(alarm, result)).collect()
 }
 
 /// What to type, with the name of the `result`, where it is known.

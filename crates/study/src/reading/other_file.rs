@@ -84,11 +84,7 @@ impl Wanted {
         } else {
             return None;
         };
-        (found != self).then(|| Unreadable::Other {
-            found: found.words(),
-            wanted: self.words(),
-            advice: found.commands().to_owned(),
-        })
+        (found != self).then(|| self.refuse(found.words(), found.commands()))
     }
 
     /// What takes it.
@@ -103,12 +99,9 @@ impl Wanted {
 
 /// The result beside the table at `path` that is named after it: `site.h5` of `site.urs.csv`.
 fn result_of(path: &Path) -> Option<PathBuf> {
-    let named_after = |path: &Path| path.with_extension("h5");
     // the program's own tables have two endings
-    path.file_stem()
-        .filter(|stem| stem.to_string_lossy().contains('.'))
-        .map(|stem| named_after(&path.with_file_name(stem)))
-        .filter(|result| result.is_file())
+    let shorter = path.with_extension("");
+    shorter.extension().map(|_| shorter.with_extension("h5")).filter(|result| result.is_file())
 }
 
 /// Whether the first lines have the number of points of an AT2 file, and not in a comment of TOML.

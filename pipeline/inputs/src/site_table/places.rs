@@ -47,10 +47,9 @@ pub(super) fn read(path: &Path) -> Result<Places, Vec<String>> {
     let mut mistakes = Vec::new();
     let mut more = 0;
     let mut sites = Vec::with_capacity(table.height());
-    let mut named = HashMap::new();
+    // rows without a column of names are called by their numbers
+    let (is_named, mut named) = (columns.name.is_some(), HashMap::new());
     for row in 0..table.height() {
-        // rows without a column of names are called by their numbers
-        let is_named = columns.name.is_some();
         let site = columns.site(row);
         match site.and_then(|site| if is_named { once(row, site, &mut named) } else { Ok(site) }) {
             Ok(site) => sites.push(site),
@@ -113,11 +112,6 @@ impl<'a> Columns<'a> {
         })
     }
 
-    /// The name that the row gives.
-    fn name(&self, row: usize) -> Option<&str> {
-        self.name.map(|column| cell(column, row)).filter(|name| !name.is_empty())
-    }
-
     fn site(&self, row: usize) -> Result<ListedSite, String> {
         let longitude_deg = degrees("longitude", cell(self.longitude, row))?;
         let latitude_deg = degrees("latitude", cell(self.latitude, row))?;
@@ -127,7 +121,8 @@ impl<'a> Columns<'a> {
                 "longitude {longitude_deg}, latitude {latitude_deg} is no place on earth: give degrees{swapped}"
             ));
         }
-        let name = self.name(row).map_or_else(|| (row + 1).to_string(), str::to_owned).into();
+        let name = self.name.map(|column| cell(column, row)).filter(|name| !name.is_empty());
+        let name = name.map_or_else(|| (row + 1).to_string(), str::to_owned).into();
         let cells: Vec<String> =
             self.carried.iter().map(|column| cell(column, row).replace(BETWEEN_CELLS, " ")).collect();
         Ok(ListedSite { name, longitude_deg, latitude_deg, carried: cells.join(&BETWEEN_CELLS.to_string()).into() })
