@@ -8,7 +8,5 @@ mod restated;
 mod write;
 
 pub use job::{EfficiencyOptions, efficiency};
-pub use of_measure::{
-    Covariate, FIGURES, Figure, INITIATION, MeasureEfficiency, ROCKING, TRENDS, covariates, efficiency_by,
-};
+pub use of_measure::{Covariate, MeasureEfficiency, covariates, efficiency_by};
 pub use report::{EfficiencyReport, EfficiencyRow, Trend};

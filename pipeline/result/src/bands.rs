@@ -358,7 +358,7 @@ impl ResultFile {
             let (plain, names) = (bands("")?, band_names(measure, &limits, ""));
             let mut repaired = None;
             if FAILED_SAMPLES.is_in(self, &names) {
-                let failed = FAILED_SAMPLES.read_array(self, &names, [lengths[0], lengths[2]])?;
+                let failed = FAILED_SAMPLES.read_array("failed", self, &names, [lengths[0], lengths[2]])?;
                 let (bands, inferred) = (bands(REPAIRED_BANDS)?, inferred(REPAIRED_BANDS)?);
                 repaired = Some(StoredRepairedBands { bands, failed, inferred });
             }

@@ -60,8 +60,8 @@ group! {
     "<other>_implied" [SITE, RATE] F64 "<other_unit>" "level of the records, <label>"
         = |of, at| of.implied_level[at];
     "<other>_bias" [SITE] F64 "1" "level of the records over the site's, mean of the range"
-        ("exp of the mean of ln(implied/site)") = |of, at| of.bias[at];
-    "<other>_max" [SITE] F64 "1" "largest absolute ln(implied/site)" = |of, at| of.max[at];
+        ("exp of the mean of ln(implied/site)") as "bias" "bias" = |of, at| of.bias[at];
+    "<other>_max" [SITE] F64 "1" "largest absolute ln(implied/site)" as "max" "largest |ln|" = |of, at| of.max[at];
     "<other>_verdict" [SITE] Text "" "consistent, off or inconsistent; empty where unknown"
         ("`consistent`, `off`, `inconsistent`; empty where undecided") = |of, at| of.verdict[at];
     "<other>_ratio" [SITE, POE] F64 "1" "level of the records over the site's" = |of, at| of.ratio[at];
@@ -221,12 +221,13 @@ impl ResultFile {
         };
         CONSISTENCY.read(self, &names, &lengths, &mut found)?;
         if REPAIRED_SPECTRA.is_in(self, &names) {
-            let records = REPAIRS.read_array(self, &names, [(SITE, sites), (&level, levels)])?;
+            let records = REPAIRS.read_array("effective_records", self, &names, [(SITE, sites), (&level, levels)])?;
             let least = self.least_effective(scaled_to, &axes.sites, &found.rate_per_year, &records)?;
             (found.effective_records, found.least_effective) = (Some(records), Some(least));
-            found.repaired_level = Some(REPAIRED_LEVELS.read_array(self, &names, [(SITE, sites), (RATE, rates)])?);
+            found.repaired_level =
+                Some(REPAIRED_LEVELS.read_array("<other>_repaired", self, &names, [(SITE, sites), (RATE, rates)])?);
             let spectrum = [(SITE, sites), (POE, poes), (STRENGTH, strengths)];
-            found.u_m = Some(REPAIRED_SPECTRA.read_array(self, &names, spectrum)?);
+            found.u_m = Some(REPAIRED_SPECTRA.read_array("u_m", self, &names, spectrum)?);
             found.fits = Some(self.repaired_fits(scaled_to, by_poe)?);
         }
         Ok(found)

@@ -1,7 +1,9 @@
 //! How stored arrays are declared. A declaration is a constant beside the plain value whose field it names; writing,
 //! reading, the tables of `docs/hdf5-layout.md` and the names in exports follow from it. Most are rows of a `group!`.
+//! A new row goes below the others, by whose first one a group is known, and is `later`.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use uplift_job::Array;
 use uplift_labelled::{LabelledError, LabelledWriter};
@@ -35,6 +37,10 @@ pub struct Quantity<T: 'static> {
     pub long_name: &'static str,
     /// What `docs/hdf5-layout.md` says of it; empty where that is its `long_name`.
     pub note: &'static str,
+    /// Its name in tables and exports, and its heading in a workbook; none where these do not have it.
+    pub exported: Option<(&'static str, &'static str)>,
+    /// Whether results of earlier versions lack it: its field then keeps what it held.
+    pub is_later: bool,
     /// The field that it holds.
     pub field: Field<T>,
 }
@@ -64,11 +70,12 @@ pub struct Place<T, V> {
 }
 
 /// A [`Quantity`] as a row: the name of the array, its axes, type, unit, long name, in brackets the note where it is
-/// another, and the field.
+/// another, after `as` its name in tables and exports and its heading, and the field; `later` before all where earlier
+/// results lack it.
 macro_rules! quantity {
     (
-        $name:literal $axes:tt $kind:ident $unit:literal $long_name:literal $(($note:literal))?
-            = |$of:ident, $at:ident| $field:expr
+        $($later:ident)? $name:literal $axes:tt $kind:ident $unit:literal $long_name:literal $(($note:literal))?
+            $(as $exported:literal $heading:literal)? = |$of:ident, $at:ident| $field:expr
     ) => {
         $crate::declared::Quantity {
             name: $name,
@@ -76,9 +83,15 @@ macro_rules! quantity {
             unit: $unit,
             long_name: $long_name,
             note: concat!($($note)?),
+            exported: $crate::declared::quantity!(@exported $($exported $heading)?),
+            is_later: $crate::declared::quantity!(@is_later $($later)?),
             field: $crate::declared::quantity!(@field $kind |$of, $at| $field),
         }
     };
+    (@exported) => { None };
+    (@exported $name:literal $heading:literal) => { Some(($name, $heading)) };
+    (@is_later) => { false };
+    (@is_later later) => { true };
     (@field Made |$of:ident, $at:ident| $field:expr) => { $crate::declared::Field::Made(|$of, $at| $field) };
     (@field $kind:ident |$of:ident, $at:ident| $field:expr) => {
         $crate::declared::Field::$kind($crate::declared::Place {
@@ -93,14 +106,15 @@ pub(crate) use quantity;
 macro_rules! group {
     (
         $(#[$doc:meta])* pub const $group:ident: $value:ty = $path:expr;
-        $($name:literal $axes:tt $kind:ident $unit:literal $long_name:literal $(($note:literal))?
-            = |$of:ident, $at:ident| $field:expr;)+
+        $($($later:ident)? $name:literal $axes:tt $kind:ident $unit:literal $long_name:literal $(($note:literal))?
+            $(as $exported:literal $heading:literal)? = |$of:ident, $at:ident| $field:expr;)+
     ) => {
         $(#[$doc])*
         pub const $group: $crate::declared::Group<$value> = $crate::declared::Group {
             path: $path,
             quantities: &[$($crate::declared::quantity!(
-                $name $axes $kind $unit $long_name $(($note))? = |$of, $at| $field
+                $($later)? $name $axes $kind $unit $long_name $(($note))? $(as $exported $heading)?
+                    = |$of, $at| $field
             )),+],
         };
     };
@@ -129,11 +143,22 @@ impl<T> Quantity<T> {
         }
     }
 
+    /// Its name in tables and exports.
+    pub fn exported_name(&self) -> &'static str {
+        self.exported.map_or(self.name, |(name, _)| name)
+    }
+
+    /// Its heading in a workbook.
+    pub fn heading(&self) -> &'static str {
+        self.exported.map_or(self.name, |(_, heading)| heading)
+    }
+
     /// Its name where arrays of all measures stand side by side: `u_pgv_m`, `flag_pgv`; the unit stays at the end.
     pub fn name_with(&self, key: &str) -> String {
-        match self.name.strip_suffix("_m") {
+        let name = self.exported_name();
+        match name.strip_suffix("_m") {
             Some(stem) => format!("{stem}_{key}_m"),
-            None => format!("{}_{key}", self.name),
+            None => format!("{name}_{key}"),
         }
     }
 
@@ -149,6 +174,11 @@ impl<T> Quantity<T> {
         }
     }
 
+    /// Its values at these places as numbers; none of texts.
+    pub fn numbers(&self, value: &T, places: Range<usize>) -> Vec<f64> {
+        places.filter_map(|at| self.number(value, at)).collect()
+    }
+
     /// Its axes; those with an empty name are not there.
     fn axes(&self, names: Names<'_>) -> Vec<String> {
         let axes = self.axes.iter().map(|axis| named(axis, names).into_owned());
@@ -156,7 +186,7 @@ impl<T> Quantity<T> {
     }
 
     /// Its axes with their lengths.
-    fn shape(&self, names: Names<'_>, lengths: Lengths<'_>) -> Vec<(String, usize)> {
+    pub fn shape(&self, names: Names<'_>, lengths: Lengths<'_>) -> Vec<(String, usize)> {
         let length = |axis: &str| lengths.iter().find(|(name, _)| *name == axis).map_or(0, |(_, length)| *length);
         self.axes(names).into_iter().map(|axis| (axis.clone(), length(&axis))).collect()
     }
@@ -206,6 +236,9 @@ impl<T> Quantity<T> {
             }
         }
         let reader = &file.reader;
+        if self.is_later && !reader.exists(path) {
+            return Ok(());
+        }
         match &self.field {
             Field::F64(place) => fill(value, place, file.checked(path, reader.array_f64(path)?, shape)?),
             Field::U32(place) => fill(value, place, file.checked(path, reader.array_u32(path)?, shape)?),
@@ -273,20 +306,22 @@ impl<T> Group<T> {
         self.group(&of_measure(measure))
     }
 
-    /// The path of an array of one measure.
-    pub fn path_of(&self, quantity: &Quantity<T>, measure: IntensityMeasure) -> String {
-        self.path(quantity, &of_measure(measure))
+    /// Those of its arrays that tables and exports have.
+    pub fn exported(&self) -> impl Iterator<Item = &'static Quantity<T>> {
+        self.quantities.iter().filter(|quantity| quantity.exported.is_some())
     }
 
     /// What `write` makes of path, axes, unit and long name of the only array.
     fn with_only<R>(&self, names: Names<'_>, write: impl FnOnce(&str, &[&str], &str, &str) -> R) -> R {
+        debug_assert_eq!(self.quantities.len(), 1, "the arrays of {}", self.path);
         let own = &self.quantities[0];
         let axes = own.axes(names);
         let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
         write(&self.path(own, names), &dims, &named(own.unit, names), &named(own.long_name, names))
     }
 
-    fn path(&self, quantity: &Quantity<T>, names: Names<'_>) -> String {
+    /// The path of an array.
+    pub fn path(&self, quantity: &Quantity<T>, names: Names<'_>) -> String {
         named(&format!("{}/{}", self.path, quantity.name), names).into_owned()
     }
 
@@ -298,6 +333,12 @@ impl<T> Group<T> {
     /// Whether `file` has the first of its arrays.
     pub(super) fn is_in(&self, file: &ResultFile, names: Names<'_>) -> bool {
         file.reader.exists(&self.first_path(names))
+    }
+
+    /// The array `name`.
+    fn quantity(&self, file: &ResultFile, name: &str) -> Result<&'static Quantity<T>, ResultError> {
+        let named = self.quantities.iter().find(|own| own.name == name);
+        named.ok_or_else(|| file.fail(format!("{} has no array {name}", self.path)))
     }
 
     /// Writes every array of `value`.
@@ -332,25 +373,26 @@ impl<T> Group<T> {
             .try_for_each(|quantity| quantity.write(writer, &self.path(quantity, names), (names, lengths), &rows))
     }
 
-    /// Reads the first of its arrays, of floats.
+    /// Reads the array `name`, of floats.
     pub(super) fn read_array<const N: usize>(
         &self,
+        name: &str,
         file: &ResultFile,
         names: Names<'_>,
         lengths: [(&str, usize); N],
     ) -> Result<Array<N>, ResultError> {
-        file.array(&self.first_path(names), lengths)
+        file.array(&self.path(self.quantity(file, name)?, names), lengths)
     }
 
-    /// The values of its array at `at`, of floats.
+    /// The values of the array `name`, of floats, whatever its axes are.
     pub(super) fn read_floats(
         &self,
-        at: usize,
+        name: &str,
         file: &ResultFile,
         names: Names<'_>,
         lengths: Lengths<'_>,
     ) -> Result<Vec<f64>, ResultError> {
-        let quantity = &self.quantities[at];
+        let quantity = self.quantity(file, name)?;
         let (path, shape) = (self.path(quantity, names), quantity.shape(names, lengths));
         file.checked(&path, file.reader.array_f64(&path)?, &shape)
     }
@@ -390,54 +432,10 @@ impl<T> Group<T> {
         }
         Ok(true)
     }
-
-    /// Its rows of the table of arrays in `docs/hdf5-layout.md`.
-    #[cfg(test)]
-    pub(super) fn rows(&self) -> String {
-        let row = |quantity: &Quantity<T>| {
-            let Quantity { name, unit, long_name, .. } = *quantity;
-            let note = if quantity.note.is_empty() { long_name } else { quantity.note };
-            let unit = if quantity.element() == "text" { String::new() } else { format!(" {unit}") };
-            let (path, axes, element) = (self.path, quantity.axes(EXAMPLES).join(", "), quantity.element());
-            named(&format!("| `{path}/{name}` | {axes} | {element} |{unit} | {note} |\n"), EXAMPLES).into_owned()
-        };
-        self.quantities.iter().map(row).collect()
-    }
 }
 
-/// The names that `docs/hdf5-layout.md` shows.
-#[cfg(test)]
-const EXAMPLES: Names<'_> = &[
-    ("<curve>", "<site>/pgv"),
-    ("<axis>", "hazard_<site>_pgv"),
-    ("<quantity>", "strength_factor`, `restitution`, `uplift_displacement_m`, `capacity_m"),
-    ("<quantity_unit>", "1, 1, m, m"),
-    ("<line>", "LINE"),
-    ("<of_line>", ""),
-    ("<abscissa>", "ABSCISSA"),
-    ("<printed>", "printed_ABSCISSA"),
-    ("<motion>", "motion_<set>"),
-    ("<rounding>", ""),
-    ("<rounded>", ""),
-    ("<lower>", "u05_m"),
-    ("<median>", "u50_m"),
-    ("<upper>", "u95_m"),
-    ("<of_repaired>", ""),
-    ("<other>", "pga"),
-    ("<other_unit>", "g"),
-    ("<label>", "PGA"),
-    ("<unit_key>", "cm_s"),
-    ("<unit>", "cm/s"),
-    ("<branches>", "branch_<site>_pgv or structure"),
-    ("<one>", "branch or structure"),
-    ("<many>", "branches or structures"),
-    ("<levels>", "<im>_level"),
-    ("<with>: ", ""),
-    ("<im>", "pgv"),
-];
-
 /// A text with `names` for what stands in angle brackets.
-fn named<'a>(text: &'a str, names: Names<'_>) -> Cow<'a, str> {
+pub(super) fn named<'a>(text: &'a str, names: Names<'_>) -> Cow<'a, str> {
     if !text.contains('<') {
         return text.into();
     }
@@ -445,125 +443,4 @@ fn named<'a>(text: &'a str, names: Names<'_>) -> Cow<'a, str> {
 }
 
 #[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use std::fmt::Write as _;
-    use std::path::Path;
-    use std::{env, fs};
-
-    use super::super::*;
-
-    /// The paths of groups, each with the rows of its arrays.
-    macro_rules! rows {
-        ($($group:expr),+ $(,)?) => { [$(($group.path, $group.rows())),+] };
-    }
-
-    /// The paths of declared groups with the rows of their arrays.
-    fn declared() -> impl Iterator<Item = (&'static str, String)> {
-        rows![
-            RECORDS,
-            MOTION_KEYS,
-            INTENSITY,
-            DRAWN_STRUCTURE,
-            DRAWN_QUANTITY,
-            HAZARD_CURVE,
-            PEAKS,
-            IMPACTS,
-            FACTORS,
-            SHARES,
-            RISK_SURFACE,
-            urs::GROUP,
-            regression::GROUP,
-            REPAIRED_FITS,
-            CONSISTENCY,
-            DIAGNOSES,
-            REPAIRED_LEVELS,
-            REPAIRS,
-            WEIGHTS,
-            REPAIRED_SPECTRA,
-            BANDS,
-            SIMULTANEOUS_BANDS,
-            INFERRED_BANDS,
-            FAILED_SAMPLES,
-            JOINT_BANDS,
-            FAILED_PAIRS,
-            DRAWS,
-            BRANCH_WEIGHTS,
-            EPISTEMIC_SPECTRA,
-            EPISTEMIC,
-            UNCERTAINTY_SPECTRA,
-            UNCERTAINTY,
-            REPAIRED_EPISTEMIC_SPECTRA,
-            REPAIRED_EPISTEMIC,
-            INFLUENCE,
-            INFLUENCE_REPAIRED,
-            DISAGGREGATION,
-            DISAGGREGATION_REPAIRED,
-            REACHING,
-            EFFICIENCY_OF_STRIPES,
-            EFFICIENCY,
-            TRENDS,
-            FINDINGS,
-            SPECTRA,
-            ROUNDED_SPECTRA,
-            SET_SPECTRA,
-            MOTIONS,
-            RESTRAINED_DESIGN,
-            SOLITARY_DESIGN,
-            SOLITARY_CAPACITY,
-            TABLE_EXCITATIONS,
-            TABLE_TESTS,
-            TABLE_ORDER,
-            TABLE_SPECTRA,
-            DESIGN_SPECTRUM,
-        ]
-        .into_iter()
-    }
-
-    /// What stands before a table: the groups whose arrays it has.
-    const MARK: (&str, &str) = ("<!-- arrays: ", " -->");
-
-    /// The page with its tables of declared groups made again, and the groups in them.
-    fn made_anew(page: &str) -> (String, Vec<&str>) {
-        let (mut made, mut shown) = (String::new(), Vec::new());
-        let mut lines = page.lines().peekable();
-        while let Some(line) = lines.next() {
-            writeln!(made, "{line}").unwrap();
-            let Some(paths) = line.strip_prefix(MARK.0).and_then(|rest| rest.strip_suffix(MARK.1)) else { continue };
-            while lines.next_if(|line| line.is_empty()).is_some() {}
-            while lines.next_if(|line| line.starts_with('|')).is_some() {}
-            while lines.next_if(|line| line.is_empty()).is_some() {}
-            made.push_str("\n| array | dimensions | type | unit | content |\n|---|---|---|---|---|\n");
-            for path in paths.split(", ") {
-                let rows: String = declared().filter(|(own, _)| *own == path).map(|(_, rows)| rows).collect();
-                assert!(!rows.is_empty(), "no group {path} is declared");
-                made.push_str(&rows);
-                shown.push(path);
-            }
-            if lines.peek().is_some() {
-                made.push('\n');
-            }
-        }
-        (made, shown)
-    }
-
-    #[test]
-    fn the_documentation_has_every_declared_array() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/hdf5-layout.md");
-        let page = fs::read_to_string(&path).unwrap();
-        let (made, shown) = made_anew(&page);
-        for (group, _) in declared() {
-            assert!(shown.contains(&group), "docs/hdf5-layout.md has no table of {group}");
-        }
-        if env::var_os("UPDATE_DOCS").is_some() {
-            fs::write(&path, &made).unwrap();
-        } else {
-            let first = page.lines().zip(made.lines()).find(|(stands, made)| stands != made);
-            assert!(
-                page == made,
-                "docs/hdf5-layout.md is not what is declared, first in {first:?}: UPDATE_DOCS=1 cargo test -p \
-                 uplift-result"
-            );
-        }
-    }
-}
+mod tests;

@@ -7,7 +7,7 @@ use uplift_spectra::{Noisy, RestrainedExample, SolitaryExample};
 use uplift_structure::Rule;
 use uplift_study::Kind;
 
-use super::declared::{Names, group};
+use super::declared::{Group, Names, Quantity, group, named};
 use super::file::ResultFile;
 use super::layout::axis::{BOUND, RECORD_SET, RULE, SCALED_BY, SCALING};
 use crate::error::ResultError;
@@ -30,13 +30,17 @@ group! {
         "demand on the zero-stiffness system<rounded>" ("oscillators: demand on the zero-stiffness system")
         = |of, at| bounds(of.zero_stiffness_m)[at];
     "u_cap_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "m" "designed capacity (Eq. 3.15)<rounded>"
+        as "u_cap_m" "u_cap_m"
         = |of, at| bounds(of.capacity_m)[at];
     "u_dem_th_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "m"
-        "demand on the designed system by time histories<rounded>" = |of, at| bounds(of.time_history_m)[at];
+        "demand on the designed system by time histories<rounded>" as "u_dem_TH_m" "u_dem_TH_m"
+        = |of, at| bounds(of.time_history_m)[at];
     "u_dem_rule_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "m"
-        "demand on the designed system by the rule<rounded>" = |of, at| bounds(of.rule_m)[at];
+        "demand on the designed system by the rule<rounded>" as "u_dem_rule_m" "u_dem_rule_m"
+        = |of, at| bounds(of.rule_m)[at];
     "error<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "1"
-        "(rule - time histories)/time histories<rounded>" = |of, at| bounds(of.error)[at];
+        "(rule - time histories)/time histories<rounded>" as "error_pct" "error_pct"
+        = |of, at| bounds(of.error)[at];
 }
 
 group! {
@@ -44,12 +48,16 @@ group! {
     pub const SOLITARY_DESIGN: SolitaryExample = RESTRAINED_DESIGN.path;
     "tan_alpha<rounding>" [RECORD_SET, SCALING, SCALED_BY, BOUND] Made "1" "design slenderness tan(alpha_D)<rounded>"
         ("blocks: design slenderness; NaN where the capacity line meets no demand")
+        as "tan_alpha_design" "tan_alpha_design"
         = |of, at| bounds(of.design_tangent)[at];
     "u_endless_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, BOUND] Made "m"
-        "displacement of the endless block there<rounded>" = |of, at| bounds(of.endless_m)[at];
+        "displacement of the endless block there<rounded>" as "<endless>" "<endless>"
+        = |of, at| bounds(of.endless_m)[at];
     "u_block_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, BOUND] Made "m"
-        "displacement of the block itself there<rounded>" = |of, at| bounds(of.block_m)[at];
+        "displacement of the block itself there<rounded>" as "<block>" "<block>"
+        = |of, at| bounds(of.block_m)[at];
     "error<rounding>" [RECORD_SET, SCALING, SCALED_BY, BOUND] Made "1" "(endless - block)/block<rounded>"
+        as "error_pct" "error_pct"
         = |of, at| bounds(of.error)[at];
 }
 
@@ -153,6 +161,16 @@ impl DesignRow {
     }
 }
 
+/// A quantity of the table over `[set, scaling, scaled_by, rule, bound]`.
+struct DesignColumn {
+    quantity: String,
+    /// What the stored values are multiplied by.
+    factor: f64,
+    values: Array<5>,
+    /// None in older results.
+    rounding: Option<Array<5>>,
+}
+
 impl StoredDesigned {
     /// What the displacement of a block of the height 2H at the design slenderness is called.
     pub fn block_quantity(height_m: f64) -> String {
@@ -215,41 +233,50 @@ impl ResultFile {
         }))
     }
 
+    /// The quantities that the design table of `group` has, with `heights` in their names.
+    fn design_columns<T: 'static>(
+        &self,
+        group: &Group<T>,
+        heights: Names<'_>,
+        lengths: [(&str, usize); 5],
+    ) -> Result<Vec<DesignColumn>, ResultError> {
+        let read = |name: &str, names: Names<'_>| {
+            let values = group.read_floats(name, self, names, &lengths)?;
+            Array::new(lengths.map(|(_, length)| length), values).map_err(|error| self.damaged(error))
+        };
+        let is_rounded = group.is_in(self, &ROUNDING);
+        let column = |stored: &Quantity<T>| {
+            let quantity = named(stored.exported_name(), heights).into_owned();
+            Ok(DesignColumn {
+                factor: if quantity.ends_with("_pct") { 100.0 } else { 1.0 },
+                quantity,
+                values: read(stored.name, &VALUES)?,
+                rounding: is_rounded.then(|| read(stored.name, &ROUNDING)).transpose()?,
+            })
+        };
+        group.exported().map(column).collect()
+    }
+
     fn design_rows(&self, designed: StoredDesigned) -> Result<Vec<DesignRow>, ResultError> {
         let [sets, to, by] = [RECORD_SET, SCALING, SCALED_BY].map(|axis| self.reader.axis_text(axis));
         let (sets, to, by) = (sets?, to?, by?);
-        // what the table has, by the names of its quantities, and where it begins among the arrays
-        let (rules, first, quantities) = match designed {
-            StoredDesigned::Bridge => {
-                let quantities = ["u_cap_m", "u_dem_TH_m", "u_dem_rule_m", "error_pct"].map(str::to_owned);
-                (RULES.map(|rule| Some(rule_names(rule)[1])).to_vec(), 1, quantities)
-            }
-            StoredDesigned::Block { height_m, endless_height_m } => {
-                let [endless, block] = [endless_height_m, height_m].map(StoredDesigned::block_quantity);
-                (vec![None], 0, ["tan_alpha_design".to_owned(), endless, block, "error_pct".to_owned()])
-            }
+        let rules = match designed {
+            StoredDesigned::Bridge => RULES.map(|rule| Some(rule_names(rule)[1])).to_vec(),
+            StoredDesigned::Block { .. } => vec![None],
         };
         let ways = [(RECORD_SET, sets.len()), (SCALING, to.len()), (SCALED_BY, by.len())];
         let lengths = [ways[0], ways[1], ways[2], (RULE, rules.len()), (BOUND, BOUNDS.len())];
-        // [set, scaling, scaled_by, rule, bound]
-        let read = |at: usize, names: Names<'_>| -> Result<Array<5>, ResultError> {
-            let values = match designed {
-                StoredDesigned::Bridge => RESTRAINED_DESIGN.read_floats(at, self, names, &lengths)?,
-                StoredDesigned::Block { .. } => SOLITARY_DESIGN.read_floats(at, self, names, &lengths)?,
-            };
-            Array::new(lengths.map(|(_, length)| length), values).map_err(|error| self.damaged(error))
+        let columns = match designed {
+            StoredDesigned::Bridge => self.design_columns(&RESTRAINED_DESIGN, &[], lengths)?,
+            StoredDesigned::Block { height_m, endless_height_m } => {
+                let [endless, block] = [endless_height_m, height_m].map(StoredDesigned::block_quantity);
+                self.design_columns(&SOLITARY_DESIGN, &[("<endless>", &endless), ("<block>", &block)], lengths)?
+            }
         };
-        let is_rounded = RESTRAINED_DESIGN.is_in(self, &ROUNDING) || SOLITARY_DESIGN.is_in(self, &ROUNDING);
-        let mut columns = Vec::new();
-        for (at, quantity) in (first..).zip(quantities) {
-            let factor = if quantity.ends_with("_pct") { 100.0 } else { 1.0 };
-            let rounding = is_rounded.then(|| read(at, &ROUNDING)).transpose()?;
-            columns.push((quantity, factor, read(at, &VALUES)?, rounding));
-        }
         let mut rows = Vec::new();
         for (set, record_set) in sets.iter().enumerate() {
             for (position, &rule) in rules.iter().enumerate() {
-                for (quantity, factor, values, rounding) in &columns {
+                for DesignColumn { quantity, factor, values, rounding } in &columns {
                     let noisy = |values: &Array<5>, place: [usize; 4]| {
                         let [value, lowest, highest] = [0, 1, 2].map(|bound| factor * values.block(place)[bound]);
                         Noisy { value, lowest, highest }

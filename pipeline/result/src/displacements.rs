@@ -312,13 +312,13 @@ impl ResultFile {
         let mut lengths = vec![(RECORD_SET, sets.len()), (SCALING, scalings.len()), (SCALED_BY, scaled_by.len())];
         lengths.extend(structures.line_axes());
         lengths.extend([(PERCENTILE, percentiles.len()), (abscissa, abscissas.len()), (BOUND, BOUNDS.len())]);
-        let u_m = SPECTRA.read_floats(0, self, &names, &lengths)?;
+        let u_m = SPECTRA.read_floats("u_m", self, &names, &lengths)?;
         let percentile_m = Array::new(shape, u_m).map_err(|error| self.damaged(error))?;
         let rounding = if ROUNDED_SPECTRA.is_in(self, &names) {
             let abscissas = reader.axis_f64(printed)?;
             lengths.push((printed, abscissas.len()));
             shape[5] = abscissas.len();
-            let values = ROUNDED_SPECTRA.read_floats(0, self, &names, &lengths)?;
+            let values = ROUNDED_SPECTRA.read_floats("u_m_rounding", self, &names, &lengths)?;
             let of = |bounds: &[f64]| Noisy { value: bounds[0], lowest: bounds[1], highest: bounds[2] };
             let values = values.chunks_exact(BOUNDS.len()).map(of).collect();
             let percentile_m = Array::new(shape, values).map_err(|error| self.damaged(error))?;
@@ -366,11 +366,11 @@ impl ResultFile {
         if shape.contains(&0) {
             return Err(self.damaged(format!("an axis of {} is empty", SET_SPECTRA.first_path(&names))));
         }
-        let u_m = SET_SPECTRA.read_floats(0, self, &names, &lengths)?;
+        let u_m = SET_SPECTRA.read_floats("u_m", self, &names, &lengths)?;
         Ok(StoredMotions {
             names: motions,
             u_m: Array::new(shape, u_m).map_err(|error| self.damaged(error))?,
-            pgv_cm_s: MOTIONS.read_floats(0, self, &names, &lengths)?,
+            pgv_cm_s: MOTIONS.read_floats("pgv_cm_s", self, &names, &lengths)?,
         })
     }
 

@@ -61,21 +61,17 @@ group! {
 }
 
 group! {
-    /// What ranks measures; absent in results of versions that did not ask.
-    pub const REACHING: StoredEfficiency = EFFICIENCY.path;
-    "reaching" [STRENGTH] F64 "1"
-        "deviation of the logarithm of the level at which a displacement is reached, median over displacements"
-        = |of, at| of.reaching[at];
-}
-
-group! {
     /// How efficient a measure is.
     pub const EFFICIENCY: StoredEfficiency = "/efficiency/<im>";
-    "rocking" [STRENGTH] F64 "1" "median dispersion of the stripes whose median rocks" = |of, at| of.rocking[at];
+    later "reaching" [STRENGTH] F64 "1"
+        "deviation of the logarithm of the level at which a displacement is reached, median over displacements"
+        as "dispersion_level" "dispersion of the level" = |of, at| of.reaching[at];
+    "rocking" [STRENGTH] F64 "1" "median dispersion of the stripes whose median rocks"
+        as "dispersion_rocking" "dispersion, rocking" = |of, at| of.rocking[at];
     "undefined" [STRENGTH] F64 "1" "share of these stripes that have none, for zeros or overturning"
-        = |of, at| of.undefined[at];
+        as "undefined_share" "share undefined" = |of, at| of.undefined[at];
     "initiation" [STRENGTH] F64 "1" "deviation of the logarithm of the level at first uplift"
-        = |of, at| of.initiation[at];
+        as "dispersion_initiation" "dispersion, first uplift" = |of, at| of.initiation[at];
     "initiation_records" [STRENGTH] U32 "1" "records whose level at first uplift is known"
         = |of, at| of.initiation_records[at];
 }
@@ -85,9 +81,10 @@ group! {
     pub const TRENDS: StoredTrend = "/sufficiency/<im>/<covariate>";
     "slope" [STRENGTH] F64 "1" "<with>: change of the mean logarithmic residual with it"
         ("change of the mean logarithmic residual with the covariate: `magnitude`, `ln_rrup`, `ln_duration`")
-        = |of, at| of.slope[at];
+        as "slope" "slope over" = |of, at| of.slope[at];
     "slope_error" [STRENGTH] F64 "1" "<with>: standard error of the slope" = |of, at| of.slope_error[at];
-    "p_value" [STRENGTH] F64 "1" "<with>: probability of such a slope if there were none" = |of, at| of.p_value[at];
+    "p_value" [STRENGTH] F64 "1" "<with>: probability of such a slope if there were none"
+        as "p_value" "p value of" = |of, at| of.p_value[at];
     "r_squared" [STRENGTH] F64 "1" "<with>: share of the variance explained" = |of, at| of.r_squared[at];
 }
 
@@ -135,9 +132,6 @@ impl ResultFile {
                 initiation_records: vec![0; strengths],
                 trends: covariates.into_iter().map(trend).collect::<Result<_, ResultError>>()?,
             };
-            if REACHING.is_in(self, &names) {
-                REACHING.read(self, &names, lengths, &mut found)?;
-            }
             EFFICIENCY.read(self, &names, lengths, &mut found)?;
             Ok(found)
         };

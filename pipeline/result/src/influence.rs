@@ -69,10 +69,10 @@ impl ResultFile {
             let bin = axis::bin(measure);
             let bins = self.reader.axis_f64(&bin)?;
             let names = of_measure(measure);
-            let shares = DISAGGREGATION.read_array(self, &names, [site, poe, strength, (&bin, bins.len())])?;
+            let shares = DISAGGREGATION.read_array("share", self, &names, [site, poe, strength, (&bin, bins.len())])?;
             let without_m = INFLUENCE
                 .is_in(self, &names)
-                .then(|| INFLUENCE.read_array(self, &names, [site, poe, record, strength]))
+                .then(|| INFLUENCE.read_array("u_without_m", self, &names, [site, poe, record, strength]))
                 .transpose()?;
             Ok(StoredInfluence { measure, without_m, bins, shares })
         };

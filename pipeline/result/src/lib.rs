@@ -51,7 +51,7 @@ pub use displacements::{
     SetSpectra, SpectrumPlace, StoredDisplacements, StoredMotion, StoredMotions, StoredRounding, StoredSet,
     StoredStructures,
 };
-pub use efficiency::{EFFICIENCY, EFFICIENCY_OF_STRIPES, REACHING, TRENDS};
+pub use efficiency::{EFFICIENCY, EFFICIENCY_OF_STRIPES, TRENDS};
 pub use efficiency::{StoredEfficiency, StoredTrend};
 pub use error::ResultError;
 pub use extend::{LockedResult, sign};

@@ -73,7 +73,7 @@ impl ResultFile {
         let level = axis::level(measure);
         let levels = self.reader.axis_f64(&level)?;
         let lengths = [(RECORD, axes.records.len()), (STRENGTH, axes.strengths.len()), (level.as_str(), levels.len())];
-        let edp_m = PEAKS.read_array(self, &of_measure(measure), lengths)?;
+        let edp_m = PEAKS.read_array("edp_m", self, &of_measure(measure), lengths)?;
         let shares = self.shares_of_levels(axes.records.len(), measure, levels.len())?;
         Ok(StoredPeaks { levels, edp_m, shares })
     }
@@ -92,7 +92,8 @@ impl ResultFile {
         if !FACTORS.is_in(self, &names) {
             return Ok(None);
         }
-        let factors = FACTORS.read_array(self, &names, [(RECORD, records), (level.as_str(), levels)])?.into_values();
+        let factors =
+            FACTORS.read_array("factor", self, &names, [(RECORD, records), (level.as_str(), levels)])?.into_values();
         Ok(Some(SetsOfLevels { factors, shares: self.shares_of_levels(records, measure, levels)? }))
     }
 
@@ -105,6 +106,9 @@ impl ResultFile {
     ) -> Result<Option<Vec<f64>>, ResultError> {
         let (names, level) = (of_measure(measure), axis::level(measure));
         let lengths = [(level.as_str(), levels), (RECORD, records)];
-        SHARES.is_in(self, &names).then(|| Ok(SHARES.read_array(self, &names, lengths)?.into_values())).transpose()
+        SHARES
+            .is_in(self, &names)
+            .then(|| Ok(SHARES.read_array("share", self, &names, lengths)?.into_values()))
+            .transpose()
     }
 }

@@ -150,8 +150,9 @@ impl ResultFile {
         self.require(Kind::UniformRisk)?;
         let ids = self.reader.axis_text(RECORD)?;
         let lengths = [(RECORD, ids.len())];
-        let intensity =
-            |measure| INTENSITY.read_array(self, &intensity_names(measure), lengths).map(Array::into_values);
+        let intensity = |measure| {
+            INTENSITY.read_array("<im>_<unit_key>", self, &intensity_names(measure), lengths).map(Array::into_values)
+        };
         let further = self.stored_study()?.further_measures().into_iter();
         let nan = vec![f64::NAN; ids.len()];
         let empty = vec![String::new(); ids.len()];

@@ -54,17 +54,20 @@ pub mod urs {
         Group { path: "/urs/<im>", quantities: &[U_M, FLAG, LOWER_TAIL_SHARE, UPPER_TAIL_SHARE] };
     /// The spectra.
     pub const U_M: Quantity<MeasureSpectra> = quantity!("u_m" [SITE, POE, STRENGTH] F64 "m"
-        "uniform risk displacement" ("the spectra; `inf` where censored") = |of, at| of.u_m[at]);
+        "uniform risk displacement" ("the spectra; `inf` where censored")
+        as "u_m" "u, m" = |of, at| of.u_m[at]);
     /// What kind of ordinate each is.
     pub const FLAG: Quantity<MeasureSpectra> = quantity!("flag" [SITE, POE, STRENGTH] Flag "1"
         "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored"
-        ("0 regular; 1 no exceedance, ordinate 0; 2 censored") = |of, at| of.flags[at]);
+        ("0 regular; 1 no exceedance, ordinate 0; 2 censored") as "flag" "flag" = |of, at| of.flags[at]);
     /// The risk from below the first level.
     pub const LOWER_TAIL_SHARE: Quantity<MeasureSpectra> = quantity!("lower_tail_share" [SITE, POE, STRENGTH] F64 "1"
-        "share of the risk from below the first level" = |of, at| of.lower_tail_share[at]);
+        "share of the risk from below the first level"
+        as "lower_tail_share" "share from below, %" = |of, at| of.lower_tail_share[at]);
     /// The risk from above the last level.
     pub const UPPER_TAIL_SHARE: Quantity<MeasureSpectra> = quantity!("upper_tail_share" [SITE, POE, STRENGTH] F64 "1"
-        "share of the risk from above the last level" = |of, at| of.upper_tail_share[at]);
+        "share of the risk from above the last level"
+        as "upper_tail_share" "share from above, %" = |of, at| of.upper_tail_share[at]);
 }
 
 /// Coefficients of Eq. 4.11: the arrays of `/regression/<im>`.

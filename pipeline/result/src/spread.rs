@@ -75,12 +75,18 @@ pub struct Spread {
 group! {
     /// Spread over the weighted hazard curves of a site; `<one>` of them and `<many>` in words.
     pub const EPISTEMIC: Spread = "/epistemic/<im>/<site>";
-    "mean_m" [POE, STRENGTH] F64 "m" "weighted mean over the <many>" = |of, at| of.mean_m[at];
-    "u05_m" [POE, STRENGTH] F64 "m" "5 % fractile over the <many>" = |of, at| of.fractiles_m[0][at];
-    "u16_m" [POE, STRENGTH] F64 "m" "16 % fractile over the <many>" = |of, at| of.fractiles_m[1][at];
-    "u50_m" [POE, STRENGTH] F64 "m" "50 % fractile over the <many>" = |of, at| of.fractiles_m[2][at];
-    "u84_m" [POE, STRENGTH] F64 "m" "84 % fractile over the <many>" = |of, at| of.fractiles_m[3][at];
-    "u95_m" [POE, STRENGTH] F64 "m" "95 % fractile over the <many>" = |of, at| of.fractiles_m[4][at];
+    "mean_m" [POE, STRENGTH] F64 "m" "weighted mean over the <many>" as "mean_m" "mean"
+        = |of, at| of.mean_m[at];
+    "u05_m" [POE, STRENGTH] F64 "m" "5 % fractile over the <many>" as "u05_m" "5 %"
+        = |of, at| of.fractiles_m[0][at];
+    "u16_m" [POE, STRENGTH] F64 "m" "16 % fractile over the <many>" as "u16_m" "16 %"
+        = |of, at| of.fractiles_m[1][at];
+    "u50_m" [POE, STRENGTH] F64 "m" "50 % fractile over the <many>" as "u50_m" "50 %"
+        = |of, at| of.fractiles_m[2][at];
+    "u84_m" [POE, STRENGTH] F64 "m" "84 % fractile over the <many>" as "u84_m" "84 %"
+        = |of, at| of.fractiles_m[3][at];
+    "u95_m" [POE, STRENGTH] F64 "m" "95 % fractile over the <many>" as "u95_m" "95 %"
+        = |of, at| of.fractiles_m[4][at];
 }
 
 group! {

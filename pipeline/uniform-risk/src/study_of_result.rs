@@ -8,6 +8,7 @@ use uplift_inputs::{RecordSet, motion_keys, read_measured, read_with_pairs};
 use uplift_job::events::Silent;
 use uplift_job::{Array, JobError};
 use uplift_motion::{IntensityMeasure, RecordPair};
+use uplift_result::declared::of_measure;
 use uplift_result::{ResultFile, StoredRecords, urs};
 use uplift_risk::StripeWeights;
 use uplift_study::{MeasurePlan, UniformRiskStudy};
@@ -81,7 +82,9 @@ impl StudyOfResult {
                 Ok(SpectraOfResult {
                     plan: plan.clone(),
                     u_m: own
-                        .ok_or_else(|| file.damaged(urs::GROUP.path_of(&urs::U_M, plan.measure) + " is missing"))?
+                        .ok_or_else(|| {
+                            file.damaged(urs::GROUP.path(&urs::U_M, &of_measure(plan.measure)) + " is missing")
+                        })?
                         .u_m
                         .clone(),
                     weights: axes.sites.iter().map(weigh).collect::<Result<_, _>>()?,

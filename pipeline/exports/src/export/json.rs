@@ -2,19 +2,18 @@
 
 use serde_json::{Value, json};
 use uplift_job::text::finite;
-use uplift_questions::efficiency::{FIGURES, Figure, TRENDS};
 use uplift_questions::influence::{CHANGES, RecordInfluence};
-use uplift_result::declared::{Field, Quantity};
+use uplift_result::declared::{Field, Group, Quantity};
 use uplift_result::{
-    BAND_FIGURES, BandKind, Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, flag_word,
-    regression, urs,
+    BAND_FIGURES, BandKind, EFFICIENCY, Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, TRENDS,
+    flag_word, regression, urs,
 };
 use uplift_uniform_risk::QUOTED_LIMITS;
 
 use super::Export;
 use super::added::Influence;
 use super::bands::BandOf;
-use super::source::{self, ConsistencyOf, Row};
+use super::source::{ConsistencyOf, Row};
 
 impl Export {
     /// Everything as one JSON object; what is not finite is null.
@@ -51,10 +50,9 @@ impl Export {
             "poe": row.spectrum.poe,
             "return_period_years": finite(row.return_period),
         });
-        let strengths = self.spectra.strengths.len();
-        let first = (row.at[0] * self.spectra.poes.len() + row.at[1]) * strengths;
-        for quantity in urs::GROUP.quantities {
-            spectrum[quantity.name] = (first..first + strengths).map(|at| cell(quantity, row.of_measure, at)).collect();
+        for quantity in urs::GROUP.exported() {
+            spectrum[quantity.exported_name()] =
+                self.places(row).map(|at| cell(quantity, row.of_measure, at)).collect();
         }
         for (name, limits_m) in QUOTED_LIMITS.iter().zip(row.quoted_m()) {
             spectrum[name] = numbers(&limits_m).into();
@@ -141,8 +139,8 @@ fn consistency(row: &ConsistencyOf<'_>) -> Value {
         "years": row.of.years,
         "ratio": numbers(row.ratio),
     });
-    for ((name, ..), figure) in source::FIGURES.iter().zip(row.figures) {
-        said[*name] = finite(figure).into();
+    for (figure, value) in row.figures() {
+        said[figure.exported_name()] = finite(value).into();
     }
     said["verdict"] = row.verdict.into();
     if let Some(least) = row.least_effective {
@@ -154,11 +152,11 @@ fn consistency(row: &ConsistencyOf<'_>) -> Value {
 fn efficiency(of: &StoredEfficiency) -> Value {
     let trend = |trend: &StoredTrend| {
         let mut said = json!({ "covariate": trend.covariate });
-        add(&mut said, &TRENDS, trend);
+        add(&mut said, &TRENDS, trend, trend.slope.len());
         said
     };
     let mut said = json!({ "im": of.measure.label(), "scaled_to": of.scaled_to.label() });
-    add(&mut said, &FIGURES, of);
+    add(&mut said, &EFFICIENCY, of, of.rocking.len());
     said["trends"] = of.trends.iter().map(trend).collect();
     said
 }
@@ -180,9 +178,10 @@ fn band(band: &BandOf<'_>) -> Value {
     said
 }
 
-fn add<T>(said: &mut Value, figures: &[Figure<T>], of: &T) {
-    for (name, _, values) in figures {
-        said[*name] = numbers(values(of)).into();
+/// The first `count` values of each array of `group`.
+fn add<T>(said: &mut Value, group: &Group<T>, of: &T, count: usize) {
+    for quantity in group.exported() {
+        said[quantity.exported_name()] = (0..count).map(|at| cell(quantity, of, at)).collect();
     }
 }
 

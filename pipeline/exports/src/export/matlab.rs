@@ -4,15 +4,17 @@ pub(super) mod level_5;
 
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
-use uplift_questions::efficiency::{FIGURES, TRENDS};
-use uplift_result::declared::Quantity;
-use uplift_result::{BAND_FIGURES, INFERRED_BANDS, StoredSpectra, StoredSpread, before_unit, regression, urs};
+use uplift_result::declared::{Field, Lengths, Quantity};
+use uplift_result::layout::axis::{POE, SAMPLE_SIZE, SITE, STRENGTH};
+use uplift_result::{
+    BAND_FIGURES, CONSISTENCY, EFFICIENCY, INFERRED_BANDS, StoredSpectra, StoredSpread, TRENDS, before_unit,
+    regression, urs,
+};
 use uplift_uniform_risk::QUOTED_LIMITS;
 
 use super::Export;
 use super::added::Influence;
 use super::bands::{BY_SPECTRUM, name_with};
-use super::source;
 use crate::error::ExportsError;
 use level_5::{MatFile, Shape};
 
@@ -38,14 +40,15 @@ impl Export {
             let key = spectra.measure.key();
             // spectra come site by site, in each probability by probability: the order of MATLAB's columns
             let shape = Shape(vec![strengths.len(), poes.len(), sites.len()]);
-            add(&mut file, urs::GROUP.quantities, key, &shape, spectra);
+            let lengths = &[(SITE, sites.len()), (POE, poes.len()), (STRENGTH, strengths.len())];
+            add(&mut file, urs::GROUP.exported(), lengths, spectra, |own| own.name_with(key));
             let rows = self.rows().filter(|row| row.spectrum.measure == spectra.measure);
             let quoted_m: Vec<[Vec<f64>; 2]> = rows.map(|row| row.quoted_m()).collect();
             for (limit, name) in QUOTED_LIMITS.iter().enumerate() {
                 let limits_m: Vec<f64> = quoted_m.iter().flat_map(|of_row| of_row[limit].iter().copied()).collect();
                 file.numbers(&before_unit(name, &format!("_{key}")), &shape, &limits_m);
             }
-            add(&mut file, regression::COEFFICIENTS, key, &Shape(vec![poes.len(), sites.len()]), &spectra.fits);
+            add(&mut file, regression::COEFFICIENTS, lengths, &spectra.fits, |own| own.name_with(key));
         }
         self.add_consistency(&mut file);
         self.add_bands(&mut file);
@@ -64,21 +67,20 @@ impl Export {
         let StoredSpectra { strengths, poes, sites, .. } = &self.spectra;
         for of in &self.consistency {
             let key = of.scaled_to.key();
-            let column = Shape::column(sites.len());
-            for (name, _, by_site) in source::FIGURES {
-                file.numbers(&format!("consistency_{name}_{key}"), &column, by_site(of));
-            }
+            let lengths = &[(SITE, sites.len()), (POE, poes.len())];
+            add(file, CONSISTENCY.exported(), lengths, of, |own| format!("consistency_{}_{key}", own.exported_name()));
             let verdicts: Vec<&str> = of.verdict.iter().map(String::as_str).collect();
             file.texts(&format!("consistency_verdict_{key}"), &verdicts);
             if let Some(least) = &of.least_effective {
-                file.numbers(&format!("consistency_least_effective_{key}"), &column, least);
+                file.numbers(&format!("consistency_least_effective_{key}"), &Shape::column(sites.len()), least);
             }
             let shape = Shape(vec![poes.len(), sites.len()]);
             file.numbers(&format!("consistency_ratio_{key}"), &shape, of.ratio.values());
             if let (Some(u_m), Some(fits)) = (&of.u_m, &of.fits) {
                 let spectra = Shape(vec![strengths.len(), poes.len(), sites.len()]);
                 file.numbers(&format!("u_consistent_{key}_m"), &spectra, u_m.values());
-                add(file, regression::COEFFICIENTS, &format!("consistent_{key}"), &shape, fits);
+                let name = |own: &Quantity<_>| own.name_with(&format!("consistent_{key}"));
+                add(file, regression::COEFFICIENTS, lengths, fits, name);
             }
         }
     }
@@ -126,14 +128,13 @@ impl Export {
 
     /// What `uplift measures` found, if it was run: columns over the strengths.
     fn add_efficiency(&self, file: &mut MatFile) {
-        let shape = Shape::column(self.spectra.strengths.len());
+        let lengths = &[(STRENGTH, self.spectra.strengths.len())];
         for of in &self.added.efficiency {
             let key = of.measure.key();
-            for (name, _, values) in FIGURES {
-                file.numbers(&format!("{name}_{key}"), &shape, values(of));
-            }
-            for (trend, (name, _, values)) in of.trends.iter().flat_map(|trend| TRENDS.map(|own| (trend, own))) {
-                file.numbers(&format!("{name}_{}_{key}", trend.covariate), &shape, values(trend));
+            add(file, EFFICIENCY.exported(), lengths, of, |own| own.name_with(key));
+            for trend in &of.trends {
+                let name = |own: &Quantity<_>| own.name_with(&format!("{}_{key}", trend.covariate));
+                add(file, TRENDS.exported(), lengths, trend, name);
             }
         }
     }
@@ -165,17 +166,31 @@ impl Export {
                 file.numbers(&name_with(kind, "failed", key), &of_sizes, failed.values());
             }
             if let Some(inferred) = &of.inferred {
-                add(file, INFERRED_BANDS.quantities, key, &spectra, inferred);
+                let sizes = (SAMPLE_SIZE, sizes.len());
+                let lengths = &[(SITE, sites.len()), (POE, poes.len()), sizes, (STRENGTH, strengths.len())];
+                add(file, INFERRED_BANDS.quantities, lengths, inferred, |own| own.name_with(key));
             }
         }
     }
 }
 
-/// The arrays of `value`, each named with `key`.
-fn add<T>(file: &mut MatFile, quantities: &[Quantity<T>], key: &str, shape: &Shape, value: &T) {
-    let count = shape.0.iter().product();
+/// Arrays of `value` under the names that `name` gives them, their axes in MATLAB's order: the reverse.
+pub(super) fn add<T: 'static>(
+    file: &mut MatFile,
+    quantities: impl IntoIterator<Item = &'static Quantity<T>>,
+    lengths: Lengths<'_>,
+    value: &T,
+    name: impl Fn(&Quantity<T>) -> String,
+) {
     for quantity in quantities {
-        let values: Vec<f64> = (0..count).filter_map(|at| quantity.number(value, at)).collect();
-        file.numbers(&quantity.name_with(key), shape, &values);
+        let shape: Vec<usize> = quantity.shape(&[], lengths).into_iter().rev().map(|(_, length)| length).collect();
+        let (name, count) = (name(quantity), shape.iter().product());
+        if let Field::Text(place) = &quantity.field {
+            let texts: Vec<&str> = (0..count).map(|at| (place.get)(value, at).as_str()).collect();
+            file.texts(&name, &texts);
+        } else {
+            let shape = if let [length] = shape[..] { Shape::column(length) } else { Shape(shape) };
+            file.numbers(&name, &shape, &quantity.numbers(value, 0..count));
+        }
     }
 }

@@ -5,9 +5,11 @@ use serde_json::{Value, json};
 use uplift_alarms::alarms;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
-use uplift_result::{DIRECTIONS, Head, ResultFile, ShakeTable, TABLE_TESTS};
+use uplift_result::layout::axis::{EXCITATION, LEVEL};
+use uplift_result::{DIRECTIONS, Head, ResultFile, ShakeTable, TABLE_EXCITATIONS, TABLE_TESTS};
 use uplift_studies::shake_table::columns;
 
+use super::matlab::add;
 use super::matlab::level_5::{MatFile, Shape};
 use super::source::provenance_of;
 use crate::error::ExportsError;
@@ -55,23 +57,18 @@ impl TestsExport {
     /// A MATLAB file: `u_m` and every other quantity of a test are excitation × level, spectra are period × direction ×
     /// excitation.
     pub(super) fn matlab(&self) -> Result<Vec<u8>, ExportsError> {
-        let ShakeTable { levels, excitations, tests, .. } = &self.table;
+        let ShakeTable { levels, excitations, .. } = &self.table;
         let mut file = MatFile::new(&self.provenance);
         file.text("provenance", &self.provenance);
         let said: Vec<String> = self.alarms.iter().map(|alarm| format!("{}: {alarm}", alarm.severity.word())).collect();
         file.texts("warnings", &said.iter().map(String::as_str).collect::<Vec<_>>());
         file.texts("level", &levels.iter().map(|level| level.name.as_str()).collect::<Vec<_>>());
-        let velocities: Vec<f64> = levels.iter().map(|level| level.pgv_srss_m_s).collect();
-        file.numbers("pgv_srss_m_s", &Shape::column(levels.len()), &velocities);
         file.texts("exc_id", &excitations.iter().map(|one| one.exc_id.as_str()).collect::<Vec<_>>());
-        file.texts("class", &excitations.iter().map(|one| one.class.as_str()).collect::<Vec<_>>());
-        file.texts("record", &excitations.iter().map(|one| one.record.as_str()).collect::<Vec<_>>());
-        // tests come level by level, in each excitation by excitation: the order of MATLAB's columns
-        let shape = Shape(vec![excitations.len(), levels.len()]);
-        for quantity in TABLE_TESTS.quantities {
-            let values: Vec<f64> = (0..tests.len()).filter_map(|at| quantity.number(&self.table, at)).collect();
-            file.numbers(quantity.name, &shape, &values);
+        let lengths = &[(LEVEL, levels.len()), (EXCITATION, excitations.len())];
+        for group in [&TABLE_EXCITATIONS, &TABLE_TESTS] {
+            add(&mut file, group.quantities, lengths, &self.table, |own| own.name.to_owned());
         }
+        let shape = Shape(vec![excitations.len(), levels.len()]);
         let order: Vec<f64> = self.table.order().into_iter().map(f64::from).collect();
         file.numbers("order", &shape, &order);
         if let Some(spectra) = &self.table.spectra {

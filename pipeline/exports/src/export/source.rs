@@ -1,12 +1,14 @@
 //! What is exported of a result, as every format takes it.
 
+use std::ops::Range;
+
 use uplift_alarms::alarms;
 use uplift_hazard::return_period_from_probability;
 use uplift_job::alarm::Alarm;
-use uplift_questions::efficiency::Figure;
+use uplift_result::declared::Quantity;
 use uplift_result::{
-    Fit, Head, MeasureSpectra, ResultFile, Spectrum, SpreadOver, StoredBands, StoredConsistency, StoredFinding,
-    StoredHazard, StoredSpectra, StoredSpread,
+    CONSISTENCY, Fit, Head, MeasureSpectra, ResultFile, Spectrum, SpreadOver, StoredBands, StoredConsistency,
+    StoredFinding, StoredHazard, StoredSpectra, StoredSpread,
 };
 use uplift_studies::uniform_risk::quoted_bands_m;
 use uplift_study::UniformRiskStudy;
@@ -101,6 +103,13 @@ impl Export {
         &self.provenance
     }
 
+    /// Places of the ordinates of a spectrum in the arrays of its measure.
+    pub(super) fn places(&self, row: &Row<'_>) -> Range<usize> {
+        let ([site, poe], strengths) = (row.at, self.spectra.strengths.len());
+        let first = (site * self.spectra.poes.len() + poe) * strengths;
+        first..first + strengths
+    }
+
     /// Every spectrum, by measure, then site, then probability.
     pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
         let places = self.spectra.measures.iter().flat_map(|of| of.fits.blocks::<2>().map(move |(at, _)| (at, of)));
@@ -141,22 +150,24 @@ pub(super) fn provenance_of(head: &Head, file: &str) -> String {
     .replace(['\n', '\r'], " ")
 }
 
-/// The ratio at each site: its mean over the rates compared, and its largest logarithm.
-pub(super) const FIGURES: [Figure<StoredConsistency>; 2] =
-    [("bias", "bias", |of| &of.bias), ("max", "largest |ln|", |of| &of.max)];
-
 /// What the records scaled to one measure bring at a site.
 pub(super) struct ConsistencyOf<'a> {
     pub(super) of: &'a StoredConsistency,
+    at: usize,
     pub(super) site: &'a str,
     /// Level that the records bring over the site's, by the probabilities of the study.
     pub(super) ratio: &'a [f64],
-    /// [`FIGURES`]; NaN without a verdict.
-    pub(super) figures: [f64; 2],
     /// Nothing where there is none.
     pub(super) verdict: Option<&'a str>,
     /// None before a repair; NaN where it failed.
     pub(super) least_effective: Option<f64>,
+}
+
+impl ConsistencyOf<'_> {
+    /// The exported numbers of the site; NaN without a verdict.
+    pub(super) fn figures(&self) -> impl Iterator<Item = (&'static Quantity<StoredConsistency>, f64)> + '_ {
+        CONSISTENCY.exported().filter_map(|figure| Some((figure, figure.number(self.of, self.at)?)))
+    }
 }
 
 impl Export {
@@ -184,9 +195,9 @@ fn consistency_of<'a>(of: &'a StoredConsistency, (at, site): (usize, &'a String)
     let is_known = of.rate_per_year.block([at]).iter().any(|rate| !rate.is_nan());
     is_known.then(|| ConsistencyOf {
         of,
+        at,
         site,
         ratio: of.ratio.block([at]),
-        figures: FIGURES.map(|(.., by_site)| by_site(of)[at]),
         verdict: Some(of.verdict[at].as_str()).filter(|verdict| !verdict.is_empty()),
         least_effective: of.least_effective.as_ref().map(|least| least[at]),
     })

@@ -2,8 +2,8 @@
 
 use polars::prelude::Column;
 use uplift_job::text::finite;
-use uplift_questions::efficiency;
-use uplift_result::{BandKind, INFERRED_BANDS, StoredSpread, before_unit, urs};
+use uplift_result::declared::Quantity;
+use uplift_result::{BandKind, EFFICIENCY, INFERRED_BANDS, StoredEfficiency, StoredSpread, before_unit, urs};
 use uplift_studies::uniform_risk::{band_columns, spectra_table};
 
 use super::Export;
@@ -101,12 +101,14 @@ impl Export {
             }));
         }
         if !self.added.efficiency.is_empty() {
-            let of = |(name, _, values): efficiency::Figure| {
-                let of_row = move |row: &Row<'_>| self.added.efficiency_of(row.spectrum.measure).map(values);
-                Cells::new(name, move |row| Some(of_row(row)?.iter().copied().map(finite).collect()))
+            let of = |figure: &'static Quantity<StoredEfficiency>| {
+                Cells::new(figure.exported_name(), move |row| {
+                    let of = self.added.efficiency_of(row.spectrum.measure)?;
+                    Some((0..of.rocking.len()).map(|at| figure.number(of, at).and_then(finite)).collect())
+                })
             };
             // the others rank measures rather than describe spectra
-            cells.extend([efficiency::ROCKING, efficiency::INITIATION].map(of));
+            cells.extend(EFFICIENCY.exported().filter(|own| ["rocking", "initiation"].contains(&own.name)).map(of));
         }
         if self.has_repaired() {
             // infinite where censored

@@ -34,24 +34,6 @@ pub struct MeasureEfficiency {
     pub lines: Vec<Vec<Option<Line>>>,
 }
 
-/// Numbers over the strengths: their name, their heading of the workbook, and where they are.
-pub type Figure<T = StoredEfficiency> = (&'static str, &'static str, fn(&T) -> &[f64]);
-
-/// The dispersion of the stripes that rock.
-pub const ROCKING: Figure = ("dispersion_rocking", "dispersion, rocking", |of| &of.rocking);
-/// The dispersion of the level at first uplift.
-pub const INITIATION: Figure = ("dispersion_initiation", "dispersion, first uplift", |of| &of.initiation);
-/// How efficient a measure is.
-pub const FIGURES: [Figure; 4] = [
-    ("dispersion_level", "dispersion of the level", |of| &of.reaching),
-    ROCKING,
-    ("undefined_share", "share undefined", |of| &of.undefined),
-    INITIATION,
-];
-/// Its trend with a covariate.
-pub const TRENDS: [Figure<StoredTrend>; 2] =
-    [("slope", "slope over", |of| &of.slope), ("p_value", "p value of", |of| &of.p_value)];
-
 /// One strength: scatter of each level, levels at first uplift, a line for each covariate.
 type OfStrength = (Vec<Dispersion>, Vec<f64>, Vec<Option<Line>>);
 

@@ -7,12 +7,12 @@ use uplift_job::outputs::beside;
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_job::text::finite;
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_regression::Line;
+use uplift_result::declared::Quantity;
 use uplift_result::layout::axis;
-use uplift_result::{EFFICIENCY, EFFICIENCY_OF_STRIPES, LockedResult, REACHING, StoredEfficiency, TRENDS, sign};
+use uplift_result::{EFFICIENCY, EFFICIENCY_OF_STRIPES, LockedResult, StoredEfficiency, TRENDS, sign};
 use uplift_uniform_risk::StoredStripes;
 
-use super::of_measure::{Covariate, FIGURES, Figure, MeasureEfficiency};
+use super::of_measure::{Covariate, MeasureEfficiency};
 use super::report::rank;
 use crate::error::QuestionsError;
 
@@ -65,7 +65,6 @@ fn add(
         let lengths = [(axis::STRENGTH, own.rocking.len()), (&levels, found.levels.len())];
         EFFICIENCY_OF_STRIPES.write(writer, &names, &lengths, &found.dispersions)?;
         writer.attribute(&EFFICIENCY.of_measure(measure), "scaled_to", own.scaled_to.key())?;
-        REACHING.write(writer, &names, &lengths, own)?;
         EFFICIENCY.write(writer, &names, &lengths, own)?;
         for (covariate, trend) in covariates.iter().zip(&own.trends) {
             let names = [names[0], ("<covariate>", covariate.key), ("<with>", covariate.long_name)];
@@ -77,24 +76,23 @@ fn add(
 
 fn efficiency_table(stored: &StoredStripes, covariates: &[Covariate], measures: &[MeasureEfficiency]) -> Vec<Column> {
     let rows = measures.iter().flat_map(|of| stored.strengths.iter().enumerate().map(move |at| (of, at)));
-    let with_figure = |columns: ColumnsOf<_>, (name, _, values): Figure| {
-        columns.with(name, move |(of, (at, _)): (&MeasureEfficiency, (usize, &f64))| finite(values(&of.own)[at]))
+    type Row<'a> = (&'a MeasureEfficiency, (usize, &'a f64));
+    let with_figure = |columns: ColumnsOf<_>, figure: &'static Quantity<StoredEfficiency>| {
+        columns.with(figure.exported_name(), move |(of, (at, _)): Row<'_>| figure.number(&of.own, at).and_then(finite))
     };
-    let [level, others @ ..] = FIGURES;
+    let mut figures = EFFICIENCY.exported();
     let columns = ColumnsOf::new(rows)
         .with("im", |(of, _)| of.own.measure.label())
         .with("scaled_to", |(of, _)| of.own.scaled_to.label())
         .with("strength", |(_, (_, &strength))| strength)
-        .each([level], with_figure)
+        .each(figures.next(), with_figure)
         .with("rank", |(of, (at, _))| rank(measures, &of.own, at))
-        .each(others, with_figure);
-    let with_trend = |columns: ColumnsOf<_>, (index, covariate): (usize, &Covariate)| {
-        let of_line = |value: fn(&Line) -> f64| {
-            move |(of, (at, _)): (&MeasureEfficiency, (usize, &f64))| of.lines[index][at].as_ref().map(value)
-        };
-        columns
-            .with(format!("{}_slope", covariate.key), of_line(|line| line.slope))
-            .with(format!("{}_p_value", covariate.key), of_line(|line| line.p_value))
+        .each(figures, with_figure);
+    let trends = covariates.iter().enumerate().flat_map(|own| TRENDS.exported().map(move |trend| (own, trend)));
+    let with_trend = |columns: ColumnsOf<_>,
+                      ((index, covariate), trend): ((usize, &Covariate), &'static Quantity<_>)| {
+        let name = format!("{}_{}", covariate.key, trend.exported_name());
+        columns.with(name, move |(of, (at, _)): Row<'_>| trend.number(&of.own.trends[index], at).and_then(finite))
     };
-    columns.each(covariates.iter().enumerate(), with_trend).build()
+    columns.each(trends, with_trend).build()
 }

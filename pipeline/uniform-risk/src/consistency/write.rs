@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_consistency::{DEVIATION_RATES, KNOTS};
 use uplift_job::outputs::beside;
+use uplift_job::table::ColumnsOf;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
 use uplift_result::declared::of_measure;
@@ -16,7 +17,7 @@ use uplift_result::{
 };
 
 use super::asked::{by_site, stored};
-use super::{ConsistencyReport, Finding, Question, Repairs};
+use super::{ConsistencyReport, ConsistencyRow, Finding, Question, Repairs, TargetRow};
 use crate::{BRANCHES, write_branch_spectra};
 
 /// The groups and axes that a new look replaces.
@@ -129,42 +130,33 @@ fn write_branches(writer: &mut LabelledWriter, question: &Question, repairs: &Re
 
 /// The rows of a report as a table: a row a measure, site and probability.
 pub fn columns(report: &ConsistencyReport) -> Vec<Column> {
-    let targets = || report.rows.iter().flat_map(|row| row.targets.iter().map(move |target| (row, target)));
-    let text =
-        |value: fn(&super::ConsistencyRow) -> String| -> Vec<String> { targets().map(|(row, _)| value(row)).collect() };
-    let number = |value: fn(&super::ConsistencyRow, &super::TargetRow) -> Option<f64>| -> Vec<Option<f64>> {
-        targets().map(|(row, target)| value(row, target)).collect()
+    let targets = report.rows.iter().flat_map(|row| row.targets.iter().map(move |target| (row, target)));
+    let repaired = |(row, target): (&ConsistencyRow, &TargetRow), value: fn(&TargetRow) -> Option<f64>| {
+        value(row.repair.as_ref()?.targets.iter().find(|own| own.poe.to_bits() == target.poe.to_bits())?)
     };
-    let repaired = |value: fn(&super::TargetRow) -> Option<f64>| -> Vec<Option<f64>> {
-        let of = |(row, target): (&super::ConsistencyRow, &super::TargetRow)| {
-            let own = row.repair.as_ref()?.targets.iter().find(|own| own.poe.to_bits() == target.poe.to_bits())?;
-            value(own)
-        };
-        targets().map(of).collect()
-    };
-    vec![
-        Column::new("site".into(), text(|row| row.site.clone())),
-        Column::new("scaled_to".into(), text(|row| row.scaled_to.to_owned())),
-        Column::new("shows".into(), text(|row| row.shows.to_owned())),
-        Column::new("unit".into(), text(|row| row.unit.to_owned())),
-        Column::new("poe".into(), number(|_, target| Some(target.poe))),
-        Column::new("years".into(), vec![report.years; targets().count()]),
-        Column::new("site_level".into(), number(|_, target| target.site_level)),
-        Column::new("implied_level".into(), number(|_, target| Some(target.implied_level))),
-        Column::new("ratio".into(), number(|_, target| target.ratio)),
-        Column::new("times_as_often".into(), number(|_, target| target.times_as_often)),
-        Column::new("bias".into(), number(|row, _| row.bias)),
-        Column::new("rms".into(), number(|row, _| row.rms)),
-        Column::new("max".into(), number(|row, _| row.max)),
-        Column::new("verdict".into(), text(|row| row.verdict.unwrap_or_default().to_owned())),
-        Column::new("scale_factor_05".into(), number(|_, target| Some(target.scale_factors[0]))),
-        Column::new("scale_factor_50".into(), number(|_, target| Some(target.scale_factors[1]))),
-        Column::new("scale_factor_95".into(), number(|_, target| Some(target.scale_factors[2]))),
-        Column::new("scale_factors_outside".into(), number(|_, target| Some(target.outside_limits))),
-        Column::new("effective_records".into(), number(|_, target| Some(target.effective_records))),
-        Column::new("effective_events".into(), number(|_, target| target.effective_events)),
-        Column::new("repaired_ratio".into(), repaired(|target| target.ratio)),
-        Column::new("repaired_effective_records".into(), repaired(|target| Some(target.effective_records))),
-        Column::new("repaired_effective_events".into(), repaired(|target| target.effective_events)),
-    ]
+    ColumnsOf::new(targets)
+        .with("site", |(row, _)| row.site.as_str())
+        .with("scaled_to", |(row, _)| row.scaled_to)
+        .with("shows", |(row, _)| row.shows)
+        .with("unit", |(row, _)| row.unit)
+        .with("poe", |(_, target)| target.poe)
+        .with("years", |_| report.years)
+        .with("site_level", |(_, target)| target.site_level)
+        .with("implied_level", |(_, target)| target.implied_level)
+        .with("ratio", |(_, target)| target.ratio)
+        .with("times_as_often", |(_, target)| target.times_as_often)
+        .with("bias", |(row, _)| row.bias)
+        .with("rms", |(row, _)| row.rms)
+        .with("max", |(row, _)| row.max)
+        .with("verdict", |(row, _)| row.verdict.unwrap_or_default())
+        .with("scale_factor_05", |(_, target)| target.scale_factors[0])
+        .with("scale_factor_50", |(_, target)| target.scale_factors[1])
+        .with("scale_factor_95", |(_, target)| target.scale_factors[2])
+        .with("scale_factors_outside", |(_, target)| target.outside_limits)
+        .with("effective_records", |(_, target)| target.effective_records)
+        .with("effective_events", |(_, target)| target.effective_events)
+        .with("repaired_ratio", |at| repaired(at, |target| target.ratio))
+        .with("repaired_effective_records", |at| repaired(at, |target| Some(target.effective_records)))
+        .with("repaired_effective_events", |at| repaired(at, |target| target.effective_events))
+        .build()
 }

@@ -1,8 +1,8 @@
 //! The sheets of what `uplift influence` and `uplift measures` added to a result.
 
 use rust_xlsxwriter::XlsxError;
-use uplift_questions::efficiency::{FIGURES, TRENDS};
 use uplift_questions::influence::CHANGES;
+use uplift_result::{EFFICIENCY, TRENDS};
 
 use super::sheet::{Sheet, Shown};
 use super::spectra::{head_of, over_strengths};
@@ -58,14 +58,16 @@ impl Export {
         over_strengths(sheet, (2, 0), &self.spectra.strengths)?;
         let mut column = 1;
         for of in &self.added.efficiency {
-            let figures = FIGURES.iter().map(|(_, heading, values)| ((*heading).to_owned(), values(of)));
+            let count = self.spectra.strengths.len();
+            let figures = EFFICIENCY.exported().map(|own| (own.heading().to_owned(), own.numbers(of, 0..count)));
             let trends = of.trends.iter().flat_map(|trend| {
-                TRENDS.map(|(_, heading, values)| (format!("{heading} {}", trend.covariate), values(trend)))
+                let heading = |of: &str| format!("{of} {}", trend.covariate);
+                TRENDS.exported().map(move |own| (heading(own.heading()), own.numbers(trend, 0..count)))
             });
             for (name, values) in figures.chain(trends) {
                 sheet.heading((0, column), of.measure.label(), false)?;
                 sheet.heading((1, column), &name, true)?;
-                over_strengths(sheet, (2, column), values)?;
+                over_strengths(sheet, (2, column), &values)?;
                 column += 1;
             }
         }

@@ -2,11 +2,11 @@
 
 use rust_xlsxwriter::XlsxError;
 use uplift_job::text::risk_in_words;
+use uplift_result::CONSISTENCY;
 
 use super::sheet::{Sheet, Shown};
 use super::spectra::{head_of, over_strengths};
 use crate::export::Export;
-use crate::export::source::FIGURES;
 
 impl Export {
     /// What the records bring of the other measure: a line each measure that they are scaled to, and site.
@@ -16,7 +16,7 @@ impl Export {
             let over = |&poe: &f64| format!("over the site's level, {}", risk_in_words(poe, of.years));
             headings.extend(of.poes.iter().map(over));
         }
-        headings.extend(FIGURES.map(|(_, heading, _)| heading.to_owned()));
+        headings.extend(CONSISTENCY.exported().map(|figure| figure.heading().to_owned()));
         if self.consistency.iter().any(|of| of.least_effective.is_some()) {
             headings.push("effective records, least".to_owned());
         }
@@ -29,7 +29,7 @@ impl Export {
             for (column, text) in texts.into_iter().enumerate() {
                 sheet.text((line, column), text)?;
             }
-            let numbers = row.ratio.iter().copied().chain(row.figures);
+            let numbers = row.ratio.iter().copied().chain(row.figures().map(|(_, value)| value));
             for (column, number) in numbers.enumerate() {
                 sheet.number((line, texts.len() + column), number, Shown::FourDecimals, "")?;
             }

@@ -2,7 +2,8 @@
 
 use rust_xlsxwriter::XlsxError;
 use uplift_job::text::per_cent;
-use uplift_result::{BandKind, flag_word};
+use uplift_result::declared::Field;
+use uplift_result::{BandKind, EPISTEMIC, flag_word, urs};
 use uplift_uniform_risk::CONFIDENCE;
 
 use super::sheet::{Sheet, Shown};
@@ -13,10 +14,6 @@ use crate::export::source::Row;
 const CENSORED: &str = "censored";
 /// Label of the first column.
 const STRENGTH: &str = "strength f_up/(m g), -";
-/// What is exported with each ordinate.
-const TAILS: [&str; 3] = ["flag", "share from below, %", "share from above, %"];
-/// What is exported of a spread, as [`StoredSpread::limits_m`](uplift_result::StoredSpread::limits_m) has it.
-const SPREAD: [&str; 6] = ["mean", "5 %", "16 %", "50 %", "84 %", "95 %"];
 /// Widths of the column of strengths, in characters.
 const WIDTHS: [f64; 1] = [26.0];
 
@@ -45,19 +42,20 @@ impl Export {
         let below = self.heads(sheet, &[])?;
         let mut column = 1;
         for row in self.rows() {
-            let spectrum = &row.spectrum;
-            for name in TAILS {
+            for quantity in urs::GROUP.exported().filter(|quantity| quantity.name != urs::U_M.name) {
                 head_of(sheet, column, &row)?;
-                sheet.heading((below - 1, column), name, true)?;
-                column += 1;
-            }
-            for (index, &flag) in spectrum.flags.iter().enumerate() {
-                sheet.text((below + index, column - TAILS.len()), flag_word(flag))?;
-            }
-            for (shares, column) in [(spectrum.lower_tail_share, column - 2), (spectrum.upper_tail_share, column - 1)] {
-                for (index, &share) in shares.iter().enumerate() {
-                    sheet.number((below + index, column), share, Shown::Percent, "")?;
+                sheet.heading((below - 1, column), quantity.heading(), true)?;
+                let shown = if quantity.heading().ends_with('%') { Shown::Percent } else { Shown::Plain };
+                for (line, place) in self.places(&row).enumerate() {
+                    let cell = (below + line, column);
+                    match &quantity.field {
+                        Field::Flag(flag) => sheet.text(cell, flag_word(*(flag.get)(row.of_measure, place)))?,
+                        _ => {
+                            sheet.number(cell, quantity.number(row.of_measure, place).unwrap_or(f64::NAN), shown, "")?
+                        }
+                    }
                 }
+                column += 1;
             }
         }
         sheet.finish((below, 1), &WIDTHS)
@@ -102,10 +100,10 @@ impl Export {
         for row in self.rows() {
             for over in self.spread_over() {
                 let Some(limits_m) = self.spread_of(&row, over) else { continue };
-                for (name, values) in SPREAD.iter().zip(limits_m) {
+                for (quantity, values) in EPISTEMIC.quantities.iter().zip(limits_m) {
                     head_of(sheet, column, &row)?;
                     sheet.heading((below - 3, column), over.words(), false)?;
-                    sheet.heading((below - 2, column), name, false)?;
+                    sheet.heading((below - 2, column), quantity.heading(), false)?;
                     sheet.heading((below - 1, column), "u, m", true)?;
                     over_strengths(sheet, (below, column), values)?;
                     column += 1;
