@@ -74,9 +74,11 @@ fn add(
     Ok(())
 }
 
+/// A measure, and a strength with its place.
+type Row<'a> = (&'a MeasureEfficiency, (usize, &'a f64));
+
 fn efficiency_table(stored: &StoredStripes, covariates: &[Covariate], measures: &[MeasureEfficiency]) -> Vec<Column> {
     let rows = measures.iter().flat_map(|of| stored.strengths.iter().enumerate().map(move |at| (of, at)));
-    type Row<'a> = (&'a MeasureEfficiency, (usize, &'a f64));
     let with_figure = |columns: ColumnsOf<_>, figure: &'static Quantity<StoredEfficiency>| {
         columns.with(figure.exported_name(), move |(of, (at, _)): Row<'_>| figure.number(&of.own, at).and_then(finite))
     };

@@ -2,24 +2,20 @@
 
 use std::fmt::Write as _;
 
-use uplift_regression::ExponentialFit;
+use uplift_result::before_unit;
 
 use super::SiteConsistency;
-use super::layout::{cell, number};
+use super::layout::{FIT, cell, fit_number, number};
 
 /// Columns of the spectra, the last two where they have bands.
 pub(super) const SPECTRA: [&str; 3] = ["u_consistent_m", "lower_consistent_m", "upper_consistent_m"];
-pub(super) const COEFFICIENTS: [&str; 9] = [
-    "bias",
-    "max",
-    "verdict",
-    "least_effective",
-    "c0_consistent_m",
-    "c1_consistent",
-    "c2_consistent_m",
-    "rmse_consistent_m",
-    "no_repair",
-];
+
+/// Columns of the coefficients.
+pub(super) fn coefficients() -> impl Iterator<Item = String> {
+    let of_fit = FIT.map(|(name, _)| before_unit(name, "_consistent"));
+    let of_site = ["bias", "max", "verdict", "least_effective"].map(str::to_owned);
+    of_site.into_iter().chain(of_fit).chain(["no_repair".to_owned()])
+}
 
 pub(super) fn coefficient_cells(consistency: &SiteConsistency, poe: usize) -> String {
     let fit = consistency.spectra.as_ref().ok().map(|spectra| spectra.fits[poe].as_ref());
@@ -29,20 +25,10 @@ pub(super) fn coefficient_cells(consistency: &SiteConsistency, poe: usize) -> St
         _ => String::new(),
     };
     let fit = fit.and_then(Result::ok);
-    let of_fit = |value: fn(&ExponentialFit) -> f64| fit.map_or_else(String::new, |fit| number(value(fit)));
-    let mut cells = String::new();
-    for text in [
-        number(consistency.bias),
-        number(consistency.max),
-        consistency.verdict.to_owned(),
-        number(consistency.least_effective),
-        of_fit(|fit| fit.c0),
-        of_fit(|fit| fit.c1),
-        of_fit(|fit| fit.c2),
-        of_fit(|fit| fit.rmse),
-        cell(&why),
-    ] {
-        let _ = write!(cells, ",{text}");
+    let [bias, max, least] = [consistency.bias, consistency.max, consistency.least_effective].map(number);
+    let mut cells = format!(",{bias},{max},{},{least}", consistency.verdict);
+    for (_, value) in FIT {
+        let _ = write!(cells, ",{}", fit_number(fit, value));
     }
-    cells
+    cells + "," + &cell(&why)
 }

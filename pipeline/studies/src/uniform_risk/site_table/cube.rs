@@ -11,7 +11,7 @@ use uplift_result::{NO_ORDINATE, flag_number};
 use uplift_study::{Repair, UniformRiskStudy};
 use uplift_uniform_risk::SiteSpectra;
 
-use super::layout::problem;
+use super::layout::{FIT, problem};
 use super::repair::SiteConsistency;
 use crate::error::StudiesError;
 
@@ -61,10 +61,10 @@ const QUANTITIES: [Quantity; 13] = [
     metres(SPREAD[3], "50 % of the weighted hazard curves", Values::Spread(3)),
     metres(SPREAD[4], "84 % of the weighted hazard curves", Values::Spread(4)),
     metres(SPREAD[5], "95 % of the weighted hazard curves", Values::Spread(5)),
-    metres("c0_m", "coefficient c0 of Eq. 4.11", Values::Fit(|fit| fit.c0)),
-    Quantity { name: "c1", unit: "1", long_name: "coefficient c1 of Eq. 4.11", values: Values::Fit(|fit| fit.c1) },
-    metres("c2_m", "coefficient c2 of Eq. 4.11", Values::Fit(|fit| fit.c2)),
-    metres("rmse_m", "error of the fit", Values::Fit(|fit| fit.rmse)),
+    metres(FIT[0].0, "coefficient c0 of Eq. 4.11", Values::Fit(FIT[0].1)),
+    Quantity { name: FIT[1].0, unit: "1", long_name: "coefficient c1 of Eq. 4.11", values: Values::Fit(FIT[1].1) },
+    metres(FIT[2].0, "coefficient c2 of Eq. 4.11", Values::Fit(FIT[2].1)),
+    metres(FIT[3].0, "error of the fit", Values::Fit(FIT[3].1)),
 ];
 
 /// What the mean and the fractiles over weighted hazard curves are called.

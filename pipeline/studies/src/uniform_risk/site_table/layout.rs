@@ -22,9 +22,14 @@ pub const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
 pub(super) const FEATURE: &str = "{\"type\":\"Feature\",";
 /// Columns of the spectra, before their bands.
 const SPECTRA: [&str; 9] = ["site", "longitude", "latitude", "im", "poe", "years", "strength", "u_m", "flag"];
-/// Columns of the coefficients, before those of the study's own table.
-const COEFFICIENTS: [&str; 12] =
-    ["site", "longitude", "latitude", "im", "poe", "years", "c0_m", "c1", "c2_m", "rmse_m", "bound_active", "problem"];
+/// Columns of the coefficients, with those of a [`FIT`] in between and those of the study's own table at the end.
+const COEFFICIENTS: [&[&str]; 2] =
+    [&["site", "longitude", "latitude", "im", "poe", "years"], &["bound_active", "problem"]];
+/// The name of a number of a fit, and where it is.
+type OfFit = (&'static str, fn(&ExponentialFit) -> f64);
+/// What tables, map and arrays have of a fit.
+pub(super) const FIT: [OfFit; 4] =
+    [("c0_m", |fit| fit.c0), ("c1", |fit| fit.c1), ("c2_m", |fit| fit.c2), ("rmse_m", |fit| fit.rmse)];
 
 /// What the rows and properties are called.
 #[derive(Debug, Clone)]
@@ -128,8 +133,10 @@ impl SiteTableLayout {
     }
 
     pub(super) fn coefficient_columns(&self, carried: &[String]) -> Vec<String> {
-        let repaired = consistent::COEFFICIENTS.into_iter().filter(|_| self.shape.is_repaired);
-        let own: Vec<String> = COEFFICIENTS.into_iter().chain(repaired).map(str::to_owned).collect();
+        let [before, behind] = COEFFICIENTS;
+        let plain = before.iter().copied().chain(FIT.map(|(name, _)| name)).chain(behind.iter().copied());
+        let repaired = consistent::coefficients().filter(|_| self.shape.is_repaired);
+        let own: Vec<String> = plain.map(str::to_owned).chain(repaired).collect();
         let carried = distinct(carried, &mut own.iter().cloned().collect());
         own.into_iter().chain(carried).collect()
     }
@@ -138,7 +145,7 @@ impl SiteTableLayout {
     fn property_names(&self) -> BTreeSet<String> {
         let mut names: BTreeSet<String> = ["name", "problem"].map(str::to_owned).into();
         for names_of_poe in self.measures.iter().flat_map(|measure| &measure.poes) {
-            names.extend(COEFFICIENTS_ON_MAP.map(|(ending, _)| format!("{}{ending}", names_of_poe.key)));
+            names.extend(FIT.map(|(name, _)| format!("{}_{name}", names_of_poe.key)));
             for infix in ["", "_consistent"].into_iter().take(1 + usize::from(self.shape.is_repaired)) {
                 let of_strength = |place| self.map_values((place, None)).map(move |(quantity, _)| (quantity, place));
                 let own = (0..self.on_map.len()).flat_map(of_strength);
@@ -199,8 +206,8 @@ impl SiteTableLayout {
                 if self.shape.is_repaired {
                     properties += &self.map_properties((poe, "_consistent"), repaired);
                 }
-                for (ending, value) in COEFFICIENTS_ON_MAP {
-                    let _ = write!(properties, ",\"{}{ending}\":{}", poe.key, json_number(fit.map(value)));
+                for (name, value) in FIT {
+                    let _ = write!(properties, ",\"{}_{name}\":{}", poe.key, json_number(fit.map(value)));
                 }
             }
         }
@@ -295,27 +302,15 @@ pub(super) fn problem(spectra: &Result<SiteSpectra, String>, poe: usize) -> Stri
     }
 }
 
-/// Ending of a property with what it holds.
-type Coefficient = (&'static str, fn(&ExponentialFit) -> f64);
-
-const COEFFICIENTS_ON_MAP: [Coefficient; 4] =
-    [("_c0_m", |fit| fit.c0), ("_c1", |fit| fit.c1), ("_c2_m", |fit| fit.c2), ("_rmse_m", |fit| fit.rmse)];
-
 /// The cells from `c0_m` to `bound_active`.
 fn coefficient_cells(fit: Option<&ExponentialFit>) -> String {
-    fit.map_or_else(
-        || ",,,,".to_owned(),
-        |fit| {
-            format!(
-                "{},{},{},{},{}",
-                number(fit.c0),
-                number(fit.c1),
-                number(fit.c2),
-                number(fit.rmse),
-                fit.bound_active
-            )
-        },
-    )
+    let cells = FIT.map(|(_, value)| format!("{},", fit_number(fit, value)));
+    cells.concat() + &fit.map_or_else(String::new, |fit| fit.bound_active.to_string())
+}
+
+/// A number of a fit; nothing where there is none.
+pub(super) fn fit_number(fit: Option<&ExponentialFit>, value: fn(&ExponentialFit) -> f64) -> String {
+    number(fit.map_or(f64::NAN, value))
 }
 
 /// A number of a table; nothing where it is not known.
@@ -398,7 +393,7 @@ mod tests {
         assert_eq!(strength_labels([0.1, 1.0 / 3.0].into_iter()), ["0.1", "0.3333"]);
         assert_eq!(strength_labels([0.1, 0.100_001].into_iter()), ["0.1", "0.100001"]);
         let names = ["vs30", "problem", "vs30"].map(str::to_owned);
-        let mut taken = COEFFICIENTS.map(str::to_owned).into();
+        let mut taken = COEFFICIENTS.concat().into_iter().map(str::to_owned).collect();
         assert_eq!(distinct(&names, &mut taken), ["vs30", "table_problem", "table_vs30"]);
     }
 }
