@@ -48,11 +48,10 @@ impl Export {
                 let shown = if quantity.heading().ends_with('%') { Shown::Percent } else { Shown::Plain };
                 for (line, place) in self.places(&row).enumerate() {
                     let cell = (below + line, column);
-                    match &quantity.field {
-                        Field::Flag(flag) => sheet.text(cell, flag_word(*(flag.get)(row.of_measure, place)))?,
-                        _ => {
-                            sheet.number(cell, quantity.number(row.of_measure, place).unwrap_or(f64::NAN), shown, "")?
-                        }
+                    if let Field::Flag(flag) = &quantity.field {
+                        sheet.text(cell, flag_word(*(flag.get)(row.of_measure, place)))?;
+                    } else if let Some(value) = quantity.number(row.of_measure, place) {
+                        sheet.number(cell, value, shown, "")?;
                     }
                 }
                 column += 1;
