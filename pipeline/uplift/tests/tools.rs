@@ -22,7 +22,7 @@ use uplift::table::{TableOptions, table};
 use uplift::typed::Overwriting;
 use uplift::verify::verify;
 use uplift_block::RickerShape;
-use uplift_motion::{Combination, synthetic::SyntheticSetOptions};
+use uplift_motion::Combination;
 use uplift_study::{CRITERIA, Range};
 
 /// What a job that failed says.
@@ -48,9 +48,9 @@ impl Events for Listener {
 }
 
 fn made(at: &Path, pairs: usize) -> std::path::PathBuf {
-    let set = SyntheticSetOptions { pairs, ..SyntheticSetOptions::default() };
     let listener = Listener::default();
-    let report = synthesize(&SynthesizeOptions { folder: at.join("set"), set, force: false }, &listener).unwrap();
+    let options = SynthesizeOptions { count: pairs, ..SynthesizeOptions::new(at.join("set")) };
+    let report = synthesize(&options, &listener).unwrap();
     assert_eq!(report.pairs, pairs);
     assert_eq!(*listener.notes.lock().unwrap(), ["synthetic records: not for design"]);
     report.manifest
@@ -158,17 +158,17 @@ fn a_response_with_its_history() {
 
 #[test]
 fn pulses_without_files_and_refused() {
-    let axis = |values: &[f64]| values.to_vec();
+    let grid = |text: &str| text.parse().unwrap();
     let plan = PulsePlan {
-        shapes: vec![RickerShape::Symmetric],
+        shapes: &[RickerShape::Symmetric],
         slenderness_rad: 0.1,
         restitution: None,
-        frequencies: axis(&[1.0, 2.0, 4.0]),
-        accelerations: axis(&[1.5, 5.0]),
-        half_widths: axis(&[0.5, 1.0]),
-        frequency_slices: axis(&[2.0]),
-        acceleration_slices: axis(&[2.0]),
-        blocks: BlockPlan { amplitude_g: 1.0, period_s: None, sizes_m: axis(&[1.0]), slendernesses_rad: axis(&[0.2]) },
+        frequencies: grid("1,2,4"),
+        accelerations: grid("1.5,5"),
+        half_widths: grid("0.5,1"),
+        frequency_lines: grid("2"),
+        acceleration_lines: grid("2"),
+        blocks: BlockPlan { amplitude_g: 1.0, period_s: None, sizes_m: grid("1"), slendernesses_rad: grid("0.2") },
     };
     let report = pulses(&PulseOptions { plan: plan.clone(), folder: None, force: false }, &Silent).unwrap();
     assert_eq!((report.wavelets[0].points, report.files.len()), (6, 0));
