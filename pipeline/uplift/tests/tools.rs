@@ -15,7 +15,7 @@ use uplift::pulses::{BlockPlan, PulseOptions, PulsePlan, pulses};
 use uplift::records::{
     Criteria, SelectOptions, SetOptions, ShowOptions, ShowReport, SynthesizeOptions, list, select, show, synthesize,
 };
-use uplift::response::{HistoryRow, ResponseOptions, Shaking, response};
+use uplift::response::{HistoryRow, Response, ResponseOptions, response};
 use uplift::result::AskedRisk;
 use uplift::status::status;
 use uplift::table::{TableOptions, table};
@@ -136,9 +136,15 @@ fn a_response_with_its_history() {
         .map(|entry| entry.unwrap().path())
         .find(|path| path.to_string_lossy().ends_with("H1.AT2"))
         .unwrap();
-    let shaking = Shaking { scale: 3.0, free_vibration_s: 2.0, history: true, ..Shaking::new(record) };
-    let options = ResponseOptions { shaking: shaking.clone(), ..ResponseOptions::new("", 0.05) };
-    let report = response(&options).unwrap();
+    let options = ResponseOptions {
+        record: Some(record),
+        strength: Some(0.05),
+        scale: 3.0,
+        free_vibration_s: 2.0,
+        history: true,
+        ..ResponseOptions::default()
+    };
+    let Response::Oscillator(report) = response(&options).unwrap() else { panic!("of an oscillator") };
     let history = report.history.as_ref().unwrap();
     let count = |word: &str| history.rows.iter().filter(|row| row.event == Some(word)).count();
     assert_eq!(count(HistoryRow::AFTER_IMPACT), usize::try_from(report.impacts).unwrap());
@@ -147,11 +153,10 @@ fn a_response_with_its_history() {
     let largest = history.rows.iter().fold(0.0_f64, |most, row| most.max(row.displacement_m.abs()));
     assert!(largest <= report.peak_displacement_m && largest > 0.99 * report.peak_displacement_m);
     // the same response without a history
-    let shaking = Shaking { history: false, ..shaking };
-    let alone = response(&ResponseOptions { shaking, ..options.clone() }).unwrap();
+    let alone = response(&ResponseOptions { history: false, ..options.clone() }).unwrap();
     assert_eq!(serde_json::to_value(&alone).unwrap(), serde_json::to_value(&report).unwrap());
     assert!(matches!(
-        job_error(&response(&ResponseOptions { strength: -1.0, ..options })),
+        job_error(&response(&ResponseOptions { strength: Some(-1.0), ..options })),
         Some(JobError::Implausible(_))
     ));
 }
