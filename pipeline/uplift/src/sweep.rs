@@ -4,6 +4,8 @@
 //! motion, oscillator, strength and level are taken from the results that are finished, so that variants which differ
 //! in hazard, sites, probabilities or some strengths cost next to nothing.
 
+#![allow(rustdoc::invalid_html_tags)] // --help prints <study>
+
 mod table;
 mod variants;
 
