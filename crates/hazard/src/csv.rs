@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use uplift_plausible::{DecimalMarks, with_point};
+use uplift_plausible::{DecimalMarks, counted, with_point};
 
 use crate::component::ComponentDefinition;
 use crate::curve::HazardCurve;
@@ -344,8 +344,7 @@ fn two_fields<'a>(line: &'a str, place: &Place) -> Result<Option<[&'a str; 2]>, 
                 "; keep one column of intensity levels and one of annual rates or probabilities"
             };
             let count = match fields.len() {
-                1 => "1 column".to_owned(),
-                count @ 2..=8 => format!("{count} columns"),
+                count @ ..=8 => counted(count, "column"),
                 _ => "more than 8 columns".to_owned(),
             };
             Err(HazardError::Row { place: place.clone(), reason: format!("{count} where 2 are expected{hint}") })

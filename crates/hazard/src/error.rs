@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use uplift_plausible::counted;
+
 use crate::text::shown_end;
 
 /// Where a value stands: a point of arrays handed over, a line of a file, or a level in it.
@@ -33,7 +35,7 @@ impl fmt::Display for Place {
 fn list(mistakes: &[HazardError], more: usize) -> String {
     let mut lines: Vec<String> = mistakes.iter().map(ToString::to_string).collect();
     if more > 0 {
-        lines.push(format!("and {more} more line{}", if more == 1 { "" } else { "s" }));
+        lines.push(format!("and {}", counted(more, "more line")));
     }
     lines.join("; ")
 }

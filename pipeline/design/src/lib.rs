@@ -45,7 +45,7 @@ pub use rules::{MeasureVerdict, OwnCheck, RuleCheck, RuleOutcome, verdict_word};
 pub use sensitivity::{DemandNoise, DemandRounding, RuleRanges, Sensitivity};
 pub use spectrum::SpectrumDemand;
 pub use target::{
-    Crossing, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetByMeasure, TargetEvent, TargetFrame,
+    Crossing, Exceeded, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetByMeasure, TargetEvent, TargetFrame,
     TargetFrameModel, TargetFrequency, TargetOptions, TargetReport, TargetUncertainty, TriedFrame, TriedValue, target,
 };
 pub use uncertain::{

@@ -58,7 +58,10 @@ pub(super) fn site_index(source: &StudyOfResult, wanted: Option<&str>) -> Result
     Ok(match (wanted, &source.sites[..]) {
         (Some(wanted), known) => uplift_uniform_risk::site_index("--site", known, wanted)?,
         (None, [_]) => 0,
-        (None, known) => return Err(JobError::Choice { option: "--site", wanted: None, known: known.to_vec() }.into()),
+        (None, known) => {
+            let (option, noun, known) = ("--site", "site", known.to_vec());
+            return Err(JobError::Choice { option, noun, wanted: None, known }.into());
+        }
     })
 }
 

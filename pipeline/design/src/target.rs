@@ -26,7 +26,7 @@ use uplift_study::Structure;
 
 pub use band::{TargetBand, TargetUncertainty};
 pub use frame::{TargetFrame, TargetFrameModel, TriedFrame};
-pub use request::{TargetEvent, TargetFrequency, TargetOptions};
+pub use request::{Exceeded, TargetEvent, TargetFrequency, TargetOptions};
 pub use search::Crossing;
 
 use super::certainty::Scatter;

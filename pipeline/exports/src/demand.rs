@@ -1,98 +1,26 @@
 //! Demands for pelicun: how far each record of a result displaces its oscillators, or a structure, at one intensity.
 
-use std::path::{Path, PathBuf};
-
 use polars::prelude::Column;
-use uplift_design::{CAPACITY_SHARE, LimitOptions, limit_stripes};
+use uplift_design::limit_stripes;
 use uplift_fragility::Stripes;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind, beside};
 use uplift_job::table::write_table;
 use uplift_job::text::{risk_in_words, rounded};
+use uplift_job::typed::all_numbers;
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
-use uplift_study::{Repair, Structure};
-use uplift_uniform_risk::{AskedRisk, StoredMeasure, StoredStripes, at, measure_index, site_index, strength_index};
+use uplift_study::Repair;
+use uplift_uniform_risk::{StoredMeasure, StoredStripes, at, measure_index, site_index, strength_index};
 
 use crate::error::ExportsError;
+use crate::export::{ExportOptions, ExportReport};
 use crate::fragility::measures::pelicun;
 
 /// The first demand, by whose column the table is known: a displacement (`DEC`, Peak Deck Displacement) of system 1 in
 /// direction 1, in which components of the [fragility table](crate::fragility) are.
 const COLUMN: &str = "1-DEC-1-1";
-
-/// What is displaced.
-#[derive(Debug, Clone, PartialEq)]
-pub enum DemandOf {
-    /// Oscillators of these uplift strengths.
-    Strengths(Vec<f64>),
-    /// A structure, by each of its models.
-    Structure {
-        /// The structure.
-        structure: Box<Structure>,
-        /// Manifest of the records, where it is no longer where the study says.
-        manifest: Option<PathBuf>,
-    },
-}
-
-/// Which demands are exported, and where they go.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DemandOptions {
-    /// The result file.
-    pub result: PathBuf,
-    /// What is displaced.
-    pub of: DemandOf,
-    /// Site whose hazard sets the intensity.
-    pub site: String,
-    /// The probability with which that is exceeded; the smallest of the study if none is given.
-    pub risk: AskedRisk,
-    /// Intensity measure; the first of the result if none is given.
-    pub measure: Option<IntensityMeasure>,
-    /// The file; the result with the ending `demand.csv` if none is given.
-    pub output: Option<PathBuf>,
-    /// Whether existing files are overwritten.
-    pub force: bool,
-}
-
-/// What was exported.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DemandReport {
-    /// The files.
-    pub files: Vec<PathBuf>,
-    /// The site, as the result calls it.
-    pub site: String,
-    /// `2 % in 50 years`.
-    pub risk: String,
-    /// The intensity, in the unit of the measure.
-    pub level: f64,
-    /// The measure.
-    pub measure: IntensityMeasure,
-    /// What is displaced, in the order of the locations: `strength 0.2`, `pier oscillator`.
-    pub systems: Vec<String>,
-    /// Whether a demand is infinite: the record overturns the system.
-    pub overturns: bool,
-    /// Whether the result weighs its records, which count alike here.
-    pub is_repaired: bool,
-}
-
-impl DemandReport {
-    /// `36.91 cm/s, PGV of 2 % in 50 years at Athens; location 1: strength 0.2`.
-    pub fn words(&self) -> String {
-        let Self { site, risk, level, measure, systems, overturns, is_repaired, .. } = self;
-        let (level, unit, label) = (rounded(*level, 4), measure.unit(), measure.label());
-        let locations: Vec<String> =
-            (1..).zip(systems).map(|(location, system)| format!("location {location}: {system}")).collect();
-        let mut words = format!("{level} {unit}, {label} of {risk} at {site}; {}", locations.join(", "));
-        if *overturns {
-            words += "; inf: overturned";
-        }
-        if *is_repaired {
-            words += "; without the weights of the repair";
-        }
-        words
-    }
-}
 
 /// One system under records scaled to the levels of a measure.
 struct Displaced {
@@ -107,46 +35,35 @@ struct Displaced {
 /// Writes a demand sample of pelicun 3: a row each record, scaled to the intensity that the site exceeds with the
 /// probability asked for; a location each system. Between two levels a demand lies on a straight line; where either is
 /// infinite, since the record overturns the system, it is that at the higher one.
-///
-/// # Errors
-/// A file that is no result, is damaged or has no sites; several probabilities; a strength, a site or a measure that it
-/// does not have; an intensity that pelicun does not have, or outside the levels or the hazard curve; records that are
-/// others at each level, or a structure that cannot be used; files that would overwrite something else, or cannot be
-/// written.
-pub fn export_demand(options: &DemandOptions, events: &dyn Events) -> Result<DemandReport, ExportsError> {
+pub(crate) fn demand(site: &str, options: &ExportOptions, events: &dyn Events) -> Result<ExportReport, ExportsError> {
+    let asked = &options.assessment;
+    let structure = asked.structure()?;
     if options.risk.poe.len() + options.risk.return_period.len() > 1 {
         return Err(JobError::Usage("--demand: give one probability or return period".to_owned()).into());
     }
     let path = options.output.clone().unwrap_or_else(|| beside(&options.result, "demand.csv"));
-    let mut inputs: Vec<&Path> = vec![&options.result];
-    if let DemandOf::Structure { structure, manifest } = &options.of {
-        inputs.push(&structure.file);
-        inputs.extend(manifest.as_deref());
-    }
     let output = Output::new(&path, OutputKind::Table(COLUMN)).with_result(&options.result);
-    outputs::check(&[output], &inputs, options.force)?;
+    outputs::check(&[output], &options.inputs(), options.overwriting.force)?;
 
     let file = ResultFile::open(&options.result)?;
     file.refuse_records_at_level("a sample of demands has a row each record")?;
     let file = at(file, &options.risk)?;
     let stored = StoredStripes::read(&file)?;
     let known = file.measures();
-    let measure = known[measure_index(&known, options.measure)?];
+    let measure = known[measure_index(&known, asked.measure)?];
     let intensity = pelicun(measure).ok_or_else(|| {
         JobError::Usage(format!("--demand: pelicun has no {}: choose another with --measure", measure.long_name()))
     })?;
-    let site = &stored.sites[site_index("--demand SITE", &stored.sites, &options.site)?];
+    let site = &stored.sites[site_index("--demand SITE", &stored.sites, site)?];
     let poe = stored.poe_index(None)?;
     let study = file.stored_study()?;
     let rate_per_year = stored.targets_per_year[poe];
     let level = file.site_curve(site, measure)?.im_at_rate_extrapolated(rate_per_year, study.risk.extrapolate)?;
-    let systems = match &options.of {
-        DemandOf::Strengths(strengths) => of_strengths(&stored, measure, strengths)?,
-        DemandOf::Structure { structure, manifest } => {
-            let asked =
-                LimitOptions { manifest: manifest.clone(), measure: Some(measure), capacity_share: CAPACITY_SHARE };
+    let systems = match &structure {
+        None => of_strengths(&stored, measure, &all_numbers(&asked.strength))?,
+        Some(structure) => {
             let name = structure.file.file_stem().unwrap_or_default().to_string_lossy();
-            let found = limit_stripes(structure, &options.result, &asked, events)?.into_iter();
+            let found = limit_stripes(structure, &options.result, &asked.limits(Some(measure)), events)?.into_iter();
             found
                 .map(|of| Displaced {
                     name: format!("{name} {}", of.model),
@@ -178,16 +95,19 @@ pub fn export_demand(options: &DemandOptions, events: &dyn Events) -> Result<Dem
         columns.push(Column::new(format!("1-DEC-{location}-1").into(), texts("m", &mut demands_m.into_iter())));
     }
     write_table(&path, &stored.line("demands"), columns)?;
-    Ok(DemandReport {
-        files: vec![path],
-        risk: risk_in_words(stored.poes[poe], stored.years),
-        site: site.clone(),
-        level,
-        measure,
-        systems: systems.into_iter().map(|system| system.name).collect(),
-        overturns,
-        is_repaired: study.consistency.repair == Repair::Weights,
-    })
+    // `36.91 cm/s, PGV of 2 % in 50 years at Athens; location 1: strength 0.2`
+    let locations: Vec<String> =
+        (1..).zip(&systems).map(|(location, system)| format!("location {location}: {}", system.name)).collect();
+    let (level, unit, label) = (rounded(level, 4), measure.unit(), measure.label());
+    let risk = risk_in_words(stored.poes[poe], stored.years);
+    let mut words = format!("{level} {unit}, {label} of {risk} at {site}; {}", locations.join(", "));
+    if overturns {
+        words += "; inf: overturned";
+    }
+    if study.consistency.repair == Repair::Weights {
+        words += "; without the weights of the repair";
+    }
+    Ok(ExportReport { files: vec![path], notes: vec![words] })
 }
 
 /// Oscillators of the `strengths` by one measure.

@@ -28,11 +28,16 @@ use uplift_studies::shake_table::TESTS_COLUMN;
 use uplift_uniform_risk::{AskedRisk, at};
 pub use web::calculator;
 
+pub use crate::fragility::FragilityFormat;
+pub use crate::options::{AssessmentOptions, ExportOptions};
+
+use crate::demand::demand;
 use crate::error::ExportsError;
+use crate::fragility::fragility;
 
 /// Formats of other programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ExportFormat {
+pub(crate) enum ExportFormat {
     /// A tidy table, a row each ordinate: `site`, `im`, `poe`, `years`, `strength`, `u_m`, `fit_m`, then more.
     Csv,
     /// One object with the spectra, their bands and their coefficients.
@@ -47,7 +52,7 @@ pub enum ExportFormat {
 
 impl ExportFormat {
     /// How the files end that are named after a result of this kind.
-    pub fn extension(self, of: Kind) -> &'static str {
+    fn extension(self, of: Kind) -> &'static str {
         match self {
             Self::Csv if of == Kind::ShakeTable => "tests.csv",
             Self::Csv => "spectra.csv",
@@ -72,38 +77,35 @@ impl ExportFormat {
 /// How the table ends of what structures were asked.
 const FINDINGS: &str = "structures.csv";
 
-/// What is exported, and where it goes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ExportOptions {
-    /// The result file.
-    pub result: PathBuf,
-    /// The formats, one or more.
-    pub formats: Vec<ExportFormat>,
-    /// The file, beside one format; the result with the ending of each format if none is given.
-    pub output: Option<PathBuf>,
-    /// The risks of the spectra.
-    pub risk: AskedRisk,
-    /// Whether existing files are overwritten.
-    pub force: bool,
-}
-
 /// What was exported.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ExportReport {
     /// The files, in the order of the formats; last the table of answers about structures, where CSV was asked for.
     pub files: Vec<PathBuf>,
+    /// What demands are of, and what a format of fragilities leaves out.
+    pub notes: Vec<String>,
 }
 
-/// Writes the spectra, bands and coefficients of a result for other programs.
+/// Writes the spectra, bands and coefficients of a result for other programs; or fragilities or demands of its
+/// oscillators, or of a structure under its records.
 ///
 /// # Errors
 /// No format, or several for one file; a file that is no result, is damaged or has no spectra; a file that would
-/// overwrite the result or what is not this program's, or cannot be written.
+/// overwrite the result or what is not this program's, or cannot be written; for fragilities and demands a strength, a
+/// displacement, a site or a measure that the result or the other program does not have, an intensity outside the
+/// levels or the hazard curve, records or a structure that cannot be used.
 pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportReport, ExportsError> {
-    if options.formats.is_empty() {
+    if let Some(format) = options.assessment.fragility {
+        return fragility(format, options, events);
+    }
+    if let Some(site) = &options.assessment.demand {
+        return demand(site, options, events);
+    }
+    let formats = options.formats();
+    if formats.is_empty() {
         return Err(JobError::Usage("give a format: --csv, --json, --mat, --xlsx or --web".to_owned()).into());
     }
-    if let (Some(_), several @ 2..) = (&options.output, options.formats.len()) {
+    if let (Some(_), several @ 2..) = (&options.output, formats.len()) {
         return Err(JobError::Usage(format!("-o takes one format, and {several} are given")).into());
     }
     let result = ResultFile::open(&options.result)?;
@@ -112,9 +114,9 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
         options.output.clone().unwrap_or_else(|| beside(&options.result, format.extension(kind)))
     };
     let output = |format: &ExportFormat| Output::new(file(format), format.kind(kind)).with_result(&options.result);
-    let mut outputs: Vec<Output> = options.formats.iter().map(output).collect();
+    let mut outputs: Vec<Output> = formats.iter().map(output).collect();
     // answers about structures are no ordinates: they have a table of their own
-    let has_findings = options.formats.contains(&ExportFormat::Csv) && !result.findings()?.is_empty();
+    let has_findings = formats.contains(&ExportFormat::Csv) && !result.findings()?.is_empty();
     let findings = has_findings.then(|| match &options.output {
         Some(table) => table.with_extension(FINDINGS),
         None => beside(&options.result, FINDINGS),
@@ -131,9 +133,9 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
             )
             .into());
         }
-        outputs::check(&outputs, &[&options.result], options.force)?;
+        outputs::check(&outputs, &[&options.result], options.overwriting.force)?;
         let export = TestsExport::from_file(&result)?;
-        return write_each(&options.formats, file, events, |format, file| match format {
+        return write_each(&formats, file, events, |format, file| match format {
             ExportFormat::Csv => Ok(write_table(file, &export.provenance, export.columns())?),
             ExportFormat::Json => Ok(write_atomically(file, format!("{:#}\n", export.json()).as_bytes())?),
             ExportFormat::Matlab => Ok(write_atomically(file, &export.matlab()?)?),
@@ -142,10 +144,10 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
         });
     }
     let result = at(result, &options.risk)?;
-    outputs::check(&outputs, &[&options.result], options.force)?;
+    outputs::check(&outputs, &[&options.result], options.overwriting.force)?;
     let result = resampled(result, events)?;
     let export = Export::from_file(&result)?;
-    let mut report = write_each(&options.formats, file, events, |format, file| match format {
+    let mut report = write_each(&formats, file, events, |format, file| match format {
         ExportFormat::Csv => Ok(write_table(file, export.provenance(), export.columns())?),
         ExportFormat::Json => Ok(write_atomically(file, format!("{:#}\n", export.json()).as_bytes())?),
         ExportFormat::Matlab => Ok(write_atomically(file, &export.matlab()?)?),
@@ -177,5 +179,5 @@ fn write_each(
         write(format, &file)?;
         files.push(file);
     }
-    Ok(ExportReport { files })
+    Ok(ExportReport { files, notes: Vec::new() })
 }

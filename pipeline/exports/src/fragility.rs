@@ -4,21 +4,21 @@ mod curves;
 pub(crate) mod measures;
 mod table;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::ValueEnum;
-use serde::Serialize;
-use uplift_design::{LimitOptions, independent_records, limit_stripes};
+use uplift_design::{independent_records, limit_stripes};
 use uplift_fragility::{FragilityFunction, PELICUN_COLUMN, Stripes as Stripe, nrml_model, pelicun_table};
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind, beside};
 use uplift_job::table::{text_columns, write_atomically, write_table};
+use uplift_job::typed::all_numbers;
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
-use uplift_study::Structure;
 use uplift_uniform_risk::{StoredStripes, measure_index, strength_index};
 
 use crate::error::ExportsError;
+use crate::export::{ExportOptions, ExportReport};
 use curves::{Fragility, displacement_limits};
 
 /// Formats of fragilities.
@@ -36,7 +36,7 @@ pub enum FragilityFormat {
 
 impl FragilityFormat {
     /// How the files end that are named after a result.
-    pub fn extension(self) -> &'static str {
+    fn extension(self) -> &'static str {
         match self {
             Self::OpenQuake => "fragility.xml",
             Self::Pelicun => "pelicun.csv",
@@ -56,91 +56,39 @@ impl FragilityFormat {
 /// How the table of fits ends, beside that of the curves.
 const FITS: &str = "fits.csv";
 
-/// What is exceeded.
-#[derive(Debug, Clone, PartialEq)]
-pub enum FragilityOf {
-    /// Displacements of the oscillators of a result.
-    Displacements {
-        /// Displacements, m.
-        displacements_m: Vec<f64>,
-        /// Uplift strengths of the result.
-        strengths: Vec<f64>,
-    },
-    /// The limit states of a structure under the records of a result.
-    Structure {
-        /// The structure.
-        structure: Box<Structure>,
-        /// Manifest of the records, where it is no longer where the study says.
-        manifest: Option<PathBuf>,
-        /// The part of its displacement capacity at which a limit state of its own begins.
-        capacity_share: f64,
-    },
-}
-
-/// Which fragilities are exported, and where they go.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FragilityOptions {
-    /// The result file.
-    pub result: PathBuf,
-    /// The format.
-    pub format: FragilityFormat,
-    /// What is exceeded.
-    pub of: FragilityOf,
-    /// Intensity measure; all that the records are scaled by where none is given.
-    pub measure: Option<IntensityMeasure>,
-    /// The file; the result with the ending of the format if none is given.
-    pub output: Option<PathBuf>,
-    /// Whether existing files are overwritten.
-    pub force: bool,
-}
-
-/// What was exported.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct FragilityReport {
-    /// The files.
-    pub files: Vec<PathBuf>,
-    /// What the format leaves out.
-    pub notes: Vec<String>,
-}
-
 /// Writes the fragilities of a result, or of a structure under its records, for other programs.
-///
-/// # Errors
-/// A file that is no result, is damaged or has no sites; a strength, a displacement or a measure that it does not have;
-/// a measure that the other program does not have; records or a structure that cannot be used; files that would
-/// overwrite something else, or cannot be written.
-pub fn export_fragility(options: &FragilityOptions, events: &dyn Events) -> Result<FragilityReport, ExportsError> {
-    let path = options.output.clone().unwrap_or_else(|| beside(&options.result, options.format.extension()));
-    let fits = (options.format == FragilityFormat::Csv).then(|| path.with_extension(FITS));
-    let mut inputs: Vec<&Path> = vec![&options.result];
-    if let FragilityOf::Structure { structure, manifest, .. } = &options.of {
-        inputs.push(&structure.file);
-        inputs.extend(manifest.as_deref());
-    }
+pub(crate) fn fragility(
+    format: FragilityFormat,
+    options: &ExportOptions,
+    events: &dyn Events,
+) -> Result<ExportReport, ExportsError> {
+    let asked = &options.assessment;
+    let structure = asked.structure()?;
+    let path = options.output.clone().unwrap_or_else(|| beside(&options.result, format.extension()));
+    let fits = (format == FragilityFormat::Csv).then(|| path.with_extension(FITS));
     let output = |path: &PathBuf, kind| Output::new(path, kind).with_result(&options.result);
-    let mut outputs = vec![output(&path, options.format.kind())];
+    let mut outputs = vec![output(&path, format.kind())];
     outputs.extend(fits.as_ref().map(|fits| output(fits, OutputKind::Table(table::COLUMN_OF_FITS))));
-    outputs::check(&outputs, &inputs, options.force)?;
+    outputs::check(&outputs, &options.inputs(), options.overwriting.force)?;
 
     let file = ResultFile::open(&options.result)?;
     let known = file.measures();
-    let measures = match options.measure {
+    let measures = match asked.measure {
         Some(measure) => vec![known[measure_index(&known, Some(measure))?]],
         None => known,
     };
     for &measure in &measures {
-        measures::check(measure, options.format)?;
+        measures::check(measure, format)?;
     }
     let units = independent_records(&file)?;
     let stored = StoredStripes::read(&file)?;
-    let fragilities = match &options.of {
-        FragilityOf::Displacements { displacements_m, strengths } => {
-            of_displacements(&stored, (displacements_m, strengths), &measures, &units)
+    let fragilities = match &structure {
+        None => {
+            let [displacements_m, strengths] = [&asked.displacement_m, &asked.strength].map(|of| all_numbers(of));
+            of_displacements(&stored, (&displacements_m, &strengths), &measures, &units)
         }
-        FragilityOf::Structure { structure, manifest, capacity_share } => {
-            let asked =
-                LimitOptions { manifest: manifest.clone(), measure: options.measure, capacity_share: *capacity_share };
-            let found = limit_stripes(structure, &options.result, &asked, events)?;
+        Some(structure) => {
+            let found = limit_stripes(structure, &options.result, &asked.limits(asked.measure), events)?;
             let name = structure.file.file_stem().unwrap_or_default().to_string_lossy();
             found
                 .iter()
@@ -153,9 +101,9 @@ pub fn export_fragility(options: &FragilityOptions, events: &dyn Events) -> Resu
         }
     }?;
     let line = stored.line("fragility");
-    let mut report = FragilityReport { files: vec![path.clone()], notes: Vec::new() };
+    let mut report = ExportReport { files: vec![path.clone()], notes: Vec::new() };
     let functions: Vec<FragilityFunction> = fragilities.iter().filter_map(Fragility::function).collect();
-    match options.format {
+    match format {
         FragilityFormat::OpenQuake => {
             let (text, notes) = nrml_model(&functions, &line);
             report.notes = notes;

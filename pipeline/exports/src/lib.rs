@@ -1,9 +1,10 @@
 //! A result beside a reference, and for other programs.
 
-pub mod demand;
+mod demand;
 mod error;
 pub mod export;
-pub mod fragility;
+mod fragility;
+mod options;
 pub mod table;
 
 pub use error::ExportsError;

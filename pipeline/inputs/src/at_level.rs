@@ -15,6 +15,7 @@ pub use factors::{far_factors, relative_factors};
 pub use sets::AtLevel;
 use uplift_job::checksum::checksum;
 use uplift_job::table::plain;
+use uplift_job::text::counted;
 use uplift_job::text_table;
 
 /// The column of record names, as a manifest has it.
@@ -151,8 +152,8 @@ fn other_columns(name: &str, columns: &[&str], known: &[&str]) -> Result<Vec<Str
     if !mistakes.is_empty() {
         return Err(mistakes);
     }
-    let told =
-        (!others.is_empty()).then(|| format!("{name}: {} not used: {}", count(others.len(), "column"), list(&others)));
+    let told = (!others.is_empty())
+        .then(|| format!("{name}: {} not used: {}", counted(others.len(), "column"), list(&others)));
     Ok(told.into_iter().collect())
 }
 
@@ -199,7 +200,7 @@ impl Table {
                 "{}: {} are not among the records of the study: {} (names are those of the manifest; with component = \
                  \"both\", RSN753:h1 and RSN753:h2)",
                 self.name,
-                count(missing.len(), "record"),
+                counted(missing.len(), "record"),
                 list(&missing)
             ));
         }
@@ -304,11 +305,6 @@ fn shares(weights: &mut [f64], records: usize) -> Option<Vec<f64>> {
         }
     }
     Some(weights.to_vec())
-}
-
-/// `1 record`, `2 records`.
-pub(crate) fn count(number: usize, noun: &str) -> String {
-    if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }
 }
 
 /// The first of some names.

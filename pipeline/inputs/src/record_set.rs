@@ -9,6 +9,7 @@ use uplift_job::JobError;
 use uplift_job::checksum::checksum;
 use uplift_job::events::{Events, Silent};
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
+use uplift_job::text::counted;
 use uplift_motion::synthetic::SyntheticSetOptions;
 use uplift_motion::{
     Accelerogram, Combination, Component, Direction, Drawn, Horizontal, IntensityMeasure, MotionError, RecordPair,
@@ -173,15 +174,15 @@ fn read_set(
     notes.extend(twice.iter().flatten().cloned());
     notes.extend(of_unusual_peak(&pairs, study.gravity_m_s2));
     notes.extend(of_unequal_length(&pairs, study));
-    let noun = if pairs.len() == 1 { "pair" } else { "pairs" };
-    let kind = match pairs.iter().filter(|pair| is_made(pair)).count() {
-        made if made == pairs.len() || (made == 0 && synthetic) => format!("synthetic {noun}"),
-        0 => format!("recorded {noun}"),
-        made => format!("{noun}, {made} of them synthetic,"),
+    let of_pairs = |pair| counted(pairs.len(), pair);
+    let pairs_in_words = match pairs.iter().filter(|pair| is_made(pair)).count() {
+        made if made == pairs.len() || (made == 0 && synthetic) => of_pairs("synthetic pair"),
+        0 => of_pairs("recorded pair"),
+        made => format!("{}, {made} of them synthetic,", of_pairs("pair")),
     };
     let chosen = &study.records.select;
     let chosen = if chosen.is_empty() { String::new() } else { format!(", {chosen}") };
-    let mut description = format!("{} {kind} ({source}{chosen}), component {}", pairs.len(), study.records.component);
+    let mut description = format!("{pairs_in_words} ({source}{chosen}), component {}", study.records.component);
     let mut verticals = None;
     if study.records.vertical {
         description.push_str(", with the vertical one");

@@ -22,4 +22,4 @@ pub use criteria::{Criteria, range};
 pub use list::{ListReport, ListedRecord, SetOptions, list};
 pub use select::{SelectOptions, SelectReport, select};
 pub use show::{ComponentReport, FileReport, PairPeaks, RecordReport, ShowOptions, ShowReport, VelocityPulse, show};
-pub use synthesize::{SynthesizeOptions, SynthesizeReport, synthesize};
+pub use synthesize::{Mechanism, SynthesizeOptions, SynthesizeReport, synthesize};

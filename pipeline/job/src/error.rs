@@ -20,10 +20,12 @@ pub enum JobError {
     /// What a job is asked for does not fit together.
     Usage(String),
     /// A choice among what a result has, that it does not have or that was not made.
-    #[error("{}", choice(option, wanted.as_deref(), known))]
+    #[error("{}", choice([option, noun], wanted.as_deref(), known))]
     Choice {
         /// What is chosen, as the command line calls it: `--site`.
         option: &'static str,
+        /// What it is: `site`.
+        noun: &'static str,
         /// The choice made; none where there is none, and there are several.
         wanted: Option<String>,
         /// What the result has.
@@ -90,7 +92,7 @@ macro_rules! through_job_error {
 }
 
 /// What was chosen and is not there, or what to choose among.
-fn choice(option: &str, wanted: Option<&str>, known: &[String]) -> String {
+fn choice([option, noun]: [&str; 2], wanted: Option<&str>, known: &[String]) -> String {
     let all = known.join(", ");
     let Some(wanted) = wanted else {
         let example = known.first().map_or_else(String::new, |first| format!(" {first}"));
@@ -99,14 +101,9 @@ fn choice(option: &str, wanted: Option<&str>, known: &[String]) -> String {
     let names: Vec<&str> = known.iter().map(String::as_str).collect();
     // a number is no mistyped number
     let is_word = wanted.parse::<f64>().is_err();
-    let what = match option {
-        "--poe" => "probability".to_owned(),
-        _ if option.contains("SITE") => "site".to_owned(),
-        _ => option.trim_start_matches('-').replace('-', " "),
-    };
     let meant = did_you_mean(wanted, &names).filter(|_| is_word && known.len() > 1);
     let meant = meant.map_or_else(String::new, |meant| format!("; {}", meant.replace('`', "")));
-    format!("the result has no {what} {wanted}: it has {all}{meant}")
+    format!("the result has no {noun} {wanted}: it has {all}{meant}")
 }
 
 /// Several mistakes as one message; `place` says where they are.

@@ -6,6 +6,7 @@ mod visible;
 
 pub use risk::{kind_of_risks, per_cent, risk_in_words, risk_name, risks_in_words, rounded, share};
 pub use table::{Table, TableOf};
+pub use uplift_plausible::counted;
 pub use visible::{is_obeyed, one_line, visible};
 
 /// A number for a table or JSON, which have no infinity and no NaN: none for these. Zero has no sign there.
@@ -123,11 +124,6 @@ pub fn thousands(number: u64) -> String {
         text.push(digit);
     }
     text
-}
-
-/// A number of things, named in the singular: `1 level`, `2 levels`.
-pub fn counted(count: usize, thing: &str) -> String {
-    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
 #[cfg(test)]

@@ -45,6 +45,26 @@ pub fn number(text: &str) -> Result<f64, String> {
     })
 }
 
+/// Several numbers, parted by commas.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Numbers(pub Vec<f64>);
+
+/// Those of an option, however often it is given.
+pub fn all_numbers(several: &[Numbers]) -> Vec<f64> {
+    several.iter().flat_map(|Numbers(all)| all.iter().copied()).collect()
+}
+
+/// Reads `0.1,0.2`; `0,13` is a number with a decimal comma.
+///
+/// # Errors
+/// Text that is no such list, with what to write.
+pub fn numbers(text: &str) -> Result<Numbers, String> {
+    if let Some(decimals) = text.strip_prefix("0,").filter(|rest| rest.bytes().all(|byte| byte.is_ascii_digit())) {
+        return Err(format!("the decimal mark is a point: write 0.{decimals}"));
+    }
+    text.split(',').map(number).collect::<Result<_, _>>().map(Numbers)
+}
+
 /// `1/20000` to three digits; none of other text.
 fn quotient(text: &str) -> Option<f64> {
     let (above, below) = text.split_once('/')?;
@@ -93,6 +113,9 @@ mod tests {
             assert!(number(text).is_err_and(|error| error.starts_with("give one number")), "{text}");
         }
         assert_eq!(number("1/20000"), Err("write a number, 5e-5".to_owned()));
+        assert!(numbers("0,13").is_err_and(|error| error.contains("write 0.13")));
+        assert!(numbers("0.1,x").is_err());
+        assert_eq!(numbers("0.1,0.2"), Ok(Numbers(vec![0.1, 0.2])));
         for text in ["0.2 m", "x", "", "1/0", "m/s"] {
             assert!(number(text).is_err_and(|error| error.starts_with("write a number")), "{text}");
         }

@@ -13,6 +13,7 @@ use uplift_oscillator::OscillatorError;
 use uplift_result::ResultError;
 use uplift_statics::StaticsError;
 use uplift_structure::StructureError;
+use uplift_study::StudyError;
 
 /// Why a single test was not carried out.
 #[derive(Debug, Error)]
@@ -24,6 +25,8 @@ pub enum LaboratoryError {
     Inputs(#[from] InputsError),
     /// A result that cannot be read or written.
     Result(#[from] ResultError),
+    /// The structure file has mistakes.
+    Study(#[from] StudyError),
     /// A structure that cannot be judged.
     Design(#[from] DesignError),
     /// A structure that cannot be, or to which a rule does not apply.

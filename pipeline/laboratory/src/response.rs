@@ -5,6 +5,7 @@ mod block;
 mod frame;
 mod frame_history;
 mod history;
+mod options;
 mod shaking;
 
 use std::path::PathBuf;
@@ -17,70 +18,72 @@ use uplift_plausible::{
     USUAL_STRENGTH, USUAL_UPLIFT_DISPLACEMENT,
 };
 
-pub use block::{BlockHistory, BlockResponseOptions, BlockResponseReport, block_response};
-pub use frame::{ComponentFile, FrameResponseOptions, FrameResponseReport, FrameRun, ShakenComponent, frame_response};
+use block::block_response;
+pub use block::{BlockHistory, BlockResponseReport};
+use frame::frame_response;
+pub use frame::{FrameResponseReport, FrameRun, ShakenComponent};
 pub use frame_history::{FrameHistory, FrameHistoryRow};
 pub use history::{HistoryRow, ResponseHistory};
-pub use shaking::{Shaking, ShakingRecord};
+pub use options::{BlockOptions, FrameOptions, ResponseOptions};
+pub use shaking::ShakingRecord;
 
 use crate::error::LaboratoryError;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 
-/// Which oscillator is shaken, and by what.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ResponseOptions {
-    /// The record, and what is kept of the motion.
-    pub shaking: Shaking,
-    /// Strength η: uplift force over weight.
-    pub strength: f64,
-    /// Displacement at uplift, m.
-    pub uplift_displacement_m: f64,
-    /// Displacement where the restoring force vanishes, m: a system of negative stiffness after uplift, which can
-    /// overturn.
-    pub capacity_m: Option<f64>,
-    /// Stiffness after uplift over the mass, 1/s², of a system where it is positive; not beside `capacity_m`.
-    pub post_uplift_stiffness_per_s2: Option<f64>,
-    /// Coefficient of restitution at impact.
-    pub restitution: f64,
+/// Of the oscillators of the studies.
+const OSCILLATOR_RESTITUTION: f64 = 0.95;
+
+/// What became of the system that was shaken.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Response {
+    /// An oscillator.
+    Oscillator(ResponseReport),
+    /// A rigid block.
+    Block(BlockResponseReport),
+    /// A rocking frame.
+    Frame(FrameResponseReport),
+}
+
+/// Shakes one system: the frame where a structure is given, the oscillator where a strength is, else the block.
+///
+/// # Errors
+/// Numbers that no system, record or person means; a system that cannot be; a structure without columns, or with
+/// columns of rectangular section that are to wobble; a frame without a horizontal component; records that cannot be
+/// read; a history that would replace something else or cannot be written; motions beyond the model, as
+/// `uplift_frame::FrameError` has them.
+pub fn response(options: &ResponseOptions) -> Result<Response, LaboratoryError> {
+    if let Some(structure) = &options.frame.structure {
+        return Ok(Response::Frame(frame_response(structure, options)?));
+    }
+    if options.channel.len() > 1 {
+        let reason = "--channel has several numbers: one record has one component";
+        return Err(JobError::Usage(reason.to_owned()).into());
+    }
+    Ok(match options.strength {
+        Some(strength) => Response::Oscillator(oscillator_response(strength, options)?),
+        None => Response::Block(block_response(options)?),
+    })
 }
 
 impl ResponseOptions {
-    /// `record`, unscaled, through the system of zero stiffness after uplift that has this `strength` and else the
-    /// values of the studies; no history.
-    pub fn new(record: impl Into<PathBuf>, strength: f64) -> Self {
-        Self {
-            shaking: Shaking::new(record),
-            strength,
-            uplift_displacement_m: 0.0005,
-            capacity_m: None,
-            post_uplift_stiffness_per_s2: None,
-            restitution: 0.95,
-        }
-    }
-
-    /// Refuses numbers that no system, record or person means; all of them at once.
-    fn check(&self) -> Result<(), LaboratoryError> {
-        self.shaking.check(&[
-            (STRENGTH, "strength", Some(self.strength)),
+    /// The oscillator of a `strength`, its numbers plausible, and what is unlikely of them: mistakes of unit mostly.
+    fn oscillator(&self, strength: f64) -> Result<(Oscillator, Vec<Alarm>), LaboratoryError> {
+        let restitution = self.restitution.unwrap_or(OSCILLATOR_RESTITUTION);
+        self.check(&[
+            (STRENGTH, "strength", Some(strength)),
             (UPLIFT_DISPLACEMENT, "uplift_displacement_m", Some(self.uplift_displacement_m)),
             (CAPACITY, "capacity_m", self.capacity_m),
             (POST_UPLIFT_STIFFNESS, "post_uplift_stiffness_per_s2", self.post_uplift_stiffness_per_s2),
-            (RESTITUTION, "restitution", Some(self.restitution)),
-        ])
-    }
-
-    /// The numbers that can be but are unlikely, mistakes of unit mostly.
-    fn alarms(&self) -> Vec<Alarm> {
-        self.shaking.alarms(&[
-            (USUAL_STRENGTH, "--strength", Some(self.strength)),
+            (RESTITUTION, "restitution", Some(restitution)),
+        ])?;
+        let alarms = self.alarms(&[
+            (USUAL_STRENGTH, "--strength", Some(strength)),
             (USUAL_UPLIFT_DISPLACEMENT, "--uplift-displacement-m", Some(self.uplift_displacement_m)),
             (USUAL_CAPACITY, "--capacity-m", self.capacity_m),
-            (USUAL_RESTITUTION, "--restitution", Some(self.restitution)),
-        ])
-    }
-
-    fn oscillator(&self) -> Result<Oscillator, LaboratoryError> {
+            (USUAL_RESTITUTION, "--restitution", Some(restitution)),
+        ]);
         let post_uplift = match (self.capacity_m, self.post_uplift_stiffness_per_s2) {
             (Some(_), Some(_)) => {
                 return Err(JobError::Usage(
@@ -93,18 +96,9 @@ impl ResponseOptions {
             (None, Some(stiffness_per_s2)) => PostUplift::Positive { stiffness_per_s2 },
             (None, None) => PostUplift::Zero,
         };
-        Ok(Oscillator::new(
-            self.strength,
-            self.shaking.gravity_m_s2,
-            self.uplift_displacement_m,
-            self.restitution,
-            post_uplift,
-        )?)
-    }
-
-    fn free_vibration(&self) -> FreeVibration {
-        let seconds = self.shaking.free_vibration_s;
-        if seconds > 0.0 { FreeVibration::Seconds(seconds) } else { FreeVibration::None }
+        let oscillator =
+            Oscillator::new(strength, self.gravity_m_s2, self.uplift_displacement_m, restitution, post_uplift)?;
+        Ok((oscillator, alarms))
     }
 }
 
@@ -152,20 +146,16 @@ pub struct ResponseReport {
 }
 
 /// Shakes one oscillator with one record.
-///
-/// # Errors
-/// An oscillator that cannot be, a record that cannot be read, a history that cannot be written.
-pub fn response(options: &ResponseOptions) -> Result<ResponseReport, LaboratoryError> {
-    options.check()?;
-    let oscillator = options.oscillator()?;
-    let after = options.free_vibration();
-    let shaking = &options.shaking;
-    let motion = shaking.read()?;
-    let excitation = Excitation::new(motion.dt_s(), motion.acceleration_m_s2())?.scaled(shaking.scale)?;
+fn oscillator_response(strength: f64, options: &ResponseOptions) -> Result<ResponseReport, LaboratoryError> {
+    let (oscillator, alarms) = options.oscillator(strength)?;
+    let free_s = options.free_vibration_s;
+    let after = if free_s > 0.0 { FreeVibration::Seconds(free_s) } else { FreeVibration::None };
+    let (motion, record) = options.read()?;
+    let excitation = Excitation::new(motion.dt_s(), motion.acceleration_m_s2())?.scaled(options.scale)?;
     oscillator
-        .check_run_length(motion.duration_s() + shaking.free_vibration_s, motion.dt_s())
+        .check_run_length(motion.duration_s() + free_s, motion.dt_s())
         .map_err(|error| JobError::Usage(error.to_string()))?;
-    let (result, history) = if shaking.wants_history() {
+    let (result, history) = if options.wants_history() {
         let (result, history) = respond_with_history(&oscillator, &excitation, after);
         (result, Some(ResponseHistory::from_history(&history, &excitation)))
     } else {
@@ -173,19 +163,19 @@ pub fn response(options: &ResponseOptions) -> Result<ResponseReport, LaboratoryE
     };
     if !(result.overturned || result.peak_displacement_m.is_finite()) {
         return Err(LaboratoryError::from(IdaError::NotFinite {
-            motion: shaking.record.display().to_string(),
-            scale: shaking.scale,
+            motion: record.display().to_string(),
+            scale: options.scale,
             system: System::Oscillator(oscillator).to_string(),
             displacement_m: result.peak_displacement_m,
         }));
     }
     let report = ResponseReport {
-        shaken_by: shaking.told(&motion),
-        strength: options.strength,
+        shaken_by: options.told(record, &motion),
+        strength,
         uplift_displacement_m: options.uplift_displacement_m,
         capacity_m: options.capacity_m,
         post_uplift_stiffness_per_s2: options.post_uplift_stiffness_per_s2,
-        restitution: options.restitution,
+        restitution: oscillator.restitution(),
         peak_displacement_m: result.peak_displacement_m,
         time_of_peak_s: (!result.overturned).then_some(result.time_of_peak_s),
         impacts: result.impacts,
@@ -193,12 +183,12 @@ pub fn response(options: &ResponseOptions) -> Result<ResponseReport, LaboratoryE
         overturned: result.overturned,
         end_displacement_m: result.end_displacement_m,
         end_velocity_m_s: result.end_velocity_m_s,
-        alarms: options.alarms(),
+        alarms,
         time_of_overturning_s: result.overturned.then_some(result.time_of_peak_s),
         history,
-        history_file: shaking.history_file.clone(),
+        history_file: options.history_file.clone(),
     };
-    if let (Some(file), Some(history)) = (&shaking.history_file, &report.history) {
+    if let (Some(file), Some(history)) = (&options.history_file, &report.history) {
         history.write(file, &report)?;
     }
     Ok(report)

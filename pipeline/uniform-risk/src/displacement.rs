@@ -276,7 +276,12 @@ fn sites(asked: &[String], known: &[String]) -> Result<Vec<usize>, JobError> {
 pub fn site_index(option: &'static str, known: &[String], wanted: &str) -> Result<usize, JobError> {
     let spelt_so = known.iter().position(|site| site == wanted);
     let found = spelt_so.or_else(|| known.iter().position(|site| site.to_lowercase() == wanted.to_lowercase()));
-    found.ok_or_else(|| JobError::Choice { option, wanted: Some(wanted.to_owned()), known: known.to_vec() })
+    found.ok_or_else(|| JobError::Choice {
+        option,
+        noun: "site",
+        wanted: Some(wanted.to_owned()),
+        known: known.to_vec(),
+    })
 }
 
 /// What was asked for, unless one of it is given twice.
@@ -303,6 +308,7 @@ pub fn strength_index(known: &[f64], wanted: f64) -> Result<usize, JobError> {
     let found = known.iter().position(|own| (own - wanted).abs() <= 1e-9 * own.abs());
     found.ok_or_else(|| JobError::Choice {
         option: "--strength",
+        noun: "strength",
         wanted: Some(wanted.to_string()),
         known: known.iter().map(ToString::to_string).collect(),
     })
@@ -316,6 +322,7 @@ pub fn measure_index(known: &[IntensityMeasure], wanted: Option<IntensityMeasure
     let found = known.iter().position(|own| wanted.is_none_or(|wanted| *own == wanted));
     found.ok_or_else(|| JobError::Choice {
         option: "--measure",
+        noun: "measure",
         wanted: wanted.map(|measure| measure.key().to_owned()),
         known: known.iter().map(|own| own.key().to_owned()).collect(),
     })

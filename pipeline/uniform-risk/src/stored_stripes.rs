@@ -142,6 +142,7 @@ impl StoredStripes {
             .filter(|&index| apart(&self.targets_per_year[index]) < 0.005);
         Ok(nearest.ok_or_else(|| JobError::Choice {
             option: "--return-period",
+            noun: "return period",
             wanted: Some(years.to_string()),
             known: self.targets_per_year.iter().map(|rate| format!("{:.1}", 1.0 / rate)).collect(),
         })?)
@@ -156,6 +157,7 @@ pub(crate) fn poe_index(poes: &[f64], wanted: Option<f64>) -> Result<usize, Unif
     };
     Ok(found.ok_or_else(|| JobError::Choice {
         option: "--poe",
+        noun: "probability",
         wanted: wanted.map(|wanted| format!("{wanted:?}")),
         known: poes.iter().map(|poe| format!("{poe:?}")).collect(),
     })?)

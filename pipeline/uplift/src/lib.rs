@@ -63,7 +63,7 @@
 //! | [`machine`] | what a job needs of memory and disk, and what there is |
 //! | [`status`], [`verify`] | how far a run is, and whether a result is as it was written |
 //! | [`mod@alarms`] | what to know before the numbers of a result are used |
-//! | [`table`](mod@table), [`export`], [`fragility`], [`demand`] | a result beside a reference, for other programs |
+//! | [`table`](mod@table), [`export`] | a result beside a reference, for other programs |
 //! | [`response`], [`pulses`] | one record through one oscillator, block or frame; rocking spectra under wavelets |
 //! | [`library`](mod@library) | response of blocks and oscillators over normalised intensities |
 //! | [`pushover`](mod@pushover), [`restrainer`] | columns under a static force; restrainers, stacks of a catalogue |
@@ -88,7 +88,7 @@ pub use result_of::result_of;
 pub use run::{RunOptions, RunReport, run};
 pub use shard::{check_inputs, merge, run_shard};
 pub use uplift_engine::{analysis, checkpoint};
-pub use uplift_exports::{demand, export, fragility, table};
+pub use uplift_exports::{export, table};
 pub use uplift_inputs::{self as inputs, hazard_curves, import, load_study, load_uniform_risk, records};
 pub use uplift_job::events::{Events, Phase, Silent};
 pub use uplift_job::{

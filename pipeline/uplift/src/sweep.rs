@@ -4,12 +4,15 @@
 //! motion, oscillator, strength and level are taken from the results that are finished, so that variants which differ
 //! in hazard, sites, probabilities or some strengths cost next to nothing.
 
+#![allow(rustdoc::invalid_html_tags)] // --help prints <study>
+
 mod table;
 mod variants;
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
+use clap::{ArgGroup, Args};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use uplift_alarms::alarms;
@@ -30,25 +33,35 @@ use uplift_uniform_risk::{BandOf, Displacement, DisplacementOptions, Displacemen
 use crate::error::UpliftError;
 use crate::result_of::result_of;
 use crate::shard::check_inputs;
-pub use variants::{Variant, cases, product};
+use variants::{Variant, cases, product};
 
 /// Variants of one sweep: more are a study of their own.
 const MOST_VARIANTS: usize = 1000;
 
 /// What is asked of a sweep.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Args)]
+#[command(group = ArgGroup::new("variants").required(true).args(["over", "cases"]))]
 pub struct SweepOptions {
-    /// The study file.
+    /// Study file, e.g. configs/quick.toml
+    #[arg(id = "study", value_name = "STUDY")]
     pub study_file: PathBuf,
-    /// What is changed of it for every variant, `records.first=20`.
+    /// Key and its values; every combination is run
+    #[arg(long, value_name = "KEY=VALUE,VALUE…")]
+    pub over: Vec<String>,
+    /// Table of variants: a column a key, a row a variant, with a column `name` if wanted
+    #[arg(long, value_name = "CASES.csv", conflicts_with = "over")]
+    pub cases: Option<PathBuf>,
+    /// Set a key for all variants, e.g. records.first=20
+    #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
-    /// What is changed for each.
-    pub variants: Vec<Variant>,
-    /// Folder of the results; beside the study's own result and named after it where none is given.
+    /// Folder for the results [default: results/<study>.sweep]
+    #[arg(short = 'o', long = "output", value_name = "FOLDER")]
     pub folder: Option<PathBuf>,
     /// What the caller typed; kept in the results.
+    #[arg(skip)]
     pub command: String,
     /// Whether existing files are overwritten.
+    #[arg(skip)]
     pub force: bool,
 }
 
@@ -144,10 +157,14 @@ pub fn sweep_folder(options: &SweepOptions) -> Result<PathBuf, UpliftError> {
 /// would replace something else; as [`run`](crate::run()) of any of them: what is finished stays, and the same sweep
 /// goes on from there.
 pub fn sweep(options: &SweepOptions, events: &dyn Events) -> Result<SweepReport, UpliftError> {
+    let variants = match &options.cases {
+        Some(table) => cases(table)?,
+        None => product(&options.over)?,
+    };
     let study = Study::load(&options.study_file, &options.overrides)?;
     let folder = sweep_folder(options)?;
     let table = folder.join("comparison.csv");
-    let ready = ready(options, &folder)?;
+    let ready = ready(options, &variants, &folder)?;
     let inputs: Vec<&Path> = std::iter::once(options.study_file.as_path())
         .chain(ready.iter().filter_map(|variant| variant.options.output.as_deref()))
         .collect();
@@ -156,12 +173,12 @@ pub fn sweep(options: &SweepOptions, events: &dyn Events) -> Result<SweepReport,
     check_comparison(&table, &digest, options.force)?;
     check(&ready, events)?;
     outputs::provide_folder(&folder)?;
-    let keys = variants::keys(&options.variants);
+    let keys = variants::keys(&variants);
     // finished results by their oscillator: of another one nothing can be taken
     let mut finished: HashMap<String, Vec<PathBuf>> = HashMap::new();
     let mut reports = Vec::new();
     let count = ready.len();
-    for (place, (variant, asked)) in ready.into_iter().zip(&options.variants).enumerate() {
+    for (place, (variant, asked)) in ready.into_iter().zip(&variants).enumerate() {
         let Ready { name, study, options } = variant;
         events.remark("variant", &format!("{} of {count}: {name}", place + 1));
         let of_oscillator = finished.entry(oscillator_key(&study)).or_default();
@@ -197,17 +214,17 @@ fn check_comparison(table: &Path, digest: &str, force: bool) -> Result<(), Uplif
 }
 
 /// Every variant as a study with the place of its result, or all mistakes of all of them.
-fn ready(options: &SweepOptions, folder: &Path) -> Result<Vec<Ready>, UpliftError> {
-    if options.variants.is_empty() || options.variants.len() > MOST_VARIANTS {
-        let count = options.variants.len();
+fn ready(options: &SweepOptions, variants: &[Variant], folder: &Path) -> Result<Vec<Ready>, UpliftError> {
+    if variants.is_empty() || variants.len() > MOST_VARIANTS {
+        let count = variants.len();
         return Err(JobError::Usage(format!(
             "{count} variants: give 1 to {MOST_VARIANTS}, by --over KEY=VALUE,VALUE or --cases FILE.csv"
         ))
         .into());
     }
-    let names = variants::names(&options.variants);
+    let names = variants::names(variants);
     let (mut ready, mut mistakes): (Vec<Ready>, Vec<String>) = (Vec::new(), Vec::new());
-    let keys = variants::keys(&options.variants);
+    let keys = variants::keys(variants);
     if keys.iter().any(|key| key == "output.file") {
         mistakes.push(
             "output.file: the results of a sweep lie in its folder (-o) and are named after their variants: leave the \
@@ -215,7 +232,7 @@ fn ready(options: &SweepOptions, folder: &Path) -> Result<Vec<Ready>, UpliftErro
                 .to_owned(),
         );
     }
-    for (variant, name) in options.variants.iter().zip(names) {
+    for (variant, name) in variants.iter().zip(names) {
         let overrides: Vec<String> = options.overrides.iter().cloned().chain(variant.overrides()).collect();
         match load_uniform_risk(&options.study_file, &overrides) {
             Ok(study) => {

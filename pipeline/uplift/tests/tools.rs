@@ -15,14 +15,14 @@ use uplift::pulses::{BlockPlan, PulseOptions, PulsePlan, pulses};
 use uplift::records::{
     Criteria, SelectOptions, SetOptions, ShowOptions, ShowReport, SynthesizeOptions, list, select, show, synthesize,
 };
-use uplift::response::{HistoryRow, ResponseOptions, Shaking, response};
+use uplift::response::{HistoryRow, Response, ResponseOptions, response};
 use uplift::result::AskedRisk;
 use uplift::status::status;
 use uplift::table::{TableOptions, table};
 use uplift::typed::Overwriting;
 use uplift::verify::verify;
 use uplift_block::RickerShape;
-use uplift_motion::{Combination, synthetic::SyntheticSetOptions};
+use uplift_motion::Combination;
 use uplift_study::{CRITERIA, Range};
 
 /// What a job that failed says.
@@ -48,9 +48,9 @@ impl Events for Listener {
 }
 
 fn made(at: &Path, pairs: usize) -> std::path::PathBuf {
-    let set = SyntheticSetOptions { pairs, ..SyntheticSetOptions::default() };
     let listener = Listener::default();
-    let report = synthesize(&SynthesizeOptions { folder: at.join("set"), set, force: false }, &listener).unwrap();
+    let options = SynthesizeOptions { count: pairs, ..SynthesizeOptions::new(at.join("set")) };
+    let report = synthesize(&options, &listener).unwrap();
     assert_eq!(report.pairs, pairs);
     assert_eq!(*listener.notes.lock().unwrap(), ["synthetic records: not for design"]);
     report.manifest
@@ -136,9 +136,15 @@ fn a_response_with_its_history() {
         .map(|entry| entry.unwrap().path())
         .find(|path| path.to_string_lossy().ends_with("H1.AT2"))
         .unwrap();
-    let shaking = Shaking { scale: 3.0, free_vibration_s: 2.0, history: true, ..Shaking::new(record) };
-    let options = ResponseOptions { shaking: shaking.clone(), ..ResponseOptions::new("", 0.05) };
-    let report = response(&options).unwrap();
+    let options = ResponseOptions {
+        record: Some(record),
+        strength: Some(0.05),
+        scale: 3.0,
+        free_vibration_s: 2.0,
+        history: true,
+        ..ResponseOptions::default()
+    };
+    let Response::Oscillator(report) = response(&options).unwrap() else { panic!("of an oscillator") };
     let history = report.history.as_ref().unwrap();
     let count = |word: &str| history.rows.iter().filter(|row| row.event == Some(word)).count();
     assert_eq!(count(HistoryRow::AFTER_IMPACT), usize::try_from(report.impacts).unwrap());
@@ -147,28 +153,27 @@ fn a_response_with_its_history() {
     let largest = history.rows.iter().fold(0.0_f64, |most, row| most.max(row.displacement_m.abs()));
     assert!(largest <= report.peak_displacement_m && largest > 0.99 * report.peak_displacement_m);
     // the same response without a history
-    let shaking = Shaking { history: false, ..shaking };
-    let alone = response(&ResponseOptions { shaking, ..options.clone() }).unwrap();
+    let alone = response(&ResponseOptions { history: false, ..options.clone() }).unwrap();
     assert_eq!(serde_json::to_value(&alone).unwrap(), serde_json::to_value(&report).unwrap());
     assert!(matches!(
-        job_error(&response(&ResponseOptions { strength: -1.0, ..options })),
+        job_error(&response(&ResponseOptions { strength: Some(-1.0), ..options })),
         Some(JobError::Implausible(_))
     ));
 }
 
 #[test]
 fn pulses_without_files_and_refused() {
-    let axis = |values: &[f64]| values.to_vec();
+    let grid = |text: &str| text.parse().unwrap();
     let plan = PulsePlan {
-        shapes: vec![RickerShape::Symmetric],
+        shapes: &[RickerShape::Symmetric],
         slenderness_rad: 0.1,
         restitution: None,
-        frequencies: axis(&[1.0, 2.0, 4.0]),
-        accelerations: axis(&[1.5, 5.0]),
-        half_widths: axis(&[0.5, 1.0]),
-        frequency_slices: axis(&[2.0]),
-        acceleration_slices: axis(&[2.0]),
-        blocks: BlockPlan { amplitude_g: 1.0, period_s: None, sizes_m: axis(&[1.0]), slendernesses_rad: axis(&[0.2]) },
+        frequencies: grid("1,2,4"),
+        accelerations: grid("1.5,5"),
+        half_widths: grid("0.5,1"),
+        frequency_lines: grid("2"),
+        acceleration_lines: grid("2"),
+        blocks: BlockPlan { amplitude_g: 1.0, period_s: None, sizes_m: grid("1"), slendernesses_rad: grid("0.2") },
     };
     let report = pulses(&PulseOptions { plan: plan.clone(), folder: None, force: false }, &Silent).unwrap();
     assert_eq!((report.wavelets[0].points, report.files.len()), (6, 0));

@@ -7,7 +7,7 @@ mod study;
 pub(crate) use result::ResultArguments;
 pub(crate) use structure::{KeepArgument, StructureArguments};
 pub(crate) use study::{StudyArguments, command_line, run_options, shard};
-pub(crate) use uplift::typed::{Overwriting, RARE, number, number_or_per_cent};
+pub(crate) use uplift::typed::{Numbers, Overwriting, RARE, all_numbers, number, numbers};
 
 use std::path::Path;
 
@@ -15,23 +15,6 @@ use crate::error::CommandError;
 
 /// Endings of the files that the program writes.
 const FILES: [&str; 9] = ["h5", "svg", "png", "pdf", "csv", "html", "json", "xlsx", "mat"];
-
-/// Several numbers, parted by commas.
-#[derive(Debug, Clone)]
-pub(crate) struct Numbers(pub(crate) Vec<f64>);
-
-/// Those of an option, however often it is given.
-pub(crate) fn all_numbers(several: &[Numbers]) -> Vec<f64> {
-    several.iter().flat_map(|Numbers(all)| all.iter().copied()).collect()
-}
-
-/// Reads `0.1,0.2`; `0,13` is a number with a decimal comma.
-pub(crate) fn numbers(text: &str) -> Result<Numbers, String> {
-    if let Some(decimals) = text.strip_prefix("0,").filter(|rest| rest.bytes().all(|byte| byte.is_ascii_digit())) {
-        return Err(format!("the decimal mark is a point: write 0.{decimals}"));
-    }
-    text.split(',').map(number).collect::<Result<_, _>>().map(Numbers)
-}
 
 /// Refuses a `folder` for some files (`what`) whose name is that of a file, unless there is such a folder.
 pub(crate) fn require_folder(folder: &Path, what: &str) -> Result<(), CommandError> {
@@ -44,16 +27,4 @@ pub(crate) fn require_folder(folder: &Path, what: &str) -> Result<(), CommandErr
         folder.display(),
         folder.with_extension("").display()
     )))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_decimal_comma_is_named() {
-        assert!(numbers("0,13").is_err_and(|error| error.contains("write 0.13")));
-        assert!(numbers("0.1,x").is_err());
-        assert!(numbers("0.1,0.2").is_ok_and(|Numbers(all)| all == [0.1, 0.2]));
-    }
 }

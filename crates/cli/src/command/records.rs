@@ -1,16 +1,18 @@
-//! `uplift records`: record files, looked at, imported and chosen.
+//! `uplift records`: record files, looked at, imported, chosen and made.
 
-mod synthesize;
+use std::io::Write;
 
 use clap::{Args, Subcommand};
 use uplift::import::{ImportOptions, import as import_folder};
-use uplift::records::{self, AtLevelOptions, SelectOptions, SetOptions, ShowOptions, at_level as write_at_level};
+use uplift::records::{
+    self, AtLevelOptions, SelectOptions, SetOptions, ShowOptions, SynthesizeOptions, at_level as write_at_level,
+};
 
 use uplift::text::counted;
 
 use crate::error::CommandError;
 use crate::show::{print_at_level, print_import, print_record, print_records, print_selection, tell_remarks};
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, output};
 
 #[derive(Debug, Args)]
 pub(super) struct RecordsArguments {
@@ -40,7 +42,8 @@ enum RecordsCommand {
     )]
     AtLevel(AtLevelOptions),
     /// Make synthetic records of a scenario
-    Synthesize(synthesize::SynthesizeArguments),
+    #[command(after_help = "Example:\n  uplift records synthesize -o records/synthetic --count 40 --magnitude 6.5:7")]
+    Synthesize(SynthesizeOptions),
 }
 
 pub(super) fn records(arguments: &RecordsArguments, terminal: &Terminal) -> Result<(), CommandError> {
@@ -50,7 +53,7 @@ pub(super) fn records(arguments: &RecordsArguments, terminal: &Terminal) -> Resu
         RecordsCommand::Show(options) => print_record(&records::show(options)?),
         RecordsCommand::Select(options) => print_selection(&records::select(options, terminal)?, terminal),
         RecordsCommand::AtLevel(options) => print_at_level(&write_at_level(options)?, terminal),
-        RecordsCommand::Synthesize(arguments) => synthesize::synthesize(arguments, terminal),
+        RecordsCommand::Synthesize(options) => synthesize(options, terminal),
     }
 }
 
@@ -67,5 +70,13 @@ fn import(options: &ImportOptions, terminal: &Terminal) -> Result<(), CommandErr
     }
     print_import(&report, terminal)?;
     tell_remarks(&report, terminal);
+    Ok(())
+}
+
+fn synthesize(options: &SynthesizeOptions, terminal: &Terminal) -> Result<(), CommandError> {
+    let report = records::synthesize(options, terminal)?;
+    if !terminal.is_quiet() {
+        writeln!(output(), "{} synthetic pairs: {}", report.pairs, report.manifest.display())?;
+    }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::pushover::{MeasuredCurve, ProtocolReport, PushoverReport};
-use uplift::text::{Table, TableOf};
+use uplift::text::{Table, TableOf, counted};
 use uplift_statics::{Capacity, PushoverState};
 
 use super::{print_files, shown_path};
@@ -64,8 +64,8 @@ fn head(out: &mut impl Write, report: &PushoverReport) -> Result<(), CommandErro
     writeln!(out, "structure  {name} ({})", shown_path(&report.file).display())?;
     writeln!(
         out,
-        "           {columns} column{} of {width_m} m x {height_m} m, slenderness {slenderness_rad:.4} rad",
-        if *columns == 1 { "" } else { "s" }
+        "           {} of {width_m} m x {height_m} m, slenderness {slenderness_rad:.4} rad",
+        counted(*columns as usize, "column")
     )?;
     let (load, weight) = (kilo(report.top_load_n), kilo(report.column_weight_n));
     write!(out, "           each carries {load} kN and weighs {weight} kN")?;

@@ -4,7 +4,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_oscillator::PostUplift;
 use uplift_plausible::{
     Range, USUAL_CAPACITY, USUAL_GRAVITY, USUAL_RESTITUTION, USUAL_STRENGTH, USUAL_THRESHOLD, USUAL_TOP_PGA,
-    USUAL_TOP_PGV, USUAL_UPLIFT_DISPLACEMENT, USUAL_YEARS,
+    USUAL_TOP_PGV, USUAL_UPLIFT_DISPLACEMENT, USUAL_YEARS, counted,
 };
 
 use super::UniformRiskStudy;
@@ -27,7 +27,7 @@ pub(super) fn of(study: &UniformRiskStudy) -> Vec<Warning> {
         warnings.push(Warning::new(
             format!(
                 "regression.strength_above = {above} leaves {}, too few to fit 3 coefficients: no fit will be made",
-                if fitted == 1 { "1 strength".to_owned() } else { format!("{fitted} strengths") }
+                counted(fitted, "strength")
             ),
             "lower it, or give more strengths.values",
         ));

@@ -183,9 +183,9 @@ pub struct TargetOptions {
 }
 
 impl TargetOptions {
-    /// A search with nothing chosen that has a default.
-    pub fn new(quantity: Quantity, event: TargetEvent, frequency: TargetFrequency) -> Self {
-        let mut options = Self {
+    /// A search with nothing chosen that has a default, nor how often what must not happen may.
+    pub fn new(quantity: Quantity) -> Self {
+        Self {
             manifest: None,
             site: None,
             measure: None,
@@ -206,20 +206,7 @@ impl TargetOptions {
             proxy: false,
             table: None,
             overwriting: Overwriting::default(),
-        };
-        match event {
-            TargetEvent::Overturning => {}
-            TargetEvent::Beyond(displacement_m) => options.exceed = Some(Exceeded::Displacement(displacement_m)),
-            TargetEvent::BeyondCapacity(factor) => {
-                (options.exceed, options.safety_factor) = (Some(Exceeded::Capacity), factor);
-            }
         }
-        match frequency {
-            TargetFrequency::PerYear(per_year) => options.per_year = Some(per_year),
-            TargetFrequency::Probability(poe, years) => (options.poe, options.years) = (Some(poe), years),
-            TargetFrequency::ReturnPeriod(years) => options.return_period = Some(years),
-        }
-        options
     }
 
     /// What must not happen too often.
@@ -309,31 +296,33 @@ mod tests {
 
     #[test]
     fn numbers_in_another_unit_are_asked_about() {
-        let asked = |event, per_year| {
-            let options = TargetOptions::new(Quantity::Width, event, TargetFrequency::PerYear(per_year));
+        let asked = |exceed, safety_factor, per_year| {
+            let (exceed, per_year) = (Some(exceed), Some(per_year));
+            let options = TargetOptions { exceed, safety_factor, per_year, ..TargetOptions::new(Quantity::Width) };
             options.doubtful().into_iter().map(|alarm| alarm.what).collect::<Vec<_>>()
         };
-        let beyond = asked(TargetEvent::Beyond(300.0), 2e-4);
+        let beyond = asked(Exceeded::Displacement(300.0), 1.0, 2e-4);
         assert!(beyond.len() == 1 && beyond[0].starts_with("--exceed is 300 m; usual is"), "{beyond:?}");
-        let percentage = asked(TargetEvent::BeyondCapacity(150.0), 2e-4);
+        let percentage = asked(Exceeded::Capacity, 150.0, 2e-4);
         assert!(percentage.len() == 1 && percentage[0].starts_with("--safety-factor is 150"), "{percentage:?}");
-        let often = asked(TargetEvent::Overturning, 5.0);
+        let often = asked(Exceeded::Capacity, 1.0, 5.0);
         assert!(often.len() == 1 && often[0].contains("frequency is 5 1/yr"), "{often:?}");
-        assert!(
-            asked(TargetEvent::Beyond(0.3), 2e-4).is_empty() && asked(TargetEvent::BeyondCapacity(2.5), 0.1).is_empty()
-        );
+        assert!(asked(Exceeded::Displacement(0.3), 1.0, 2e-4).is_empty());
+        assert!(asked(Exceeded::Capacity, 2.5, 0.1).is_empty());
     }
 
     #[test]
     fn all_mistakes_are_reported_at_once() {
-        let frequency = TargetFrequency::Probability(2.0, Some(-1.0));
         let asked = TargetOptions {
+            exceed: Some(Exceeded::Displacement(-0.1)),
+            poe: Some(2.0),
+            years: Some(-1.0),
             from: Some(-1.0),
             tolerance: f64::NAN,
             return_periods: vec![0.0, 475.0],
             generic_dispersion: Some(0.0),
             generic_probability: 1.0,
-            ..TargetOptions::new(Quantity::Width, TargetEvent::Beyond(-0.1), frequency)
+            ..TargetOptions::new(Quantity::Width)
         };
         let names: Vec<&str> = asked.mistakes().iter().map(|mistake| mistake.name).collect();
         let expected = [
@@ -347,7 +336,7 @@ mod tests {
             "--generic-probability",
         ];
         assert_eq!(names, expected);
-        let sound = TargetOptions::new(Quantity::Width, TargetEvent::Overturning, TargetFrequency::PerYear(2e-4));
+        let sound = TargetOptions { overturning: Some(2e-4), ..TargetOptions::new(Quantity::Width) };
         assert_eq!(sound.mistakes(), []);
     }
 }

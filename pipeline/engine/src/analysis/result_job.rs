@@ -38,7 +38,7 @@ impl ResultJob<'_> {
     ) -> Result<(Vec<Analysed>, Checkpoint), EngineError> {
         work.needs().with_rows_of(shards).require(self.result, events)?;
         let known = if shards.is_empty() { FinishedRows::default() } else { join(shards, &work)? };
-        let mut checkpoint = Checkpoint::beside(self.result, self.name, &work.head(Shard::WHOLE), events);
+        let mut checkpoint = Checkpoint::beside(self.result, self.name, &work, events);
         checkpoint.extend(known);
         checkpoint.path().into_iter().for_each(|path| events.resumes_from(path));
         let results = work.results(&checkpoint, events)?;

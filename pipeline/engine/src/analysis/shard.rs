@@ -61,9 +61,8 @@ pub fn carry_out_shard<E: From<EngineError>>(
     events: &dyn Events,
     also: &dyn Fn(&Checkpoint) -> Result<(), E>,
 ) -> Result<ShardReport, E> {
-    let head = work.head(shard);
     let [_, rows] = work.share_of(shard, &FinishedRows::default());
-    let checkpoint = Checkpoint::open(path, &head)?;
+    let checkpoint = Checkpoint::open(path, &work, shard)?;
     events.resumes_from(path);
     work.carry_out(&checkpoint, shard, events, &mut |_, _| Ok(()))?;
     also(&checkpoint)?;

@@ -58,7 +58,7 @@ impl<'a> Work<'a> {
     }
 
     /// The head of the file of one shard.
-    pub fn head(&self, shard: Shard) -> RowFileHead {
+    pub(crate) fn head(&self, shard: Shard) -> RowFileHead {
         let mut hash = Sha256::new();
         for key in self.keys.iter().flat_map(RowKeys::as_slice) {
             hash.update(key.0);
@@ -98,7 +98,7 @@ impl<'a> Work<'a> {
         Needs { memory_bytes, disk_bytes: held.saturating_add(1_000_000), disk_least_bytes: held / 13 * 12 }
     }
 
-    fn keys_of(&self, shard: Shard) -> impl Iterator<Item = RowKey> + '_ {
+    pub(crate) fn keys_of(&self, shard: Shard) -> impl Iterator<Item = RowKey> + '_ {
         let of_plan = move |keys: &'_ RowKeys| -> Vec<RowKey> {
             let rows = keys.as_slice().iter().enumerate();
             rows.filter(|(row, _)| shard.contains(*row)).map(|(_, key)| *key).collect()

@@ -10,7 +10,8 @@ use uplift_job::lock::ResultLock;
 
 use super::error::CheckpointError;
 use super::key::RowKeys;
-use super::row_file::{FinishedRows, RowFile, RowFileHead};
+use super::row_file::{FinishedRows, RowFile};
+use crate::analysis::Work;
 use crate::error::EngineError;
 
 /// Finished analysis rows of a job: those known from before, and a file that takes up each further one when it is
@@ -32,24 +33,24 @@ impl Checkpoint {
         Self { file: None, rows: FinishedRows::default(), damaged_bytes: 0, _lock: None }
     }
 
-    /// The file at `path` of the work that `head` tells of, with the rows that it holds. The caller sees to it that no
-    /// other job has it too.
+    /// The file at `path` of one shard of `work`, with the rows that it holds. The caller sees to it that no other job
+    /// has it too.
     ///
     /// # Errors
     /// A file that cannot be written, or that holds something else.
-    pub fn open(path: &Path, head: &RowFileHead) -> Result<Self, EngineError> {
-        let (file, found) = RowFile::open(path, head)?;
+    pub fn open(path: &Path, work: &Work<'_>, shard: Shard) -> Result<Self, EngineError> {
+        let (file, found) = RowFile::open(path, &work.head(shard), || work.keys_of(shard).collect())?;
         Ok(Self { file: Some(file), rows: found.rows, damaged_bytes: found.damaged_bytes, _lock: None })
     }
 
     /// The checkpoint of a job that was asked of the result at `result`: a file beside it with `name` in its own name,
     /// that of the command and the structure, say. Where no file can be written there, or another job has it, this one
     /// goes on without, and says so.
-    pub fn beside(result: &Path, name: &str, head: &RowFileHead, events: &dyn Events) -> Self {
+    pub fn beside(result: &Path, name: &str, work: &Work<'_>, events: &dyn Events) -> Self {
         let path = path_beside(result, name, "part");
         let opened = ResultLock::acquire(&path)
             .map_err(EngineError::from)
-            .and_then(|lock| Ok(Self { _lock: Some(lock), ..Self::open(&path, head)? }));
+            .and_then(|lock| Ok(Self { _lock: Some(lock), ..Self::open(&path, work, Shard::WHOLE)? }));
         match opened {
             Ok(checkpoint) => checkpoint,
             Err(reason) => {

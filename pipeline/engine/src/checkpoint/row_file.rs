@@ -5,7 +5,7 @@
 //! was damaged is passed over, and one that was cut off ends what is read; when the file is gone on with they are gone.
 //! Whatever stops the program, at most the rows in work are lost.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
@@ -48,13 +48,21 @@ pub struct RowFileHead {
     pub analyses: u64,
     #[serde(default)]
     analyses_a_peak: u64,
+    /// Peaks of other work, which were carried over and are not counted.
+    #[serde(default)]
+    peaks_of_others: u64,
 }
 
 impl RowFileHead {
     /// The head of the file of one shard of a work.
     pub fn new(work: String, title: &str, [shard, shards]: [u64; 2], [analyses, a_peak]: [u64; 2]) -> Self {
         let (format, title) = (FORMAT.to_owned(), title.to_owned());
-        Self { format, work, title, shard, shards, analyses, analyses_a_peak: a_peak }
+        Self { format, work, title, shard, shards, analyses, analyses_a_peak: a_peak, peaks_of_others: 0 }
+    }
+
+    /// Whether both are of one shard of one work, whatever was carried over.
+    fn is_of(&self, other: &Self) -> bool {
+        Self { peaks_of_others: other.peaks_of_others, ..self.clone() } == *other
     }
 }
 
@@ -89,10 +97,10 @@ impl FinishedRows {
         self.rows.len()
     }
 
-    /// Number of peaks in them.
-    fn peaks(&self) -> u64 {
+    /// Number of peaks in those with keys as `are_meant`.
+    fn peaks(&self, are_meant: impl Fn(&RowKey) -> bool) -> u64 {
         let of_row = |(displacement_m, _): &Row| displacement_m.iter().filter(|peak_m| !peak_m.is_nan()).count() as u64;
-        self.rows.values().map(of_row).sum()
+        self.rows.iter().filter(|(key, _)| are_meant(key)).map(|(_, row)| of_row(row)).sum()
     }
 
     /// Whether there is none.
@@ -118,10 +126,11 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// Number of analyses that are finished. Rows of another study may be among those found, and rows of design
-    /// examples, which nobody counts before they are found.
+    /// Number of analyses that are finished. Rows of design examples may be among those found, which nobody counts
+    /// before they are found.
     pub fn analyses(&self) -> u64 {
-        (self.rows.peaks() * self.head.analyses_a_peak).min(self.head.analyses)
+        let peaks = self.rows.peaks(|_| true).saturating_sub(self.head.peaks_of_others);
+        (peaks * self.head.analyses_a_peak).min(self.head.analyses)
     }
 }
 
@@ -176,12 +185,16 @@ impl RowFile {
     }
 
     /// Opens the file at `path` to append to it, a new one with `head` unless a sound one of the same work is there;
-    /// with what it holds.
+    /// with what it holds. Of rows that were another work's, those with the `own` keys count as finished.
     ///
     /// # Errors
     /// A file that cannot be written, that holds something else, or that is a shard of other work: nothing else is
     /// overwritten.
-    pub fn open(path: &Path, head: &RowFileHead) -> Result<(Self, Finding), EngineError> {
+    pub fn open(
+        path: &Path,
+        head: &RowFileHead,
+        own: impl FnOnce() -> HashSet<RowKey>,
+    ) -> Result<(Self, Finding), EngineError> {
         let fail = |source| CheckpointError::Write { path: path.to_owned(), source };
         // what cannot be read to its first line was cut off in it
         let found = match Self::read(path) {
@@ -189,7 +202,7 @@ impl RowFile {
             found => found?,
         };
         let found = match found {
-            Some(found) if found.head != *head && (found.head.shards > 1 || head.shards > 1) => {
+            Some(found) if !found.head.is_of(head) && (found.head.shards > 1 || head.shards > 1) => {
                 let RowFileHead { title, shard, shards, .. } = found.head;
                 return Err(CheckpointError::OtherWork { path: path.to_owned(), shard, shards, title }.into());
             }
@@ -198,11 +211,13 @@ impl RowFile {
             found => found,
         };
         let (rows, damaged_bytes, same) = found.map_or((FinishedRows::default(), 0, false), |found| {
-            (found.rows, found.damaged_bytes, found.damaged_bytes == 0 && found.head == *head)
+            (found.rows, found.damaged_bytes, found.damaged_bytes == 0 && found.head.is_of(head))
         });
         if !same {
             // written again without what is damaged; rows of other work may be of use, and are carried over
-            let mut content = serde_json::to_vec(head).map_err(|error| fail(error.into()))?;
+            let own = if rows.is_empty() { HashSet::new() } else { own() };
+            let head = RowFileHead { peaks_of_others: rows.peaks(|key| !own.contains(key)), ..head.clone() };
+            let mut content = serde_json::to_vec(&head).map_err(|error| fail(error.into()))?;
             content.push(b'\n');
             for (key, (displacement_m, impacts)) in &rows.rows {
                 content.extend(write_block(*key, displacement_m, impacts));

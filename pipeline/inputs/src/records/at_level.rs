@@ -12,10 +12,11 @@ use serde::Serialize;
 use uplift_job::JobError;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::{table_text, write_atomically};
+use uplift_job::text::counted;
 use uplift_job::typed::{Overwriting, number};
 use uplift_motion::{IntensityMeasure, SelectedComponent, SelectedRecord, SelectedSet, SelectionTool, read_selection};
 
-use crate::at_level::{RECORD, check_bytes, count, level_column, list};
+use crate::at_level::{RECORD, check_bytes, level_column, list};
 use crate::error::InputsError;
 use crate::manifest;
 use known::KnownRecords;
@@ -99,7 +100,7 @@ pub struct AtLevelReport {
 pub fn at_level(options: &AtLevelOptions) -> Result<AtLevelReport, InputsError> {
     let AtLevelOptions { selections, levels, measure, .. } = options;
     if !levels.is_empty() && levels.len() != selections.len() {
-        let (levels, files) = (count(levels.len(), "level"), count(selections.len(), "file"));
+        let (levels, files) = (counted(levels.len(), "level"), counted(selections.len(), "file"));
         return Err(JobError::Usage(format!("{levels} for {files}: give --level one of each, in their order")).into());
     }
     if let Some(level) = levels.iter().find(|level| !(level.is_finite() && **level > 0.0)) {
@@ -245,7 +246,7 @@ impl Rows {
             mistakes.push(format!(
                 "{name}: {} of {} are not in {}: {}: import them, too",
                 missing.len(),
-                count(set.records.len(), "record"),
+                counted(set.records.len(), "record"),
                 options.manifest.display(),
                 list(&missing)
             ));
@@ -257,7 +258,7 @@ impl Rows {
         let AtLevelOptions { measure, output, .. } = options;
         let tools: BTreeSet<String> = sets.iter().map(|(_, _, set)| set.tool.to_string()).collect();
         let tools = tools.into_iter().collect::<Vec<_>>().join(", ");
-        let (mark, levels) = (outputs::mark(), count(sets.len(), "level"));
+        let (mark, levels) = (outputs::mark(), counted(sets.len(), "level"));
         let line = format!("{mark}, records at {levels} of {measure} as selected by {tools}");
         let columns = vec![
             Column::new(RECORD.into(), &self.records),
@@ -275,7 +276,7 @@ impl Rows {
             format!(
                 "{} named only by 1 or 2 of the tool's database, taken for h1 and h2 of the manifest: compare the \
                  order of their files",
-                count(self.numbered, "component")
+                counted(self.numbered, "component")
             )
         });
         let scaled = (self.scaled_already > 0).then(|| {

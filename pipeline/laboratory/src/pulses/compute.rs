@@ -67,8 +67,8 @@ pub fn compute(plan: &PulsePlan, watch: &impl Watch) -> Result<Vec<PulseSpectra>
             Ok(PulseSpectra {
                 shape,
                 by_frequency: of(Frequency, frequencies, accelerations)?,
-                over_acceleration: of(Frequency, &plan.frequency_slices, accelerations)?,
-                over_frequency: of(Frequency, frequencies, &plan.acceleration_slices)?,
+                over_acceleration: of(Frequency, &plan.frequency_lines, accelerations)?,
+                over_frequency: of(Frequency, frequencies, &plan.acceleration_lines)?,
                 blocks: blocks(plan, shape, watch)?,
                 by_half_width: of(HalfWidth, &plan.half_widths, accelerations)?,
             })
@@ -104,7 +104,7 @@ fn blocks(plan: &PulsePlan, shape: RickerShape, watch: &impl Watch) -> Result<Bl
         respond(&plan.block(size_m, slenderness_rad)?, pulse, FreeRocking::FirstPeak)
     };
     let mut responses = Vec::with_capacity(of_plan.sizes_m.len() * of_plan.slendernesses_rad.len());
-    for &slenderness_rad in &of_plan.slendernesses_rad {
+    for &slenderness_rad in of_plan.slendernesses_rad.iter() {
         go_on(watch)?;
         let row: Result<Vec<_>, _> =
             of_plan.sizes_m.par_iter().map(|&size_m| respond_of(size_m, slenderness_rad)).collect();
@@ -112,8 +112,8 @@ fn blocks(plan: &PulsePlan, shape: RickerShape, watch: &impl Watch) -> Result<Bl
         watch.finished(of_plan.sizes_m.len() as u64);
     }
     Ok(BlockResponses {
-        sizes_m: of_plan.sizes_m.clone(),
-        slendernesses_rad: of_plan.slendernesses_rad.clone(),
+        sizes_m: of_plan.sizes_m.to_vec(),
+        slendernesses_rad: of_plan.slendernesses_rad.to_vec(),
         responses,
     })
 }

@@ -1,50 +1,132 @@
 //! What is computed.
 
+#![allow(clippy::doc_markdown)] // what --help prints has no backticks
+
+use clap::Args;
+use clap::builder::TypedValueParser;
 use uplift_block::{BlockError, PulseSpectrumPlan, RickerPulse, RickerShape, RockingBlock, SizeMeasure};
 use uplift_job::JobError;
 use uplift_job::text::thousands;
+use uplift_job::typed::{number, one_of};
 use uplift_motion::STANDARD_GRAVITY_M_S2;
 use uplift_plausible::{Implausible, PULSE_AMPLITUDE, PULSE_PERIOD, PULSE_RATIO, SIZE};
+use uplift_study::{Grid, GridError};
 
 use crate::error::LaboratoryError;
 
 /// Points of a map that a figure can show, and then some.
 const MOST_POINTS: usize = 4_000_000;
+/// Lines that a figure can distinguish.
+const MOST_LINES: usize = 7;
 
-/// The spectra of Figures 2.2 to 2.7. All axes have values above zero, increasing.
-#[derive(Debug, Clone, PartialEq)]
+/// Wavelets by their word on a command line.
+const SHAPES: [(&str, &[RickerShape]); 3] = [
+    ("symmetric", &[RickerShape::Symmetric]),
+    ("antisymmetric", &[RickerShape::Antisymmetric]),
+    ("both", &[RickerShape::Symmetric, RickerShape::Antisymmetric]),
+];
+const AXES: &str = "Axes (numbers, or start:step:stop, set apart by commas)";
+const BLOCKS: &str = "Blocks with a size in metres";
+
+/// The spectra of Figures 2.2 to 2.7.
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct PulsePlan {
-    /// Wavelets.
-    pub shapes: Vec<RickerShape>,
-    /// Slenderness α of the block of the nondimensional spectra \[rad\].
+    /// Wavelet: second or third derivative of the Gaussian (Eq. 2.7, 2.8)
+    #[arg(
+        long = "shape", value_name = "SHAPE", default_value = "both",
+        value_parser = one_of(&SHAPES, |(word, _)| word).map(|(_, shapes)| shapes)
+    )]
+    pub shapes: &'static [RickerShape],
+    /// Slenderness alpha of the block, atan(b/h), rad
+    #[arg(
+        long = "slenderness", value_name = "RAD", default_value_t = 0.1,
+        allow_negative_numbers = true, value_parser = number
+    )]
     pub slenderness_rad: f64,
-    /// Coefficient of restitution; Housner's (Eq. 2.3) if none is given.
+    /// Coefficient of restitution at impact [default: Housner's, Eq. 2.3]
+    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
     pub restitution: Option<f64>,
-    /// Axis ωₚ/p (Figures 2.2, 2.3, 2.5).
-    pub frequencies: Vec<f64>,
-    /// Axis aₚ/(g tan α) (Figures 2.2, 2.3, 2.4, 2.7).
-    pub accelerations: Vec<f64>,
-    /// Axis b ωₚ²/aₚ (Figure 2.7).
-    pub half_widths: Vec<f64>,
-    /// Values of ωₚ/p that have a line each (Figure 2.4).
-    pub frequency_slices: Vec<f64>,
-    /// Values of aₚ/(g tan α) that have a line each (Figure 2.5).
-    pub acceleration_slices: Vec<f64>,
-    /// Blocks with a size in metres (Figure 2.6).
+    /// Axis omega_p/p of the spectra
+    #[arg(
+        long, value_name = "GRID", default_value = "0.04:0.04:8", help_heading = AXES,
+        value_parser = axis, allow_negative_numbers = true
+    )]
+    pub frequencies: Grid,
+    /// Axis a_p/(g tan alpha) of the spectra
+    #[arg(
+        long, value_name = "GRID", default_value = "0.5:0.05:10", help_heading = AXES,
+        value_parser = axis, allow_negative_numbers = true
+    )]
+    pub accelerations: Grid,
+    /// Axis b omega_p^2/a_p of the spectrum by the width of the base
+    #[arg(
+        long, value_name = "GRID", default_value = "0.025:0.025:6", help_heading = AXES,
+        value_parser = axis, allow_negative_numbers = true
+    )]
+    pub half_widths: Grid,
+    /// Values of omega_p/p drawn over the acceleration
+    #[arg(
+        long, value_name = "GRID", default_value = "1,2,3,4,6,8", help_heading = AXES,
+        value_parser = lines, allow_negative_numbers = true
+    )]
+    pub frequency_lines: Grid,
+    /// Values of a_p/(g tan alpha) drawn over the size-frequency parameter
+    #[arg(
+        long, value_name = "GRID", default_value = "1.25,1.5,2,3,5,8", help_heading = AXES,
+        value_parser = lines, allow_negative_numbers = true
+    )]
+    pub acceleration_lines: Grid,
+    /// Blocks of several sizes and slendernesses under one wavelet of each shape (Figure 2.6).
+    #[command(flatten)]
     pub blocks: BlockPlan,
 }
 
 /// Blocks of several sizes and slendernesses under one wavelet of each shape (Figure 2.6).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct BlockPlan {
-    /// Largest ground acceleration aₚ \[g\].
+    /// Largest ground acceleration a_p, g
+    #[arg(
+        long, value_name = "G", default_value_t = 1.0, help_heading = BLOCKS,
+        allow_negative_numbers = true, value_parser = number
+    )]
     pub amplitude_g: f64,
-    /// Period Tₚ of the wavelets \[s\]; if none is given 0.5 s for the symmetric and 1 s for the antisymmetric one.
+    /// Period T_p of the wavelet, s [default: 0.5 symmetric, 1 antisymmetric]
+    #[arg(long, value_name = "S", help_heading = BLOCKS, allow_negative_numbers = true, value_parser = number)]
     pub period_s: Option<f64>,
-    /// Size parameters R, half the diagonal \[m\].
-    pub sizes_m: Vec<f64>,
-    /// Slendernesses α \[rad\].
-    pub slendernesses_rad: Vec<f64>,
+    /// Axis of sizes: parameter R, half the diagonal of the block, m
+    #[arg(
+        long, value_name = "GRID", default_value = "0.5:0.05:30", help_heading = BLOCKS,
+        value_parser = axis, allow_negative_numbers = true
+    )]
+    pub sizes_m: Grid,
+    /// Slendernesses to draw, rad
+    #[arg(
+        long = "slendernesses", value_name = "GRID", default_value = "0.1:0.1:0.6", help_heading = BLOCKS,
+        value_parser = lines, allow_negative_numbers = true
+    )]
+    pub slendernesses_rad: Grid,
+}
+
+/// Values above zero.
+fn positive(text: &str) -> Result<Grid, String> {
+    let grid: Grid = text.parse().map_err(|error: GridError| error.to_string())?;
+    match grid.first() {
+        Some(first) if *first <= 0.0 => Err(format!("{first} is not above zero: give values above zero")),
+        _ => Ok(grid),
+    }
+}
+
+fn axis(text: &str) -> Result<Grid, String> {
+    let grid = positive(text)?;
+    if grid.len() < 2 { Err("an axis has at least two values: write start:step:stop".to_owned()) } else { Ok(grid) }
+}
+
+fn lines(text: &str) -> Result<Grid, String> {
+    let grid = positive(text)?;
+    if grid.len() > MOST_LINES {
+        return Err(format!("{} lines are too many for one figure: give at most {MOST_LINES}", grid.len()));
+    }
+    Ok(grid)
 }
 
 /// What a wavelet is called.
@@ -95,8 +177,8 @@ impl PulsePlan {
             ("frequencies", &self.frequencies),
             ("accelerations", &self.accelerations),
             ("half-widths", &self.half_widths),
-            ("frequency lines", &self.frequency_slices),
-            ("acceleration lines", &self.acceleration_slices),
+            ("frequency lines", &self.frequency_lines),
+            ("acceleration lines", &self.acceleration_lines),
         ];
         let ends = ratios
             .into_iter()
@@ -111,7 +193,7 @@ impl PulsePlan {
             return Err(JobError::Implausible(implausible).into());
         }
         let sizes_m = [self.blocks.sizes_m.first(), self.blocks.sizes_m.last()];
-        let slendernesses = std::iter::once(&self.slenderness_rad).chain(&self.blocks.slendernesses_rad);
+        let slendernesses = std::iter::once(&self.slenderness_rad).chain(self.blocks.slendernesses_rad.iter());
         let blocks = slendernesses.flat_map(|&alpha| sizes_m.into_iter().flatten().map(move |&size_m| (size_m, alpha)));
         let mut mistakes: Vec<BlockError> = blocks
             .filter_map(|(size_m, alpha)| self.block(size_m, alpha).err())
@@ -130,8 +212,8 @@ impl PulsePlan {
     /// How many motions are computed.
     pub fn points(&self) -> u64 {
         let (frequencies, accelerations) = (self.frequencies.len(), self.accelerations.len());
-        let of_a_shape = accelerations * (frequencies + self.frequency_slices.len() + self.half_widths.len())
-            + self.acceleration_slices.len() * frequencies
+        let of_a_shape = accelerations * (frequencies + self.frequency_lines.len() + self.half_widths.len())
+            + self.acceleration_lines.len() * frequencies
             + self.blocks.sizes_m.len() * self.blocks.slendernesses_rad.len();
         (self.shapes.len() * of_a_shape) as u64
     }

@@ -12,37 +12,20 @@ use uplift_job::table::{ColumnsOf, write_table};
 use uplift_motion::Accelerogram;
 use uplift_plausible::{LENGTH, RESTITUTION, SIZE, USUAL_LENGTH, USUAL_RESTITUTION};
 
-use super::{Shaking, ShakingRecord};
+use super::{BlockOptions, ResponseOptions, ShakingRecord};
 use crate::error::LaboratoryError;
 
-/// Which block is shaken, and by what. Two numbers make a block: width and height, or a slenderness and one length.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BlockResponseOptions {
-    /// The record. Without free vibration the block is followed to its first peak after the record, which is the last
-    /// that may be the largest.
-    pub shaking: Shaking,
-    /// Width 2b, m.
-    pub width_m: Option<f64>,
-    /// Height 2h, m.
-    pub height_m: Option<f64>,
-    /// Size R, half the diagonal, m.
-    pub size_m: Option<f64>,
-    /// Slenderness α = atan(b/h), rad.
-    pub slenderness_rad: Option<f64>,
-    /// Angular velocity after an impact over the one before; Housner's (Eq. 2.3) if none.
-    pub restitution: Option<f64>,
-}
-
-impl BlockResponseOptions {
+impl ResponseOptions {
     /// The block, its numbers plausible.
     fn block(&self) -> Result<RockingBlock, LaboratoryError> {
-        self.shaking.check(&[
-            (LENGTH, "width_m", self.width_m),
-            (LENGTH, "height_m", self.height_m),
-            (SIZE, "size_m", self.size_m),
+        let &BlockOptions { width_m, height_m, size_m, slenderness_rad, .. } = &self.block;
+        self.check(&[
+            (LENGTH, "width_m", width_m),
+            (LENGTH, "height_m", height_m),
+            (SIZE, "size_m", size_m),
             (RESTITUTION, "restitution", self.restitution),
         ])?;
-        let block = match (self.slenderness_rad, self.width_m, self.height_m, self.size_m) {
+        let block = match (slenderness_rad, width_m, height_m, size_m) {
             (None, Some(width_m), Some(height_m), None) => {
                 RockingBlock::from_half_sides(0.5 * width_m, 0.5 * height_m)?
             }
@@ -62,22 +45,22 @@ impl BlockResponseOptions {
                 .into());
             }
         };
-        let block = block.with_gravity(self.shaking.gravity_m_s2)?;
+        let block = block.with_gravity(self.gravity_m_s2)?;
         Ok(self.restitution.map_or(Ok(block), |restitution| block.with_restitution(restitution))?)
     }
 
     /// The numbers that can be but are unlikely, mistakes of unit mostly.
-    fn alarms(&self) -> Vec<Alarm> {
-        self.shaking.alarms(&[
-            (USUAL_LENGTH, "--width-m", self.width_m),
-            (USUAL_LENGTH, "--height-m", self.height_m),
-            (USUAL_LENGTH, "--size-m", self.size_m),
+    fn block_alarms(&self) -> Vec<Alarm> {
+        self.alarms(&[
+            (USUAL_LENGTH, "--width-m", self.block.width_m),
+            (USUAL_LENGTH, "--height-m", self.block.height_m),
+            (USUAL_LENGTH, "--size-m", self.block.size_m),
             (USUAL_RESTITUTION, "--restitution", self.restitution),
         ])
     }
 
     fn free_rocking(&self) -> FreeRocking {
-        let duration_s = self.shaking.free_vibration_s;
+        let duration_s = self.free_vibration_s;
         if duration_s > 0.0 { FreeRocking::Lasting { duration_s } } else { FreeRocking::FirstPeak }
     }
 }
@@ -144,16 +127,12 @@ pub struct BlockHistory {
 }
 
 /// Shakes one rigid rocking block with one record: Eq. 2.1 between impacts, Eq. 2.3 at them.
-///
-/// # Errors
-/// A block that cannot be, a record that cannot be read, a history that cannot be written.
-pub fn block_response(options: &BlockResponseOptions) -> Result<BlockResponseReport, LaboratoryError> {
+pub(super) fn block_response(options: &ResponseOptions) -> Result<BlockResponseReport, LaboratoryError> {
     let block = options.block()?;
-    let shaking = &options.shaking;
-    let motion = shaking.read()?;
-    let ground = motion.scaled(shaking.scale)?;
+    let (motion, record) = options.read()?;
+    let ground = motion.scaled(options.scale)?;
     let free = options.free_rocking();
-    let (result, history) = if shaking.wants_history() {
+    let (result, history) = if options.wants_history() {
         let (result, history) = respond_with_history(&block, &ground, free)?;
         (result, Some(BlockHistory::from_history(history, &block, &ground)))
     } else {
@@ -161,7 +140,7 @@ pub fn block_response(options: &BlockResponseOptions) -> Result<BlockResponseRep
     };
     let overturned = result.overturning != Overturning::None;
     let report = BlockResponseReport {
-        shaken_by: shaking.told(&motion),
+        shaken_by: options.told(record, &motion),
         width_m: 2.0 * block.half_width_m(),
         height_m: 2.0 * block.half_height_m(),
         size_m: block.size_m(),
@@ -175,14 +154,14 @@ pub fn block_response(options: &BlockResponseOptions) -> Result<BlockResponseRep
         time_of_peak_s: (!overturned && result.uplift_s.is_some()).then_some(result.time_s),
         time_of_uplift_s: result.uplift_s,
         impacts: result.impacts,
-        alarms: options.alarms(),
+        alarms: options.block_alarms(),
         overturned,
         time_of_overturning_s: overturned.then_some(result.time_s),
         chatter_was_cut: result.chatter_was_cut,
         history,
-        history_file: shaking.history_file.clone(),
+        history_file: options.history_file.clone(),
     };
-    if let (Some(file), Some(history)) = (&shaking.history_file, &report.history) {
+    if let (Some(file), Some(history)) = (&options.history_file, &report.history) {
         history.write(file, &report)?;
     }
     Ok(report)

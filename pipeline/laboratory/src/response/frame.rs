@@ -7,67 +7,12 @@ use uplift_frame::{FrameEvent, FrameResponse, GroundMotion, Model, Options, Rock
 use uplift_inputs::{TORSION, model_of, rocking_frame};
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
-use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_motion::Accelerogram;
 use uplift_plausible::{RESTITUTION, USUAL_RESTITUTION};
 use uplift_study::Structure;
 
-use super::{FrameHistory, Shaking, ShakingRecord};
+use super::{FrameHistory, ResponseOptions, ShakingRecord};
 use crate::error::LaboratoryError;
-
-/// One component of the ground's motion.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ComponentFile {
-    /// The record.
-    pub record: PathBuf,
-    /// Which component of a file with several, counted from 1.
-    pub channel: Option<usize>,
-}
-
-/// What shakes a frame, and by which model. Without free vibration it is followed to its first peak after the shaking,
-/// the last that may be the largest; whether it survives is then a root of its energy.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FrameResponseOptions {
-    /// What the components share, and what is kept of the motion; the record and its component, and gravity, are those
-    /// of each of them and of the frame.
-    pub shaking: Shaking,
-    /// First horizontal component.
-    pub h1: Option<ComponentFile>,
-    /// Second horizontal component.
-    pub h2: Option<ComponentFile>,
-    /// Vertical component, upwards positive.
-    pub vertical: Option<ComponentFile>,
-    /// The model; by the section of the columns where none is given.
-    pub model: Option<Model>,
-    /// Ratio of velocities after to before an impact; see [`FrameResponseReport::restitution`].
-    pub restitution: Option<f64>,
-    /// A frame whose energy is below that of this rotation rests if the ground does not lift it, rad; 1e-5 when
-    /// wobbling and 0 in a plane where none is given.
-    pub rest_amplitude_rad: Option<f64>,
-    /// Tilt with which a wobbling frame leaves the ground, rad; 1e-12 where none is given.
-    pub start_rotation_rad: Option<f64>,
-}
-
-impl FrameResponseOptions {
-    /// The components that are given, with what they are called.
-    fn components(&self) -> impl Iterator<Item = (&'static str, &ComponentFile)> {
-        let named = [("h1", &self.h1), ("h2", &self.h2), ("v", &self.vertical)];
-        named.into_iter().filter_map(|(name, file)| Some((name, file.as_ref()?)))
-    }
-
-    fn shaking(&self, file: &ComponentFile, gravity_m_s2: f64) -> Shaking {
-        let (record, channel) = (file.record.clone(), file.channel);
-        Shaking { record, channel, gravity_m_s2, history_file: None, ..self.shaking.clone() }
-    }
-
-    /// Names that would lose something, before anything is computed.
-    fn check_history(&self, structure: &Structure) -> Result<(), LaboratoryError> {
-        let Some(file) = &self.shaking.history_file else { return Ok(()) };
-        let records = self.components().map(|(_, file)| file.record.as_path());
-        let inputs: Vec<&Path> = [structure.file.as_path()].into_iter().chain(records).collect();
-        Ok(outputs::check(&[Output::new(file, OutputKind::Table(FrameHistory::COLUMN))], &inputs, self.shaking.force)?)
-    }
-}
 
 /// A component, as it shakes the frame.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -169,44 +114,50 @@ pub struct FrameRun {
     pub history: Option<FrameHistory>,
 }
 
-/// Shakes the frame of `structure`.
-///
-/// # Errors
-/// A structure without columns; no horizontal component; columns of rectangular section that are to wobble; numbers
-/// that no frame, record or person means; records that cannot be read; a history that would replace something else or
-/// cannot be written; motions beyond the model, as `uplift_frame::FrameError` has them.
-pub fn frame_response(
-    structure: &Structure,
-    options: &FrameResponseOptions,
-) -> Result<FrameResponseReport, LaboratoryError> {
+/// Shakes the frame of the structure file `file`.
+pub(super) fn frame_response(file: &Path, options: &ResponseOptions) -> Result<FrameResponseReport, LaboratoryError> {
+    if let Some(record) = &options.record {
+        let mend = if options.frame.h1.is_some() { "leave out" } else { "write --h1" };
+        return Err(JobError::Usage(format!(
+            "a structure takes its records by --h1, --h2 and --v: {mend} {}",
+            record.display()
+        ))
+        .into());
+    }
+    let structure = &Structure::load(file)?;
+    let (channels, given) = (options.channel.len(), options.components().count());
+    if !(channels == 0 || channels == given) {
+        return Err(JobError::Usage(format!(
+            "--channel has {channels} numbers, and {given} components are given: one for each"
+        ))
+        .into());
+    }
     let frame = rocking_frame(structure)?;
-    let model = model_of(&frame, options.model);
-    // rest of the planar model is proved
+    let model = model_of(&frame, options.frame.model);
+    // gravity is the frame's, and rest of the planar model is proved
+    let options = &mut ResponseOptions { gravity_m_s2: frame.gravity_m_s2(), ..options.clone() };
     let own = structure.rest_amplitude_rad.filter(|_| model == Model::Wobbling);
-    let options = &FrameResponseOptions { rest_amplitude_rad: options.rest_amplitude_rad.or(own), ..options.clone() };
-    if options.h1.is_none() && options.h2.is_none() {
+    options.frame.rest_amplitude_rad = options.frame.rest_amplitude_rad.or(own);
+    let options = &*options;
+    if options.frame.h1.is_none() && options.frame.h2.is_none() {
         return Err(JobError::Usage(
             "nothing shakes the frame: give --h1 or --h2 or both, the horizontal components".to_owned(),
         )
         .into());
     }
-    options.check_history(structure)?;
-    let given = [(RESTITUTION, "restitution", options.restitution)];
-    let (mut components, mut motions, mut alarms) = (Vec::new(), [None, None, None], Vec::new());
-    let mut formats = Vec::new();
-    for (component, file) in options.components() {
-        let shaking = options.shaking(file, frame.gravity_m_s2());
-        shaking.check(&given)?;
-        alarms = shaking.alarms(&[(USUAL_RESTITUTION, "--restitution", options.restitution)]);
-        let (motion, format) = shaking.read_told().map_err(|error| uplift_job::in_file(error, &file.record))?;
-        formats.push((file.record.as_path(), format));
-        components.push(ShakenComponent { component, shaken_by: shaking.told(&motion) });
+    options.check_history(FrameHistory::COLUMN)?;
+    options.check(&[(RESTITUTION, "restitution", options.restitution)])?;
+    let alarms = options.alarms(&[(USUAL_RESTITUTION, "--restitution", options.restitution)]);
+    let (mut components, mut motions, mut formats) = (Vec::new(), [None, None, None], Vec::new());
+    for (component, record, channel) in options.components() {
+        let (motion, format) =
+            options.read_told(record, channel).map_err(|error| uplift_job::in_file(error, record))?;
+        formats.push((record, format));
+        components.push(ShakenComponent { component, shaken_by: options.told(record, &motion) });
         let place = ["h1", "h2", "v"].iter().position(|name| *name == component).unwrap_or_default();
-        motions[place] = Some(motion.scaled(shaking.scale)?);
+        motions[place] = Some(motion.scaled(options.scale)?);
     }
-    if let Some((_, file)) = options.components().next() {
-        options.shaking(file, frame.gravity_m_s2()).refuse_unused(&formats)?;
-    }
+    options.refuse_unused(&formats)?;
     let (restitution, restitution_from) = restitution(structure, &frame, model, options);
     let [h1, h2, vertical] = &motions;
     let mut runs = Vec::new();
@@ -244,7 +195,7 @@ pub fn frame_response(
         components,
         runs,
         alarms,
-        history_file: options.shaking.history_file.clone(),
+        history_file: options.history_file.clone(),
     };
     if let Some(file) = &report.history_file {
         super::frame_history::write(file, &report)?;
@@ -256,7 +207,7 @@ fn restitution(
     structure: &Structure,
     frame: &RockingFrame,
     model: Model,
-    options: &FrameResponseOptions,
+    options: &ResponseOptions,
 ) -> (f64, &'static str) {
     match (options.restitution, structure.description.restitution, model) {
         (Some(given), ..) => (given, "--restitution"),
@@ -328,21 +279,21 @@ impl FrameRun {
         under: &'static str,
         shaken: [Option<&Accelerogram>; 3],
         model: Model,
-        (restitution, options): (f64, &FrameResponseOptions),
+        (restitution, options): (f64, &ResponseOptions),
     ) -> Result<Self, LaboratoryError> {
         let [x, y, z] = shaken.map(|motion| motion.map(uplift_frame::Shaking::Record));
         let ground = GroundMotion { x, y, z };
-        let free_s = options.shaking.free_vibration_s;
+        let free_s = options.free_vibration_s;
         let until = if free_s > 0.0 { Until::Time(ground.duration_s() + free_s) } else { Until::FirstFreePeak };
         let usual = Options::default();
         let asked = Options {
             until,
             restitution: Some(restitution),
-            rest_amplitude_rad: options.rest_amplitude_rad,
-            start_rotation_rad: options.start_rotation_rad.unwrap_or(usual.start_rotation_rad),
+            rest_amplitude_rad: options.frame.rest_amplitude_rad,
+            start_rotation_rad: options.frame.start_rotation_rad.unwrap_or(usual.start_rotation_rad),
             ..usual
         };
-        if options.shaking.wants_history() {
+        if options.wants_history() {
             let (response, history) = uplift_frame::respond_with_history(frame, &ground, model, &asked)?;
             let history = FrameHistory::from_history(frame, history, shaken);
             Ok(Self { history: Some(history), ..Self::told(frame, under, response) })

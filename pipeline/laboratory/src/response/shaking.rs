@@ -7,58 +7,16 @@ use uplift_alarms::number_alarms;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_motion::{
-    AccelerationUnit, Accelerogram, ReadOptions, RecordFormat, STANDARD_GRAVITY_M_S2, read_record_file,
-};
+use uplift_motion::{Accelerogram, ReadOptions, RecordFormat, read_record_file};
 use uplift_plausible::{FREE_VIBRATION, GRAVITY, Range, SCALE, TIME_STEP, USUAL_GRAVITY};
 
+use super::ResponseOptions;
 use crate::error::LaboratoryError;
 
 /// A number from outside: what it may be, its name, and the number where it is given.
 pub(super) type Given = (Range, &'static str, Option<f64>);
 
-/// The record that shakes a system, and what is kept of the motion.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Shaking {
-    /// The record: a file with one component, or with several of which `channel` is taken.
-    pub record: PathBuf,
-    /// Which component of a file with several, counted from 1.
-    pub channel: Option<usize>,
-    /// Sampling interval of a file that does not say it, s.
-    pub dt_s: Option<f64>,
-    /// Unit of a file that does not say it.
-    pub unit: Option<AccelerationUnit>,
-    /// Factor on the record.
-    pub scale: f64,
-    /// Acceleration of gravity, m/s².
-    pub gravity_m_s2: f64,
-    /// How long the free vibration after the record is followed, s.
-    pub free_vibration_s: f64,
-    /// Whether the report holds the time history.
-    pub history: bool,
-    /// A CSV file for the time history.
-    pub history_file: Option<PathBuf>,
-    /// Whether whatever is at the place of that file is overwritten.
-    pub force: bool,
-}
-
-impl Shaking {
-    /// `record`, unscaled, under standard gravity; no history.
-    pub fn new(record: impl Into<PathBuf>) -> Self {
-        Self {
-            record: record.into(),
-            channel: None,
-            dt_s: None,
-            unit: None,
-            scale: 1.0,
-            gravity_m_s2: STANDARD_GRAVITY_M_S2,
-            free_vibration_s: 0.0,
-            history: false,
-            history_file: None,
-            force: false,
-        }
-    }
-
+impl ResponseOptions {
     /// Refuses numbers that no system, record or person means, the `system`'s among them; all of them at once.
     pub(super) fn check(&self, system: &[Given]) -> Result<(), LaboratoryError> {
         let shaking = [
@@ -83,12 +41,20 @@ impl Shaking {
         self.history || self.history_file.is_some()
     }
 
-    /// Refuses a place for the history where something else is, and a time step or unit for a file that says its own;
-    /// else the record.
-    pub(super) fn read(&self) -> Result<Accelerogram, LaboratoryError> {
-        let (motion, format) = self.read_told()?;
-        self.refuse_unused(&[(&self.record, format)])?;
-        Ok(motion)
+    /// Refuses a place for the history where something else is; its table has this `column`.
+    pub(super) fn check_history(&self, column: &'static str) -> Result<(), LaboratoryError> {
+        let Some(file) = &self.history_file else { return Ok(()) };
+        Ok(outputs::check(&[Output::new(file, OutputKind::Table(column))], &self.inputs(), self.force)?)
+    }
+
+    /// The one record that shakes an oscillator or a block, with its file; refused are a place for the history where
+    /// something else is, and a time step or unit for a file that says its own.
+    pub(super) fn read(&self) -> Result<(Accelerogram, &Path), LaboratoryError> {
+        let record = self.record.as_deref().unwrap_or(Path::new(""));
+        self.check_history("ground_acceleration_m_s2")?;
+        let (motion, format) = self.read_told(record, self.channel.first().copied())?;
+        self.refuse_unused(&[(record, format)])?;
+        Ok((motion, record))
     }
 
     /// Refuses a time step or unit that none of the files takes, since all say their own.
@@ -111,32 +77,24 @@ impl Shaking {
         .into())
     }
 
-    /// The record with the layout of its file.
-    pub(super) fn read_told(&self) -> Result<(Accelerogram, RecordFormat), LaboratoryError> {
-        if let Some(file) = &self.history_file {
-            outputs::check(
-                &[Output::new(file, OutputKind::Table("ground_acceleration_m_s2"))],
-                &[&self.record],
-                self.force,
-            )?;
-        }
-        let options = ReadOptions {
-            dt_s: self.dt_s,
-            unit: self.unit,
-            gravity_m_s2: self.gravity_m_s2,
-            channel: self.channel,
-            format: None,
-        };
-        let file = read_record_file(&self.record, &options)?;
+    /// A record with the layout of its file.
+    pub(super) fn read_told(
+        &self,
+        record: &Path,
+        channel: Option<usize>,
+    ) -> Result<(Accelerogram, RecordFormat), LaboratoryError> {
+        let options =
+            ReadOptions { dt_s: self.dt_s, unit: self.unit, gravity_m_s2: self.gravity_m_s2, channel, format: None };
+        let file = read_record_file(record, &options)?;
         let format = file.format;
-        Ok((file.component(&self.record.display().to_string(), self.channel)?.accelerogram, format))
+        Ok((file.component(&record.display().to_string(), channel)?.accelerogram, format))
     }
 
-    /// What is reported about `motion`, the record that was read.
-    pub(super) fn told(&self, motion: &Accelerogram) -> ShakingRecord {
+    /// What is reported about `motion`, the `record` that was read.
+    pub(super) fn told(&self, record: &Path, motion: &Accelerogram) -> ShakingRecord {
         let scale = self.scale.abs();
         ShakingRecord {
-            record: self.record.clone(),
+            record: record.to_owned(),
             samples: motion.len(),
             dt_s: motion.dt_s(),
             scale: self.scale,

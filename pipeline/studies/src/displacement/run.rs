@@ -45,7 +45,7 @@ pub fn run(
     needs.require(path, events)?;
     let work = sets.work(study)?;
     let total = work.analyses();
-    let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work.head(Shard::WHOLE))?;
+    let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work, Shard::WHOLE)?;
     checkpoint.extend(known);
     checkpoint.path().into_iter().for_each(|path| events.resumes_from(path));
     let begin = Instant::now();

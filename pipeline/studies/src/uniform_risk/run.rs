@@ -51,7 +51,7 @@ pub fn run(
     let earlier: Vec<&Path> = std::iter::once(path).chain(further.map(PathBuf::as_path)).collect();
     let work = inputs.work(study, &earlier)?;
     let total = work.analyses();
-    let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work.head(Shard::WHOLE))?;
+    let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work, Shard::WHOLE)?;
     checkpoint.extend(known);
     checkpoint.path().into_iter().for_each(|path| events.resumes_from(path));
     let analysed = work.results(&checkpoint, events)?;

@@ -52,6 +52,7 @@ pub fn disaggregated(
         };
         let at = known.ok_or_else(|| JobError::Choice {
             option: "--disaggregation SITE=FILE",
+            noun: "site",
             wanted: site.clone(),
             known: question.sites.clone(),
         })?;

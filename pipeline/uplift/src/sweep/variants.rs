@@ -19,13 +19,13 @@ const NAME: &str = "name";
 
 /// One variant of a study.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Variant {
+pub(super) struct Variant {
     /// The name that was given to it; none to make one of its values.
-    pub name: Option<String>,
+    pub(super) name: Option<String>,
     /// Keys of the study with their values, as `--set` takes them.
-    pub changes: Vec<(String, String)>,
+    pub(super) changes: Vec<(String, String)>,
     /// Where it was written: `cases.csv, row 2`; none of a product.
-    pub place: Option<String>,
+    pub(super) place: Option<String>,
 }
 
 impl Variant {
@@ -109,7 +109,7 @@ pub(super) fn keys(variants: &[Variant]) -> Vec<String> {
 ///
 /// # Errors
 /// Everything that is no key with values, and a key or value that comes twice.
-pub fn product(over: &[String]) -> Result<Vec<Variant>, UpliftError> {
+pub(super) fn product(over: &[String]) -> Result<Vec<Variant>, UpliftError> {
     let (mut axes, mut mistakes): (Vec<(String, Vec<String>)>, Vec<String>) = (Vec::new(), Vec::new());
     for text in over {
         let Some((key, values)) = text.split_once('=') else {
@@ -154,7 +154,7 @@ pub fn product(over: &[String]) -> Result<Vec<Variant>, UpliftError> {
 ///
 /// # Errors
 /// A file that is no such table; names that are none of a file, or come twice.
-pub fn cases(path: &Path) -> Result<Vec<Variant>, UpliftError> {
+pub(super) fn cases(path: &Path) -> Result<Vec<Variant>, UpliftError> {
     let fail = |reason: String| JobError::input(format!("{}: {reason}", path.display()));
     let table = text_table::parse(&read_file(path, MOST_BYTES)?, &[NAME]).map_err(&fail)?;
     let mut variants = vec![Variant::default(); table.height()];

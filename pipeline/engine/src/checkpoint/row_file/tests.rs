@@ -7,8 +7,12 @@ fn head() -> RowFileHead {
     RowFileHead::new("work".into(), "a title", [1, 1], [3, 1])
 }
 
+fn open(path: &Path, head: &RowFileHead) -> Result<(RowFile, Finding), EngineError> {
+    RowFile::open(path, head, || HashSet::from([RowKey([1; 16])]))
+}
+
 fn with_three(path: &Path) -> Vec<u8> {
-    let (file, found) = RowFile::open(path, &head()).unwrap();
+    let (file, found) = open(path, &head()).unwrap();
     assert!(found.rows.is_empty());
     for key in 0..3_u8 {
         let displacement_m = [f64::from(key), f64::INFINITY];
@@ -31,7 +35,7 @@ fn cut_at_every_byte() {
     let first = whole.len() - 3 * block;
     for length in 0..=whole.len() {
         std::fs::write(&path, &whole[..length]).unwrap();
-        let (file, found) = RowFile::open(&path, &head()).unwrap();
+        let (file, found) = open(&path, &head()).unwrap();
         let sound = length.saturating_sub(first) / block;
         assert_eq!(found.rows.len(), sound, "{length}");
         let row = AnalysisRow { motion: 0, system: 0, displacement_m: &[9.0, 9.5], impacts: &[1, 2] };
@@ -62,7 +66,7 @@ fn a_flipped_byte_costs_its_row() {
         for (key, row) in &found.rows.rows {
             assert_eq!(*row, (vec![f64::from(key.0[0]), f64::INFINITY], vec![7, 8]), "{index}");
         }
-        let (_, opened) = RowFile::open(&path, &head()).unwrap();
+        let (_, opened) = open(&path, &head()).unwrap();
         assert_eq!(opened.rows.len(), found.rows.len());
         let again = RowFile::read(&path).unwrap().unwrap();
         assert_eq!((again.rows.len(), again.damaged_bytes), (found.rows.len(), 0));
@@ -75,7 +79,7 @@ fn nothing_else_is_overwritten() {
     let path = folder.path().join("a.part");
     for notes in ["my notes\nof the day\n", "one line, not ended", "{\"format\":1}"] {
         std::fs::write(&path, notes).unwrap();
-        assert!(RowFile::open(&path, &head()).is_err());
+        assert!(open(&path, &head()).is_err());
         assert_eq!(std::fs::read_to_string(&path).unwrap(), notes);
     }
     assert!(RowFile::read(&folder.path().join("absent")).unwrap().is_none());
@@ -87,14 +91,16 @@ fn rows_of_other_work_are_carried_over() {
     let path = folder.path().join("a.part");
     with_three(&path);
     let other = RowFileHead { work: "other".into(), ..head() };
-    let (file, found) = RowFile::open(&path, &other).unwrap();
+    let (file, found) = open(&path, &other).unwrap();
     assert_eq!(found.rows.len(), 3);
     drop(file);
     let found = RowFile::read(&path).unwrap().unwrap();
-    assert_eq!((found.head, found.rows.len()), (other, 3));
+    assert!(found.head.is_of(&other));
+    // of them one is of this work, with two peaks
+    assert_eq!((found.analyses(), found.rows.len()), (2, 3));
     // but no shard is taken for one of other work
     let shard = RowFileHead::new("third".into(), "", [1, 2], [3, 1]);
-    assert!(RowFile::open(&path, &shard).unwrap_err().to_string().contains("other work"));
+    assert!(open(&path, &shard).unwrap_err().to_string().contains("other work"));
 }
 
 /// A checkpoint of version 0.1 is read, and is overwritten: its keys are of no work of this version. A shard stays.
@@ -111,10 +117,10 @@ fn a_file_of_the_version_before_is_no_mistake() {
     write(1);
     let found = RowFile::read(&path).unwrap().unwrap();
     assert_eq!((found.rows.len(), found.damaged_bytes), (1, 0));
-    let (_, found) = RowFile::open(&path, &head()).unwrap();
+    let (_, found) = open(&path, &head()).unwrap();
     assert!(found.rows.is_empty() && found.damaged_bytes == 0);
     assert_eq!(RowFile::read(&path).unwrap().unwrap().head, head());
     write(2);
-    let refused = RowFile::open(&path, &RowFileHead::new("ab".into(), "old", [1, 2], [9, 1])).unwrap_err();
+    let refused = open(&path, &RowFileHead::new("ab".into(), "old", [1, 2], [9, 1])).unwrap_err();
     assert!(refused.to_string().contains("shard 1 of 2 of other work"), "{refused}");
 }
