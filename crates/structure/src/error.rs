@@ -1,7 +1,7 @@
 //! What can be wrong with a structure, a demand or a design.
 
 use thiserror::Error;
-use uplift_plausible::Implausible;
+use uplift_plausible::{Implausible, after_value};
 
 /// Why a structure has no equivalent oscillator, or a rule or design gives no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -214,10 +214,6 @@ impl StructureError {
             _ => &[],
         }
     }
-}
-
-fn after_value(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
 fn in_unit(unit: &str) -> String {
