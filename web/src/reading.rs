@@ -5,8 +5,8 @@ use uplift_bootstrap::truth_limits;
 use uplift_hazard::HazardCurve;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{
-    BEYOND_LIMIT, COMPARED_FROM_M, DECISIVE_SHARE, MEASURES_APART, MEASURES_APART_DECISIVE, Ordinate, OrdinateFlag,
-    PooledDemand, RiskCurve, StrengthPlace, StripeWeights, TAIL_SHARE_LIMIT,
+    BEYOND_LIMIT, COMPARED_FROM_M, DECISIVE_SHARE, MEASURES_APART, MEASURES_APART_DECISIVE, Ordinate, PooledDemand,
+    RiskCurve, StrengthPlace, StripeWeights, TAIL_SHARE_LIMIT,
 };
 
 use crate::calculator::{Answer, At, Risk, refused};
@@ -54,7 +54,7 @@ impl Stripes {
             "u_m": of(|own| own.ordinate.displacement_m),
             "lower_m": of(|own| own.band_m[0]),
             "upper_m": of(|own| own.band_m[1]),
-            "flag": all.iter().map(|own| flag(own.ordinate.flag)).collect::<Vec<_>>(),
+            "flag": all.iter().map(|own| own.ordinate.flag.word()).collect::<Vec<_>>(),
             "lower_tail_share": of(|own| own.ordinate.lower_tail_share),
             "upper_tail_share": of(|own| own.ordinate.upper_tail_share),
             "band_of": place.of.band_of,
@@ -202,12 +202,4 @@ pub(crate) fn per_cent(share: f64) -> String {
 /// How rare, for the page.
 pub(crate) fn rarity(risk: Risk) -> Value {
     json!({ "poe": risk.poe, "years": risk.years, "return_period_years": 1.0 / risk.per_year })
-}
-
-fn flag(flag: OrdinateFlag) -> &'static str {
-    match flag {
-        OrdinateFlag::Regular => "regular",
-        OrdinateFlag::NoExceedance => "no exceedance",
-        OrdinateFlag::Censored => "censored",
-    }
 }
