@@ -24,7 +24,7 @@ fn study() -> SmallStudy {
 }
 
 fn json(study: &SmallStudy, arguments: &[&str]) -> Value {
-    serde_json::from_str(&study.uplift(arguments).ok().stdout).unwrap()
+    study.uplift(arguments).json()
 }
 
 /// The alarm of one kind.

@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use serde_json::Value;
-
 use crate::common::{Finished, uplift};
 
 /// Half-diagonal of a block of 0.8 m by 4 m, m, and its tan α.
@@ -21,10 +19,6 @@ fn step(folder: &Path, g: f64, samples: usize) {
 fn block(folder: &Path, more: &[&str]) -> Finished {
     let arguments = ["response", "step.txt", "--unit", "g", "--dt-s", "0.01", "--block"];
     uplift(folder, &[&arguments[..], more].concat())
-}
-
-fn json(run: Finished) -> Value {
-    serde_json::from_str(&run.ok().stdout).unwrap()
 }
 
 /// The rows of the history: time, rotation, velocity, displacement of the top, ground acceleration; the event.
@@ -50,17 +44,17 @@ fn a_block_stays_below_g_tan_alpha_and_uplifts_above() {
     let sides = ["--width-m", "0.8", "--height-m", "4"];
     let run = block(folder.path(), &[&sides[..], &["--scale", "1.99"]].concat()).ok();
     assert!(run.stdout.contains("never uplifts: the ground does not exceed 0.2000 g"), "{}", run.stdout);
-    let below = json(block(folder.path(), &[&sides[..], &["--scale", "1.99", "--json"]].concat()));
+    let below = block(folder.path(), &[&sides[..], &["--scale", "1.99", "--json"]].concat()).json();
     assert_eq!(below["peak_rotation_rad"], 0.0);
     assert!(below["time_of_uplift_s"].is_null() && below["time_of_peak_s"].is_null());
-    let above = json(block(folder.path(), &[&sides[..], &["--scale", "2.01", "--json"]].concat()));
+    let above = block(folder.path(), &[&sides[..], &["--scale", "2.01", "--json"]].concat()).json();
     assert_eq!(above["time_of_uplift_s"], 0.0);
     assert!(above["peak_rotation_rad"].as_f64().unwrap() > 0.0);
     // the same block by its other numbers
     let angle = TANGENT.atan().to_string();
     for numbers in [["--size-m", "2.039607805437114"], ["--height-m", "4"], ["--width-m", "0.8"]] {
         let more = ["--slenderness", &angle, "--scale", "2.01", "--json"];
-        let same = json(block(folder.path(), &[&numbers[..], &more].concat()));
+        let same = block(folder.path(), &[&numbers[..], &more].concat()).json();
         for key in ["size_m", "peak_rotation_rad", "peak_displacement_m", "restitution"] {
             let [one, other] = [&same, &above].map(|response| response[key].as_f64().unwrap());
             assert!((one / other - 1.0).abs() < 1e-9, "{key}: {one} {other}");
@@ -75,7 +69,7 @@ fn the_motion_under_constant_acceleration_is_that_of_its_energy() {
     let folder = tempfile::tempdir().unwrap();
     step(folder.path(), -0.3, 20);
     let sides = ["--width-m", "0.8", "--height-m", "4", "--free-vibration-s", "4", "--history", "h.csv", "--json"];
-    let response = json(block(folder.path(), &sides));
+    let response = block(folder.path(), &sides).json();
     let (alpha, p_squared) = (TANGENT.atan(), 0.75 * G_M_S2 / SIZE_M);
     assert!((response["frequency_parameter_rad_s"].as_f64().unwrap() / p_squared.sqrt() - 1.0).abs() < 1e-12);
     let rows = history(folder.path());
@@ -101,7 +95,7 @@ fn the_motion_under_constant_acceleration_is_that_of_its_energy() {
     assert_eq!(response["impacts"], before.len());
     assert!(before.iter().zip(&after).all(|(before, after)| (after / before - housner).abs() < 1e-12));
     // another restitution is taken instead
-    let elastic = json(block(folder.path(), &[&sides[..], &["--restitution", "0.5", "--force"]].concat()));
+    let elastic = block(folder.path(), &[&sides[..], &["--restitution", "0.5", "--force"]].concat()).json();
     assert_eq!((&elastic["restitution"], &elastic["restitution_is_housners"]), (&0.5.into(), &false.into()));
     assert!(elastic["impacts"] != response["impacts"]);
 }
@@ -113,7 +107,7 @@ fn an_overturned_block_is_said_and_drawn() {
     let sides = ["--width-m", "0.8", "--height-m", "4", "--plot", "h.svg"];
     let run = block(folder.path(), &sides).ok();
     assert!(run.stdout.contains("overturned, after") && run.stdout.contains("(Housner)"), "{}", run.stdout);
-    let response = json(block(folder.path(), &[&sides[..], &["--json"]].concat()));
+    let response = block(folder.path(), &[&sides[..], &["--json"]].concat()).json();
     assert!(response["peak_rotation_rad"].is_null() && response["overturned"] == true);
     let svg = std::fs::read_to_string(folder.path().join("h.svg")).unwrap();
     assert!(svg.contains("rotation, rad") && svg.contains("slenderness"));

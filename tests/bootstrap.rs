@@ -29,7 +29,7 @@ fn the_widest_band_is_of_the_table_above() {
         for name in ["Here", "There"] {
             for shown in heading.split_whitespace().skip(1) {
                 let ask = ["spectrum", "r.h5", "--site", name, "--strength", shown, "--json"];
-                let json: Value = serde_json::from_str(&study.uplift(&ask).ok().stdout).unwrap();
+                let json = study.uplift(&ask).json();
                 let found = &json["displacements"][0];
                 let Some(u_m) = found["u_m"].as_f64() else { continue };
                 let limits = [0, 1].map(|end| found["band_m"][end].as_f64().unwrap_or(f64::INFINITY));
@@ -432,7 +432,7 @@ fn influence_is_that_of_a_set_without_the_record() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "all.h5", "-q"]).ok();
     study.uplift(&["run", "study.toml", "-o", "three.h5", "-q", "--set", "records.first=3"]).ok();
-    let said: Value = serde_json::from_str(&study.uplift(&["influence", "all.h5", "--json"]).ok().stdout).unwrap();
+    let said = study.uplift(&["influence", "all.h5", "--json"]).json();
     assert!(!said["records"].as_array().unwrap().is_empty() && !said["intensities"].as_array().unwrap().is_empty());
     let without = array(&study.path().join("all.h5"), "/influence/pgv/u_without_m");
     let three = array(&study.path().join("three.h5"), "/urs/pgv/u_m");

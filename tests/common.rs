@@ -1,5 +1,6 @@
 //! What the end-to-end tests share: the built program, small studies, the places of things.
 
+use std::collections::HashMap;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -7,6 +8,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use serde_json::Value;
 use tempfile::TempDir;
 use uplift_labelled::LabelledReader;
 
@@ -33,6 +35,11 @@ impl Finished {
     pub fn ok(self) -> Self {
         assert_eq!(self.code, 0, "{}\n{}", self.stdout, self.stderr);
         self
+    }
+
+    /// What it printed as JSON, having succeeded.
+    pub fn json(self) -> Value {
+        serde_json::from_str(&self.ok().stdout).unwrap()
     }
 
     /// Failed with this code, saying each of these words, without a backtrace.
@@ -62,6 +69,16 @@ pub fn uplift<S: AsRef<str>>(at: &Path, arguments: &[S]) -> Finished {
 pub fn uplift_where<S: AsRef<str>>(at: &Path, (variable, value): (&str, &str), arguments: &[S]) -> Finished {
     let mut command = command(at);
     Finished::of(command.env(variable, value).args(arguments.iter().map(AsRef::as_ref)).output().unwrap())
+}
+
+/// The rows of a table, column name to cell.
+pub fn rows(path: &Path) -> Vec<HashMap<String, String>> {
+    let text = std::fs::read_to_string(path).unwrap();
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let cells =
+        |line: &str| header.iter().map(|name| (*name).to_owned()).zip(line.split(',').map(str::to_owned)).collect();
+    lines.map(cells).collect()
 }
 
 /// A folder with a study that takes well under a second: two sites with curves λ = k₀ im^(−k), four synthetic pairs.

@@ -259,7 +259,7 @@ fn the_earthquakes_of_the_hazard_stand_beside_those_of_the_records() {
     };
     let text = run("Montreux=mr.csv", &["--details"]).ok().stdout;
     assert!(text.contains("M of hazard") && text.contains("Montreux"), "{text}");
-    let found: Value = serde_json::from_str(&run("montreux=mr.csv", &["--json"]).ok().stdout).unwrap();
+    let found = run("montreux=mr.csv", &["--json"]).json();
     let rows = found["earthquakes"].as_array().unwrap();
     assert_eq!(rows.len(), 1);
     let mean = rows[0]["mean_magnitude"].as_f64().unwrap();

@@ -7,7 +7,7 @@ use uplift_bootstrap::{SkewedMean, StudentQuantiles};
 use uplift_motion::{Accelerogram, ReadOptions, read_path};
 use uplift_oscillator::{Excitation, FreeVibration, Oscillator, PostUplift, respond};
 
-use crate::common::{Finished, SmallStudy, repository, uplift};
+use crate::common::{SmallStudy, repository, uplift};
 
 const STUDY: &str = r#"title = "design"
 [records]
@@ -35,13 +35,9 @@ fn study() -> SmallStudy {
     study
 }
 
-fn json(finished: Finished) -> Value {
-    serde_json::from_str(&finished.ok().stdout).unwrap()
-}
-
 fn design(study: &SmallStudy, structure: &str, more: &[&str]) -> Value {
     let arguments = [&["design", structure, "--urs", "r.h5", "--json", "-q"], more].concat();
-    json(study.uplift(&arguments))
+    study.uplift(&arguments).json()
 }
 
 /// What rounding makes of these numbers is a range around each.
@@ -380,7 +376,7 @@ fn differences_from_the_study_are_reported() {
     let run = ["run", "study.toml", "-o", "own.h5", "-q"].into_iter().chain(settings.split(' '));
     study.uplift(&run.collect::<Vec<_>>()).ok();
     let own = ["design", "other.toml", "--urs", "own.h5", "--spectrum-only", "--json"];
-    let own: Value = serde_json::from_str(&study.uplift(&own).ok().stdout).unwrap();
+    let own = study.uplift(&own).json();
     assert!(own["own_oscillator"].is_null() && own["other_oscillator"] == false, "{own}");
     for (factor, is_other) in [(1.004, false), (1.02, true)] {
         let own_mm = 4.0 * 0.5 / needed_mm * factor;
@@ -397,8 +393,7 @@ fn a_verdict_is_that_of_rules_measures_and_own_demand() {
     let said = |factor: &str| {
         let asked = ["design", "block.toml", "--urs", "r.h5", "--safety-factor", factor];
         let told = study.uplift(&asked).ok().stdout;
-        let json: Value =
-            serde_json::from_str(&study.uplift(&[&asked[..], &["--json", "-q"]].concat()).ok().stdout).unwrap();
+        let json = study.uplift(&[&asked[..], &["--json", "-q"]].concat()).json();
         let own = json["own_check"]["satisfied"].as_bool().unwrap();
         (told.lines().next().unwrap().to_owned(), told.lines().nth(1).unwrap().to_owned(), own)
     };

@@ -222,7 +222,7 @@ fn with_third_components() -> SmallStudy {
 }
 
 fn json(study: &SmallStudy, ask: &[&str]) -> Value {
-    serde_json::from_str(&study.uplift(&[ask, &["--json", "-q"]].concat()).ok().stdout).unwrap()
+    study.uplift(&[ask, &["--json", "-q"]].concat()).json()
 }
 
 /// Stripes of the frame are single runs with the third component, scaled as the pair.

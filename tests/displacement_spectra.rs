@@ -164,8 +164,7 @@ leave_out = [3]
 #[ignore = "long: make test-long"]
 fn sets_are_made_by_tags_and_records_left_out() {
     let study = with_manifest();
-    let check: serde_json::Value =
-        serde_json::from_str(&study.uplift(&["check", "study.toml", "--json"]).ok().stdout).unwrap();
+    let check = study.uplift(&["check", "study.toml", "--json"]).json();
     assert_eq!(check["sets"][0]["name"], "first");
     assert_eq!((&check["sets"][0]["records"], &check["sets"][1]["motions"]), (&2.into(), &4.into()));
     // 5 ways of scaling x 20 oscillators x 8 motions
@@ -354,7 +353,7 @@ fn the_sets_of_the_dissertation() {
         ["scaling.to=[\"1 PGA\", \"1 PGV\"]", "strengths.values=0.2", "oscillator.uplift_displacement_m=0.0005"];
     let mut run = vec!["run", config.to_str().unwrap(), "-o", "r.h5", "-q", "--json", "--set", &set];
     run.extend(small.iter().flat_map(|small| ["--set", small]));
-    let summary: serde_json::Value = serde_json::from_str(&study.uplift(&run).ok().stdout).unwrap();
+    let summary = study.uplift(&run).json();
     let sets: Vec<u64> = (0..3).map(|set| summary["sets"][set]["records"].as_u64().unwrap()).collect();
     assert_eq!(sets, [14, 14, 21]);
     let reference = repository().join("tests/reference/tables_3_2_to_3_7.csv");

@@ -201,7 +201,7 @@ fn two_curves(first: &str, second: &str) -> SmallStudy {
 
 fn answer(study: &SmallStudy, asked: &[&str]) -> serde_json::Value {
     let arguments = [&asked[..1], &["frame.toml", "--urs", "r.h5", "--json", "-q"], &asked[1..]].concat();
-    serde_json::from_str(&study.uplift(&arguments).ok().stdout).unwrap()
+    study.uplift(&arguments).json()
 }
 
 const TARGET: [&str; 7] = ["target", "--vary", "width", "--overturning", "2e-3", "--tolerance", "0.05"];

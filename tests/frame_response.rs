@@ -40,10 +40,6 @@ fn shaken(folder: &Path, frame: &str, more: &[&str]) -> Finished {
     uplift(folder, &[&arguments[..], more].concat())
 }
 
-fn json(run: Finished) -> Value {
-    serde_json::from_str(&run.ok().stdout).unwrap()
-}
-
 fn number(run: &Value, key: &str) -> f64 {
     run[key].as_f64().unwrap_or_else(|| panic!("{key}: {run}"))
 }
@@ -58,9 +54,9 @@ fn a_block_as_a_frame_is_the_block() {
     )
     .unwrap();
     let own = shaken(folder.path(), "block.toml", &["--h1", "a.txt", "--json"]);
-    let frame = json(own);
+    let frame = own.json();
     let arguments = ["response", "a.txt", "--unit", "m/s2", "--dt-s", "0.01", "--block", "--width-m", "0.3"];
-    let block = json(uplift(folder.path(), &[&arguments[..], &["--height-m", "1.8", "--json"]].concat()));
+    let block = uplift(folder.path(), &[&arguments[..], &["--height-m", "1.8", "--json"]].concat()).json();
     assert_eq!((&frame["model"], &frame["restitution_from"]), (&"planar".into(), &"momentum".into()));
     assert_eq!(frame["runs"].as_array().unwrap().len(), 1);
     let run = &frame["runs"][0];
@@ -78,9 +74,9 @@ fn directions_are_what_they_are_called() {
     let folder = folder();
     let elastic = ["--restitution", "1", "--rest-amplitude-rad", "1e-5", "--json"];
     let wobbling =
-        json(shaken(folder.path(), "held.toml", &[&["--h1", "x.txt", "--h2", "y.txt"], &elastic[..]].concat()));
+        shaken(folder.path(), "held.toml", &[&["--h1", "x.txt", "--h2", "y.txt"], &elastic[..]].concat()).json();
     let planar =
-        json(shaken(folder.path(), "held.toml", &[&["--h2", "a.txt", "--model", "planar"], &elastic[..]].concat()));
+        shaken(folder.path(), "held.toml", &[&["--h2", "a.txt", "--model", "planar"], &elastic[..]].concat()).json();
     assert_eq!((&wobbling["model"], &wobbling["runs"][0]["under"]), (&"wobbling".into(), &"h1 and h2".into()));
     assert_eq!(planar["runs"][0]["under"], "h2");
     let u_m = number(&planar["runs"][0], "peak_displacement_m");
@@ -88,7 +84,7 @@ fn directions_are_what_they_are_called() {
         let found = number(&wobbling["runs"][0], key);
         assert!(u_m > 0.01 && (found / (share * u_m) - 1.0).abs() < 1e-7, "{key}: {found} {u_m}");
     }
-    let pair = |h1: &str, h2: &str| json(shaken(folder.path(), "held.toml", &["--h1", h1, "--h2", h2, "--json"]));
+    let pair = |h1: &str, h2: &str| shaken(folder.path(), "held.toml", &["--h1", h1, "--h2", h2, "--json"]).json();
     let (one, other) = (pair("a.txt", "b.txt"), pair("b.txt", "a.txt"));
     let (one, other) = (&one["runs"][0], &other["runs"][0]);
     for (key, mirrored) in [
@@ -100,16 +96,17 @@ fn directions_are_what_they_are_called() {
         assert!((one / other - 1.0).abs() < 1e-6, "{key}: {one} {other}");
     }
     // in the plane both components come in turn
-    let both = json(shaken(
+    let both = shaken(
         folder.path(),
         "held.toml",
         &["--h1", "a.txt", "--h2", "b.txt", "--v", "up.txt", "--model", "planar", "--json"],
-    ));
+    )
+    .json();
     let under: Vec<&str> = both["runs"].as_array().unwrap().iter().map(|run| run["under"].as_str().unwrap()).collect();
     assert_eq!(under, ["h1", "h2"]);
     assert_eq!(both["components"].as_array().unwrap().len(), 3);
     // the vertical component changes it
-    let without = json(shaken(folder.path(), "held.toml", &["--h1", "a.txt", "--model", "planar", "--json"]));
+    let without = shaken(folder.path(), "held.toml", &["--h1", "a.txt", "--model", "planar", "--json"]).json();
     assert!(number(&without["runs"][0], "peak_displacement_m") != number(&both["runs"][0], "peak_displacement_m"));
 }
 
@@ -118,7 +115,7 @@ fn directions_are_what_they_are_called() {
 fn a_history_row_by_row() {
     let folder = folder();
     let more = ["--h1", "a.txt", "--h2", "b.txt", "--v", "up.txt", "--history", "h.csv", "--json"];
-    let report = json(shaken(folder.path(), "held.toml", &more));
+    let report = shaken(folder.path(), "held.toml", &more).json();
     let run = &report["runs"][0];
     assert_eq!(run["events"][0]["event"], "stopper-engages");
     let text = std::fs::read_to_string(folder.path().join("h.csv")).unwrap();
@@ -175,7 +172,7 @@ fn an_overturned_frame_is_said_and_drawn_with_what_the_model_leaves_out() {
     assert!(svg.contains("displacement along h2, m") && svg.contains("base shear, kN") && !svg.contains("tendon"));
     let text = std::fs::read_to_string(folder.path().join("h.csv")).unwrap();
     assert!(text.trim_end().ends_with("overturned") && !text.contains("NaN"), "{}", &text[text.len() - 200..]);
-    let report = json(shaken(folder.path(), "free.toml", &[&more[..], &["--json"]].concat()));
+    let report = shaken(folder.path(), "free.toml", &[&more[..], &["--json"]].concat()).json();
     let run = &report["runs"][0];
     assert!(run["peak_displacement_m"].is_null() && run["peak_drift"].is_null() && run["overturned"] == true);
     assert!(run["peak_tendon_n"].is_null() && report["notes"][0].as_str().unwrap().contains("torsion"));
@@ -215,7 +212,7 @@ fn wrong_arguments_are_refused() {
 fn slips_of_files_and_units() {
     let folder = folder();
     let notes =
-        |more: &[&str]| json(shaken(folder.path(), "held.toml", &[more, &["--json"]].concat()))["notes"].to_string();
+        |more: &[&str]| shaken(folder.path(), "held.toml", &[more, &["--json"]].concat()).json()["notes"].to_string();
     let twice = notes(&["--h1", "a.txt", "--h2", "a.txt"]);
     assert!(twice.contains("h1 and h2 are the same motion: is one of them a mistake?"), "{twice}");
     let pair = notes(&["--h1", "a.txt", "--h2", "b.txt"]);
@@ -224,7 +221,7 @@ fn slips_of_files_and_units() {
     uplift(folder.path(), &["records", "synthesize", "-o", "d", "--count", "1", "-q"]).ok();
     let prototype = repository().join("configs/structures/prototype.toml").display().to_string();
     let ask = ["response", "--structure", &prototype, "--h1", "d/SYN001_H1.AT2", "--h2", "d/SYN001_H2.AT2", "--json"];
-    let record = json(uplift(folder.path(), &ask));
+    let record = uplift(folder.path(), &ask).json();
     let (run, notes) = (&record["runs"][0], record["notes"].to_string());
     assert!(number(run, "least_rotation_rad") < 0.01 * run["peak_rotation_rad"].as_f64().unwrap_or(f64::INFINITY));
     assert!(notes.contains("passes close by the upright") && notes.contains("base shear"), "{notes}");

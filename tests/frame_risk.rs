@@ -34,8 +34,7 @@ fn study(text: &str) -> SmallStudy {
 }
 
 fn json(study: &SmallStudy, more: &[&str]) -> Value {
-    let run = study.uplift(&[more, &["--urs", "r.h5", "--json", "-q"]].concat()).ok();
-    serde_json::from_str(&run.stdout).unwrap()
+    study.uplift(&[more, &["--urs", "r.h5", "--json", "-q"]].concat()).json()
 }
 
 /// The row of a model.
@@ -85,7 +84,7 @@ fn the_stripes_are_single_runs_and_the_proxies_those_of_a_design() {
         let scale = (level / pgv_cm_s[index / 7]).to_string();
         let shaken = |more: &[&str]| -> Value {
             let ask = ["response", "--structure", "frame.toml", "--scale", &scale, "--json"];
-            serde_json::from_str(&study.uplift(&[&ask[..], more].concat()).ok().stdout).unwrap()
+            study.uplift(&[&ask[..], more].concat()).json()
         };
         let wobbling = shaken(&["--h1", &pair["file_h1"], "--h2", &pair["file_h2"]]);
         let single = number(&wobbling["runs"][0]["peak_displacement_m"]);
@@ -191,7 +190,7 @@ fn the_amplitude_of_rest_is_a_key_of_the_structure() {
     let rests = |structure: &str, more: &[&str]| -> Value {
         let files = ["--h1", &manifest[0]["file_h1"], "--h2", &manifest[0]["file_h2"], "--scale", "2", "--json"];
         let ask = ["response", "--structure", structure];
-        let run: Value = serde_json::from_str(&study.uplift(&[&ask[..], &files, more].concat()).ok().stdout).unwrap();
+        let run = study.uplift(&[&ask[..], &files, more].concat()).json();
         run["runs"][0].clone()
     };
     let own = rests("restless.toml", &[]);
@@ -227,7 +226,7 @@ fn the_restitution_of_wobbling_is_a_key_of_the_structure() {
     let shaken = |structure: &str, more: &[&str]| -> Value {
         let files = ["--h1", &manifest[0]["file_h1"], "--h2", &manifest[0]["file_h2"], "--scale", "2", "--json"];
         let ask = ["response", "--structure", structure];
-        let run: Value = serde_json::from_str(&study.uplift(&[&ask[..], &files, more].concat()).ok().stdout).unwrap();
+        let run = study.uplift(&[&ask[..], &files, more].concat()).json();
         run["runs"][0].clone()
     };
     assert_eq!(shaken("loses.toml", &[]), shaken("free.toml", &["--restitution", "0.8"]));

@@ -36,7 +36,7 @@ fn of_a_run(study: &SmallStudy, set: &[&str], strengths: &[f64]) -> [f64; 2] {
 #[test]
 fn a_check_proposes_levels_that_a_run_is_content_with() {
     let study = SmallStudy::with(HIGH);
-    let plan: Value = serde_json::from_str(&study.uplift(&["check", "study.toml", "--json"]).ok().stdout).unwrap();
+    let plan = study.uplift(&["check", "study.toml", "--json"]).json();
     let check = &plan["levels"][0];
     let number = |value: &Value| value.as_f64().unwrap();
     let strengths: Vec<f64> = check["strengths"].as_array().unwrap().iter().map(number).collect();

@@ -1,21 +1,10 @@
 //! `uplift library`: how blocks and oscillators respond over normalised intensities.
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use serde_json::Value;
 
-use crate::common::{SmallStudy, uplift};
-
-/// The rows of a table, column name to cell.
-fn rows(path: &Path) -> Vec<HashMap<String, String>> {
-    let text = std::fs::read_to_string(path).unwrap();
-    let mut lines = text.lines();
-    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let cells =
-        |line: &str| header.iter().map(|name| (*name).to_owned()).zip(line.split(',').map(str::to_owned)).collect();
-    lines.map(cells).collect()
-}
+use crate::common::{SmallStudy, rows, uplift};
 
 fn number(row: &HashMap<String, String>, name: &str) -> f64 {
     row[name].parse().unwrap_or_else(|_| panic!("{name}: {row:?}"))

@@ -7,8 +7,7 @@ use crate::common::{SmallStudy, real_records};
 const BLOCK: &str = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 1000\n";
 
 fn json(study: &SmallStudy, structure: &str, more: &[&str]) -> Value {
-    let run = study.uplift(&[&["overturning", structure, "--urs", "r.h5", "--json", "-q"], more].concat()).ok();
-    serde_json::from_str(&run.stdout).unwrap()
+    study.uplift(&[&["overturning", structure, "--urs", "r.h5", "--json", "-q"], more].concat()).json()
 }
 
 /// What one model does by one measure.

@@ -10,7 +10,7 @@ use uplift_block::{
     respond,
 };
 
-use crate::common::uplift;
+use crate::common::{rows, uplift};
 
 const SMALL: [&str; 12] = [
     "--frequencies",
@@ -31,16 +31,6 @@ const FIGURES: [&str; 6] =
 
 fn small<'a>(more: &[&'a str]) -> Vec<&'a str> {
     ["pulse", "-q"].into_iter().chain(SMALL).chain(more.iter().copied()).collect()
-}
-
-/// The rows of a table, column name to cell.
-fn rows(path: &Path) -> Vec<HashMap<String, String>> {
-    let text = std::fs::read_to_string(path).unwrap();
-    let mut lines = text.lines();
-    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let cells =
-        |line: &str| header.iter().map(|name| (*name).to_owned()).zip(line.split(',').map(str::to_owned)).collect();
-    lines.map(cells).collect()
 }
 
 fn shape(row: &HashMap<String, String>) -> RickerShape {

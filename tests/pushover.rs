@@ -10,10 +10,6 @@ fn structure(name: &str) -> String {
     repository().join("configs/structures").join(name).display().to_string()
 }
 
-fn json(finished: Finished) -> Value {
-    serde_json::from_str(&finished.ok().stdout).unwrap()
-}
-
 fn close(found: &Value, expected: f64, tolerance: f64) {
     let number = found.as_f64().unwrap_or(f64::NAN);
     assert!((number / expected - 1.0).abs() < tolerance, "{found} {expected}");
@@ -30,7 +26,7 @@ fn run(arguments: &[&str]) -> (tempfile::TempDir, Finished) {
 #[test]
 fn a_pushover_in_numbers() {
     let column = structure("column-j.toml");
-    let report = json(run(&["pushover", &column, "--json", "--linear", "--stiffness-n-m", "0,2302e3"]).1);
+    let report = run(&["pushover", &column, "--json", "--linear", "--stiffness-n-m", "0,2302e3"]).1.json();
     close(&report["uplift_force_n"], 9449.0, 2e-4);
     close(&report["axial_load_ratio"], 0.05, 0.01);
     // plain discs give 530.6 mm, and contact flats make the stack some per cent stiffer
@@ -51,7 +47,7 @@ fn a_pushover_in_numbers() {
         "kind = \"restrained-frame\"\ncolumns = 1\nwidth_m = 0.2\nheight_m = 1.6\ncolumn_mass_kg = 200\n\
          deck_mass_kg = 3000\ngravity_m_s2 = 10\n[restrainer]\nkind = \"linear\"\nstiffness_n_m = 1e6\n",
     );
-    let report = json(study.uplift(&["pushover", "linear.toml", "--to-m", "0.2", "--rows", "3", "--json"]));
+    let report = study.uplift(&["pushover", "linear.toml", "--to-m", "0.2", "--rows", "3", "--json"]).json();
     for row in report["rows"].as_array().unwrap() {
         let theta = row["rotation_rad"].as_f64().unwrap();
         let (b, h) = (0.1_f64, 0.8_f64);
@@ -81,7 +77,7 @@ fn a_pushover_in_words() {
     assert!(lost.contains("3 restrained") && lost.contains("the twist of the deck is ignored"), "{lost}");
     // by hand at 1 mm: W b/h + (k α b/2 − W) u/2h + P u/2h of a column that kept its tendon; the exact law 0.9 N more
     let lost =
-        json(run(&["pushover", &frame, "--lost", "1", "--linear", "--to-m", "0.001", "--rows", "2", "--json"]).1);
+        run(&["pushover", &frame, "--lost", "1", "--linear", "--to-m", "0.001", "--rows", "2", "--json"]).1.json();
     let (linear, exact) = (&lost["linear"][0], &lost["rows"][1]);
     let (p, b, h) = (9435.0 * 9.81 / 4.0, 0.0985_f64, 0.725);
     let w = p + 0.5 * 124.36 * 9.81;
@@ -188,7 +184,7 @@ fn tables_give_way_to_their_own_kind() {
 #[test]
 fn nothing_dissipates_but_stoppers_that_yield() {
     let dissipated = |name: &str, more: &[&str]| {
-        let report = json(run(&[&["pushover", &structure(name), "--protocol", "--json"], more].concat()).1);
+        let report = run(&[&["pushover", &structure(name), "--protocol", "--json"], more].concat()).1.json();
         report["cyclic"]["dissipated_j"].as_f64().unwrap()
     };
     assert_eq!(dissipated("column-j.toml", &[]), 0.0);
@@ -203,7 +199,7 @@ fn nothing_dissipates_but_stoppers_that_yield() {
 fn a_measured_curve() {
     let study = SmallStudy::new();
     let column = structure("column-j.toml");
-    let report = json(study.uplift(&["pushover", &column, "--to-m", "0.232", "--rows", "401", "--json"]));
+    let report = study.uplift(&["pushover", &column, "--to-m", "0.232", "--rows", "401", "--json"]).json();
     let mut text = String::from("drift_percent,force_kn\n");
     let points: Vec<(f64, f64)> = report["rows"]
         .as_array()
@@ -220,7 +216,7 @@ fn a_measured_curve() {
     }
     text += "0,0\n";
     study.write("test.csv", &text);
-    let report = json(study.uplift(&["pushover", &column, "--measured", "test.csv", "--json"]));
+    let report = study.uplift(&["pushover", &column, "--measured", "test.csv", "--json"]).json();
     let measured = &report["measured"];
     for side in ["positive", "negative"] {
         let slope = measured[side]["computed_slope_n_m"].as_f64().unwrap();
@@ -259,7 +255,7 @@ fn printed_numbers_by_the_table() {
     ];
     for (name, reference, differs) in known {
         let reference = repository().join("tests/reference").join(reference).display().to_string();
-        let report = json(run(&["table", &structure(name), "--reference", &reference, "--json"]).1);
+        let report = run(&["table", &structure(name), "--reference", &reference, "--json"]).1.json();
         let rows = report["rows"]["rows"].as_array().unwrap();
         let compared: Vec<&Value> = rows.iter().filter(|row| row["reference"].is_f64()).collect();
         assert!(compared.len() >= 8, "{compared:?}");
@@ -294,7 +290,7 @@ fn stacks_out_of_a_catalogue() {
     {
         let arguments =
             ["restrainer", "design", &structure(name), "--catalogue", &catalogue, "--stiffness-n-m", stiffness];
-        let report = json(run(&[&arguments[..], &["--json", "--most", "1000"]].concat()).1);
+        let report = run(&[&arguments[..], &["--json", "--most", "1000"]].concat()).1.json();
         let stacks = report["stacks"].as_array().unwrap();
         let found = stacks.iter().find(|stack| stack["disc"] == disc && stack["springs"] == springs);
         let found = found.unwrap_or_else(|| panic!("{name}: {stacks:#?}"));
@@ -305,7 +301,7 @@ fn stacks_out_of_a_catalogue() {
         assert!(told.contains("a prestress of "), "{told}");
         // of a stack that is named: its own change, not that of the first
         let name = format!("{springs}x{disc}");
-        let named = json(run(&[&arguments[..], &["--json", "--tolerances-of", &name]].concat()).1);
+        let named = run(&[&arguments[..], &["--json", "--tolerances-of", &name]].concat()).1.json();
         assert_eq!(named["tolerances_of"], format!("{springs} x {disc}"));
         assert_ne!(named["tolerances"][0]["capacity_m"], report["tolerances"][0]["capacity_m"]);
         run(&[&arguments[..], &["--tolerances-of", "1 x 1"]].concat()).1.fails(2, &["\"1 x 1\" is none of the"]);
@@ -347,7 +343,7 @@ fn from_a_spectrum_to_a_stack() {
     let catalogue = structure("disc-springs.csv");
     let spectrum = ["--urs", "r.h5", "--site", "Here", "--poe", "0.02", "--safety-factor"];
     let free =
-        json(study.uplift(&[&["design", "free.toml", "--json", "--spectrum-only"][..], &spectrum, &["4"]].concat()));
+        study.uplift(&[&["design", "free.toml", "--json", "--spectrum-only"][..], &spectrum, &["4"]].concat()).json();
     let required = free["rules"]
         .as_array()
         .unwrap()
@@ -357,7 +353,7 @@ fn from_a_spectrum_to_a_stack() {
     let arguments = [&["restrainer", "design", "tower.toml", "--catalogue", &catalogue][..], &spectrum].concat();
     let done = study.uplift(&[&arguments[..], &["4", "--json"]].concat());
     assert!(required > 0.4, "{required}");
-    let report = json(done);
+    let report = done.json();
     close(&report["target"]["capacity_m"], required, 1e-12);
     let stacks = report["stacks"].as_array().unwrap();
     assert!(!stacks.is_empty());
@@ -380,7 +376,7 @@ fn from_a_spectrum_to_a_stack() {
     let tower = std::fs::read_to_string(study.path().join("tower.toml")).unwrap();
     study.write("round.toml", &tower.replace("[restrainer]", "column_shape = \"cylinder\"\n[restrainer]"));
     let round = [&["restrainer", "design", "round.toml", "--catalogue", &catalogue][..], &spectrum, &["4"]].concat();
-    let found = json(study.uplift(&[&round[..], &["--json"]].concat()));
+    let found = study.uplift(&[&round[..], &["--json"]].concat()).json();
     assert_eq!(found["stacks"], report["stacks"]);
     let wobbling = &found["frame"]["models"][0];
     let demand_m = wobbling["demand_m"].as_f64().unwrap_or(f64::INFINITY);
@@ -403,9 +399,9 @@ fn a_restrainer_in_a_design() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let column = structure("column-j.toml");
-    let exact = json(study.uplift(&["pushover", &column, "--json"]));
+    let exact = study.uplift(&["pushover", &column, "--json"]).json();
     let arguments = ["design", &column, "--urs", "r.h5", "--site", "Here", "--spectrum-only", "--json", "-q"];
-    let design = json(study.uplift(&arguments));
+    let design = study.uplift(&arguments).json();
     let capacity_m = exact["capacity"]["exact"]["displacement_m"].as_f64().unwrap();
     close(&design["structure"]["capacity_m"], capacity_m, 1e-9);
     assert_eq!(design["structure"]["kind"], "restrained-frame");

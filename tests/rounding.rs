@@ -103,8 +103,7 @@ fn what_hangs_on_rounding_is_marked_wherever_it_is_shown() {
     assert!(printed.contains("*: rounding decides it"), "{printed}");
 
     // designs: in the table with the range below it, and as JSON says
-    let table: serde_json::Value =
-        serde_json::from_str(&study.uplift(&["table", "r.h5", "--json"]).ok().stdout).unwrap();
+    let table = study.uplift(&["table", "r.h5", "--json"]).json();
     let rows = table["rows"].as_array().unwrap();
     let hanging: Vec<_> = rows.iter().filter(|row| row["hangs_on_rounding"] == true).collect();
     assert!(!hanging.is_empty(), "{rows:?}");
@@ -179,8 +178,7 @@ fn the_table_of_spectra_has_the_range() {
 #[test]
 fn a_check_estimates_the_cost_of_the_repetition() {
     let study = SmallStudy::with(STUDY);
-    let plan: serde_json::Value =
-        serde_json::from_str(&study.uplift(&["check", "study.toml", "--json"]).ok().stdout).unwrap();
+    let plan = study.uplift(&["check", "study.toml", "--json"]).json();
     // ten motions; two capacities at four strengths, at three of them again at eight neighbours
     assert_eq!((&plan["analyses"], &plan["rounding_analyses"]), (&80.into(), &480.into()));
     let said = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;

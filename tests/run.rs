@@ -156,8 +156,7 @@ fn check_says_what_a_run_would_do() {
     // as it is printed it is the same study
     study.write("completed.toml", &completed);
     assert_eq!(study.uplift(&["check", "completed.toml", "--print-study"]).ok().stdout, completed);
-    let json: serde_json::Value =
-        serde_json::from_str(&study.uplift(&["check", "study.toml", "--json"]).ok().stdout).unwrap();
+    let json = study.uplift(&["check", "study.toml", "--json"]).json();
     assert_eq!(json["analyses"], 360);
     assert!(json["seconds"].as_f64().unwrap() > 0.0);
 }

@@ -22,7 +22,7 @@ fn ask(study: &SmallStudy, more: &[&str]) -> Finished {
 }
 
 fn json(study: &SmallStudy, more: &[&str]) -> Value {
-    serde_json::from_str(&ask(study, &[more, &["--json"]].concat()).ok().stdout).unwrap()
+    ask(study, &[more, &["--json"]].concat()).json()
 }
 
 /// Displacements with the limits of their bands, NaN without.
@@ -263,15 +263,14 @@ fn repaired_spectra_are_those_of_the_result() {
 #[test]
 fn every_warning_of_a_run_is_listed() {
     let study = SmallStudy::new();
-    let run: Value =
-        serde_json::from_str(&study.uplift(&["run", "study.toml", "-o", "r.h5", "--json"]).ok().stdout).unwrap();
-    let listed: Value = serde_json::from_str(&study.uplift(&["warnings", "r.h5", "--json"]).ok().stdout).unwrap();
+    let run = study.uplift(&["run", "study.toml", "-o", "r.h5", "--json"]).json();
+    let listed = study.uplift(&["warnings", "r.h5", "--json"]).json();
     let listed = listed.as_array().unwrap();
     assert!(run["alarms"].as_array().unwrap().iter().all(|alarm| listed.contains(alarm)), "{listed:?}");
     // and what is raised where one measure is asked for alone
     for measure in ["pgv", "pga"] {
         let asked = ["spectrum", "r.h5", "--measure", measure, "--json"];
-        let found: Value = serde_json::from_str(&study.uplift(&asked).ok().stdout).unwrap();
+        let found = study.uplift(&asked).json();
         for alarm in found["alarms"].as_array().unwrap() {
             assert!(listed.iter().any(|own| own["kind"] == alarm["kind"]), "{alarm}");
         }

@@ -221,7 +221,7 @@ fn threads_shards_and_earlier_results_change_no_bit() {
         assert!(same_bits(&whole, &array(&merged, "/ida/pga/edp_m")), "{kind}");
         let again = |setting: &str| -> Value {
             let ask = ["run", "study.toml", "-o", "r.h5", "-q", "--json", "--force", "--set", setting];
-            serde_json::from_str(&uncertain.uplift(&ask).ok().stdout).unwrap()
+            uncertain.uplift(&ask).json()
         };
         assert_eq!(again("title=another")["measures"][0]["analyses_computed"], 0, "{kind}");
         // other structures are other runs

@@ -5,8 +5,7 @@ use serde_json::Value;
 use crate::common::{SmallStudy, array, same_bits};
 
 fn json(study: &SmallStudy, more: &[&str]) -> Value {
-    let run = study.uplift(&[&["sweep", "study.toml", "-o", "s", "--json", "-q"], more].concat()).ok();
-    serde_json::from_str(&run.stdout).unwrap()
+    study.uplift(&[&["sweep", "study.toml", "-o", "s", "--json", "-q"], more].concat()).json()
 }
 
 #[test]

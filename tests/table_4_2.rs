@@ -52,8 +52,7 @@ fn table_of_a_result_alone_and_mistakes() {
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let text = study.uplift(&["table", "r.h5"]).ok().stdout;
     assert!(text.contains("Here") && text.contains("There") && text.contains("synthetic"), "{text}");
-    let all: Value =
-        serde_json::from_str(&study.uplift(&["table", "r.h5", "--measure", "all", "--json"]).ok().stdout).unwrap();
+    let all = study.uplift(&["table", "r.h5", "--measure", "all", "--json"]).json();
     let rows = all["rows"].as_array().unwrap();
     assert_eq!(rows.len(), 12);
     assert!(rows.iter().all(|row| row["median_ratio"].is_null()));

@@ -22,8 +22,7 @@ fn study() -> SmallStudy {
 }
 
 fn json(study: &SmallStudy, more: &[&str]) -> Value {
-    let run = study.uplift(&[&["target", "frame.toml", "--urs", "r.h5", "--json", "-q"], more].concat()).ok();
-    serde_json::from_str(&run.stdout).unwrap()
+    study.uplift(&[&["target", "frame.toml", "--urs", "r.h5", "--json", "-q"], more].concat()).json()
 }
 
 fn number(value: &Value) -> f64 {
@@ -81,7 +80,7 @@ fn a_safety_factor_sizes_what_a_design_then_passes() {
     let is_satisfied = |width_m: f64| {
         study.write("other.toml", &frame(width_m));
         let ask = ["design", "other.toml", "--urs", "r.h5", "--poe", "10%", "--proxy", "--json", "-q"];
-        let told: Value = serde_json::from_str(&study.uplift(&ask).ok().stdout).unwrap();
+        let told = study.uplift(&ask).json();
         let [required_m, capacity_m] =
             [&told["own_check"]["required_capacity_m"], &told["structure"]["capacity_m"]].map(number);
         assert_eq!(told["own_check"]["satisfied"], capacity_m >= required_m);
@@ -120,7 +119,7 @@ fn the_other_measure_judges_the_safe_value() {
     let safe = number(&found["safe_value"]);
     study.write("other.toml", &format!("{}restitution = 0.9\n", frame(safe)));
     let run = ["overturning", "other.toml", "--urs", "r.h5", "--json", "-q", "--measure", "pgv"];
-    let told: Value = serde_json::from_str(&study.uplift(&run).ok().stdout).unwrap();
+    let told = study.uplift(&run).json();
     let per_year = number(&told["overturning"][0]["sites"][0]["per_year"]);
     assert_eq!((other["im"].as_str(), number(&other["per_year"]).to_bits()), (Some("PGV"), per_year.to_bits()));
     assert_eq!(other["is_met"], per_year <= 2e-3);
@@ -137,7 +136,7 @@ fn the_other_measure_judges_the_safe_value() {
     study.write("low.toml", &low);
     study.uplift(&["run", "low.toml", "-o", "low.h5", "-q"]).ok();
     let ask = [&["target", "frame.toml", "--urs", "low.h5", "--json"], &ask[..]].concat();
-    let low: Value = serde_json::from_str(&study.uplift(&ask).ok().stdout).unwrap();
+    let low = study.uplift(&ask).json();
     assert!(low["by_other_measures"][0]["is_met"].is_null(), "{low}");
     assert_eq!(low["safe_value"], found["safe_value"]);
     // and leaves nothing behind

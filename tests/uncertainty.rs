@@ -302,8 +302,7 @@ fn zero_counts_are_reported_as_a_bound() {
             let ask = [job, "large.toml", "--urs", "r.h5", "-q"];
             let answer = study.uplift(&ask).ok().stdout;
             let told = study.uplift(&[&ask[..], &["--details"]].concat()).ok().stdout;
-            let found: Value =
-                serde_json::from_str(&study.uplift(&[&ask[..], &["--json"]].concat()).ok().stdout).unwrap();
+            let found = study.uplift(&[&ask[..], &["--json"]].concat()).json();
             let plain = match job {
                 "overturning" => &found["overturning"][0]["sites"][0]["at_most_per_year"],
                 _ => &found["exact"]["overturning"]["at_most_per_year"],
@@ -364,7 +363,7 @@ fn the_table_of_risks_has_what_is_uncertain() {
     for kind in KINDS {
         study.write("block.toml", &format!("{BLOCK}{}", scattering(kind, few(kind), 0.05)));
         let ask = ["overturning", "block.toml", "--urs", "r.h5", "-o", "o.csv", "--json", "-q", "--force"];
-        let found: Value = serde_json::from_str(&study.uplift(&ask).ok().stdout).unwrap();
+        let found = study.uplift(&ask).json();
         let table = read(&study, "o.risk.csv");
         assert_eq!(column(&table, "model"), ["oscillator", "block"]);
         assert_eq!(column(&table, "uncertainty"), [kind, ""]);

@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::common::{SmallStudy, repository};
 
 fn json(study: &SmallStudy, arguments: &[&str]) -> Value {
-    serde_json::from_str(&study.uplift(&[&["validate"], arguments, &["--json"]].concat()).ok().stdout).unwrap()
+    study.uplift(&[&["validate"], arguments, &["--json"]].concat()).json()
 }
 
 fn close(found: &Value, expected: f64) {

@@ -5,7 +5,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use uplift_fragility::{EmpiricalFragility, check_threshold};
 use uplift_hazard::rate_from_probability;
-use uplift_risk::{Ordinate, OrdinateFlag, PooledDemand, RiskCurve, RunWeights, StripeWeights, ThresholdGrid};
+use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RunWeights, StripeWeights, ThresholdGrid};
 
 use crate::demand::Demand;
 use crate::errors::refused;
@@ -289,14 +289,9 @@ impl Spectra {
         let of = |value: fn(&Ordinate) -> f64| {
             PyResult::Ok(array(py, shape, ordinates.iter().map(value).collect())?.unbind())
         };
-        let flag = |ordinate: &Ordinate| match ordinate.flag {
-            OrdinateFlag::Regular => 0,
-            OrdinateFlag::NoExceedance => 1,
-            OrdinateFlag::Censored => 2,
-        };
         Ok(Self {
             u_m: of(|ordinate| ordinate.displacement_m)?,
-            flag: array(py, shape, ordinates.iter().map(flag).collect())?.unbind(),
+            flag: array(py, shape, ordinates.iter().map(|ordinate| ordinate.flag.number()).collect())?.unbind(),
             lower_tail_share: of(|ordinate| ordinate.lower_tail_share)?,
             upper_tail_share: of(|ordinate| ordinate.upper_tail_share)?,
         })

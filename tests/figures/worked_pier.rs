@@ -51,7 +51,7 @@ fn run(at: &Path, arguments: &[&str]) {
 fn design(at: &Path, result: &str) -> Value {
     let file = repository().join("configs/structures/single-pier.toml");
     let arguments = ["design", file.to_str().unwrap(), "--urs", result, "--site", "Athens", "--json", "-q"];
-    serde_json::from_str(&uplift(at, &arguments).ok().stdout).unwrap()
+    uplift(at, &arguments).json()
 }
 
 fn metres(value: &Value, decimals: usize) -> String {

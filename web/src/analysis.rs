@@ -13,7 +13,8 @@ use uplift_study::{Structure, UniformRiskStudy};
 
 use crate::calculator::{Answer, At, refused};
 use crate::motions::{Motion, Motions};
-use crate::stripes::{CONFIDENCE, Measure, Stripes, per_cent};
+use crate::reading::{CONFIDENCE, per_cent};
+use crate::stripes::{Measure, Stripes};
 use crate::structure::parse;
 
 /// A threshold that nothing but overturning exceeds.

@@ -7,7 +7,8 @@
 //! |---|---|
 //! | `abi` | the functions that the page calls |
 //! | `calculator` | the questions |
-//! | `stripes` | what `uplift export --web` wrote, and the spectra read off it |
+//! | `stripes` | what `uplift export --web` wrote |
+//! | `reading` | the spectra read off it |
 //! | `curves` | hazard curves that are dropped or pasted |
 //! | `motions` | the embedded records, and record files that are dropped |
 //! | `structure` | a structure held against a spectrum, and its motion |
@@ -19,6 +20,7 @@ mod analysis;
 mod calculator;
 mod curves;
 mod motions;
+mod reading;
 mod stripes;
 mod structure;
 mod studies;

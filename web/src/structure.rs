@@ -11,7 +11,8 @@ use uplift_study::Structure;
 
 use crate::calculator::{Answer, At, refused};
 use crate::motions::Motions;
-use crate::stripes::{Stripes, rarity};
+use crate::reading::rarity;
+use crate::stripes::Stripes;
 
 /// Most rows of a motion that the page draws.
 const MOST_ROWS: usize = 6000;

@@ -37,7 +37,7 @@ pub struct HistoryRow {
     pub moment: Moment,
 }
 
-/// Receives every moment of a motion; `()` ignores them at no cost.
+/// Receives every moment of a motion; [`Unobserved`] ignores them at no cost.
 pub(crate) trait Observer {
     fn observe(&mut self, row: HistoryRow);
 }

@@ -21,7 +21,7 @@ use uplift::text::{one_line, visible};
 use crate::error::CommandError;
 use events::Event;
 use progress::Progress;
-pub(crate) use visible::{error_output, output, visible_json};
+pub(crate) use visible::{Output, error_output, output, visible_json};
 
 /// What the shell sees of an interruption.
 const EXIT_INTERRUPTED: u8 = 5;

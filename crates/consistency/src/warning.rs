@@ -12,9 +12,6 @@ const LARGEST_EVENT_SHARE: f64 = 0.5;
 /// ln q should scatter by this much at least at the stripes of the targets.
 const LEAST_SCATTER: f64 = 0.35;
 
-/// A larger share of resamples that do not reach the curve is reported.
-const MOST_FAILED_RESAMPLES: f64 = 0.05;
-
 /// Something about a repaired set that its reader should know; the limits are judgement, not calibrated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Warning {
@@ -54,13 +51,6 @@ pub enum Warning {
     },
     /// The stripes begin too high for the largest target rate.
     LowerTail,
-    /// Many resamples cannot be weighted to the site's hazard: their bands are those of the best weights found.
-    FailedResamples {
-        /// Records in a resample.
-        size: u32,
-        /// Share of the resamples that do not reach the curve.
-        share: f64,
-    },
 }
 
 impl Warning {
@@ -103,14 +93,6 @@ impl Warning {
         warnings
     }
 
-    /// Whether too many of the resamples of `size` records did not reach the curve ([`Fit::is_reached`]).
-    ///
-    /// [`Fit::is_reached`]: crate::Fit::is_reached
-    pub fn from_resamples(size: u32, failed: usize, replicates: usize) -> Option<Self> {
-        let share = failed as f64 / replicates as f64;
-        (share > MOST_FAILED_RESAMPLES).then_some(Self::FailedResamples { size, share })
-    }
-
     /// A sentence that says it, and what to do.
     pub fn sentence(&self, words: &Words<'_>) -> String {
         let (x, y) = (words.scaled_to, words.other);
@@ -140,11 +122,6 @@ impl Warning {
             Self::LowerTail => format!(
                 "the levels begin too high for the most frequent target: add levels of {x} below {}",
                 words.level(0)
-            ),
-            Self::FailedResamples { size, share } => format!(
-                "{:.0} % of the resamples of {size} records cannot be weighted to the site's {y}: their bands are \
-                 those of the best weights found",
-                100.0 * share
             ),
         }
     }
@@ -210,13 +187,5 @@ mod tests {
             assert!(sentences[3].starts_with("ln(PGA/PGV) scatters by only 0.31 at the level of 10 % in 50 years"));
             assert!(Warning::LowerTail.sentence(words).ends_with("add levels of PGV below 1 cm/s"));
         });
-    }
-
-    #[test]
-    fn failed_resamples_are_reported_above_five_per_cent() {
-        assert_eq!(Warning::from_resamples(20, 50, 1000), None);
-        let warning = Warning::from_resamples(20, 250, 1000).unwrap();
-        assert_eq!(warning, Warning::FailedResamples { size: 20, share: 0.25 });
-        with_words(|words| assert!(warning.sentence(words).starts_with("25 % of the resamples of 20 records")));
     }
 }

@@ -91,18 +91,14 @@ impl System {
     pub fn identity(&self) -> Vec<f64> {
         match self {
             Self::Oscillator(oscillator) => {
-                let (slope, parameter) = match oscillator.post_uplift() {
-                    PostUplift::Zero => (0.0, 0.0),
-                    PostUplift::Negative { capacity_m } => (1.0, capacity_m),
-                    PostUplift::Positive { stiffness_per_s2 } => (2.0, stiffness_per_s2),
-                };
+                let (slope, parameter) = oscillator.post_uplift().identity();
                 vec![
                     0.0,
                     oscillator.strength(),
                     oscillator.uplift_acceleration_m_s2(),
                     oscillator.uplift_displacement_m(),
                     oscillator.restitution(),
-                    slope,
+                    f64::from(slope),
                     parameter,
                 ]
             }

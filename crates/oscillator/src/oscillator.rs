@@ -23,6 +23,18 @@ pub enum PostUplift {
     },
 }
 
+impl PostUplift {
+    /// A number for its kind, and its parameter, 0 without one. Keys of finished analyses are made of both: they never
+    /// change.
+    pub fn identity(self) -> (u32, f64) {
+        match self {
+            Self::Zero => (0, 0.0),
+            Self::Negative { capacity_m } => (1, capacity_m),
+            Self::Positive { stiffness_per_s2 } => (2, stiffness_per_s2),
+        }
+    }
+}
+
 /// A mass-normalised oscillator that uplifts at a given strength (Eq. 4.1–4.3).
 ///
 /// | branch | restoring force per mass `r(u)` |

@@ -2,15 +2,6 @@
 
 use std::f64::consts::PI;
 
-/// Two samples of the same acceleration (m/s²), the sampling interval being the duration: a constant
-/// push that ends with a jump.
-///
-/// Pushing a ZSBE system with `a_g = −A` moves it by `u(T)` until the push ends; by energy its free peak is then
-/// `u_up/2 + (A/(η g)) u(T)`.
-pub fn constant_push(acceleration_m_s2: f64) -> [f64; 2] {
-    [acceleration_m_s2; 2]
-}
-
 /// The symmetric Ricker pulse (Eq. 2.7), `a_g(t) = a_p (1 − s²) exp(−s²/2)`, `s = √2 π (t − t_c)/T_p`, sampled over
 /// `0 … 2 t_c`.
 ///

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use proptest::prelude::*;
-use uplift_oscillator::problems::{constant_push, shaped_noise, symmetric_ricker_pulse};
+use uplift_oscillator::problems::{shaped_noise, symmetric_ricker_pulse};
 use uplift_oscillator::{
     EventKind, Excitation, FreeVibration, Oscillator, PostUplift, Response, respond, respond_with_history,
 };
@@ -173,6 +173,15 @@ proptest! {
         prop_assert!(response.peak_displacement_m >= 0.0, "{:?}", response);
         prop_assert!(response.impacts <= response.uplifts);
     }
+}
+
+/// Two samples of the same acceleration (m/s²), the sampling interval being the duration: a constant
+/// push that ends with a jump.
+///
+/// Pushing a ZSBE system with `a_g = −A` moves it by `u(T)` until the push ends; by energy its free peak is then
+/// `u_up/2 + (A/(η g)) u(T)`.
+fn constant_push(acceleration_m_s2: f64) -> [f64; 2] {
+    [acceleration_m_s2; 2]
 }
 
 // Pushed by a_g = −A for T seconds, then free: by energy the peak is u_up/2 + (A/η g) u(T). With η g = 1, A = 2, the

@@ -23,6 +23,6 @@ mod table;
 mod usual;
 
 pub use decimal::{AmbiguousMarks, DecimalMarks, may_be_thousands, with_point};
-pub use range::{Implausible, Range, Unlikely, counted, short_number};
+pub use range::{Implausible, Range, Unlikely, after_value, counted, short_number};
 pub use table::*;
 pub use usual::*;

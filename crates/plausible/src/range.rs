@@ -71,14 +71,14 @@ impl fmt::Display for Range {
     /// `from 0.1 to 2000 m/s2 (9.81 on Earth)`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (least, most) = (short_number(self.least), short_number(self.most));
-        write!(formatter, "from {least} to {most}{} ({})", spaced(self.unit), self.hint)
+        write!(formatter, "from {least} to {most}{} ({})", after_value(self.unit), self.hint)
     }
 }
 
 impl fmt::Display for Implausible {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, value, range } = self;
-        write!(formatter, "{name} is {}{}: it must be {range}", short_number(*value), spaced(range.unit))
+        write!(formatter, "{name} is {}{}: it must be {range}", short_number(*value), after_value(range.unit))
     }
 }
 
@@ -87,11 +87,12 @@ impl std::error::Error for Implausible {}
 impl fmt::Display for Unlikely {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, value, usual } = self;
-        write!(formatter, "{name} is {}{}; usual is {usual}", short_number(*value), spaced(usual.unit))
+        write!(formatter, "{name} is {}{}; usual is {usual}", short_number(*value), after_value(usual.unit))
     }
 }
 
-fn spaced(unit: &str) -> String {
+/// A unit as it follows a number: ` m`; nothing of a pure number.
+pub fn after_value(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 

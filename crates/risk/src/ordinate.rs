@@ -29,6 +29,29 @@ pub enum OrdinateFlag {
     Censored,
 }
 
+impl OrdinateFlag {
+    /// Every kind, in the order of their numbers.
+    pub const ALL: [Self; 3] = [Self::Regular, Self::NoExceedance, Self::Censored];
+
+    /// How it stands in arrays: 0, 1, 2.
+    pub fn number(self) -> u8 {
+        match self {
+            Self::Regular => 0,
+            Self::NoExceedance => 1,
+            Self::Censored => 2,
+        }
+    }
+
+    /// How it stands in tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Regular => "regular",
+            Self::NoExceedance => "no exceedance",
+            Self::Censored => "censored",
+        }
+    }
+}
+
 /// The displacement of a target rate: one point of a uniform risk spectrum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ordinate {

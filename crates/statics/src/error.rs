@@ -1,7 +1,7 @@
 //! What can be wrong with a spring, a restrainer or the columns that it holds.
 
 use thiserror::Error;
-use uplift_plausible::Implausible;
+use uplift_plausible::{Implausible, after_value};
 use uplift_structure::StructureError;
 
 /// Why a restrainer, or what it holds, cannot be computed.
@@ -230,10 +230,6 @@ impl StaticsError {
             Self::Displacement { .. } | Self::BeyondFlat { .. } | Self::Restrained { .. } => &[],
         }
     }
-}
-
-fn after_value(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
 /// `value` if it is finite and positive.

@@ -1,7 +1,7 @@
 //! What can be wrong with a structure, a demand or a design.
 
 use thiserror::Error;
-use uplift_plausible::Implausible;
+use uplift_plausible::{Implausible, after_value};
 
 /// Why a structure has no equivalent oscillator, or a rule or design gives no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -140,57 +140,6 @@ pub enum StructureError {
         /// Displacement capacity, m.
         capacity_m: f64,
     },
-    /// A spectrum cannot be read as a function of the slenderness.
-    #[error("point {index} of the spectrum (tan α = {tangent}, demand {demand_m} m): {requirement}")]
-    SpectrumPoint {
-        /// Position of the point, counted from 0.
-        index: usize,
-        /// Its abscissa.
-        tangent: f64,
-        /// Its ordinate, m.
-        demand_m: f64,
-        /// What would be accepted.
-        requirement: &'static str,
-    },
-    /// The spectrum has fewer than two points.
-    #[error("points of the spectrum: {points}; give at least 2")]
-    TooFewPoints {
-        /// Number of points given.
-        points: usize,
-    },
-    /// The spectrum stays above the capacity line: no slenderness within it makes the structure stand.
-    #[error(
-        "up to tan α = {last_tangent} the demand exceeds the capacity 2H tan α = {capacity_m} m: \
-         continue the spectrum to larger tan α, or choose a taller structure"
-    )]
-    NeverStands {
-        /// Last abscissa of the spectrum.
-        last_tangent: f64,
-        /// Capacity there, m.
-        capacity_m: f64,
-    },
-    /// The spectrum starts below the capacity line: the intersection is left of it.
-    #[error(
-        "from tan α = {first_tangent} on the demand is below the capacity 2H tan α = {capacity_m} m: \
-         begin the spectrum at a smaller tan α"
-    )]
-    StandsThroughout {
-        /// First abscissa of the spectrum.
-        first_tangent: f64,
-        /// Capacity there, m.
-        capacity_m: f64,
-    },
-    /// The design slenderness lies beyond the spectrum.
-    #[error(
-        "the design tan α = {design_tangent} lies beyond the last point {last_tangent} of the spectrum: continue the \
-         spectrum to it"
-    )]
-    BeyondSpectrum {
-        /// Slenderness asked for, as a tangent.
-        design_tangent: f64,
-        /// Last abscissa of the spectrum.
-        last_tangent: f64,
-    },
 }
 
 impl StructureError {
@@ -214,10 +163,6 @@ impl StructureError {
             _ => &[],
         }
     }
-}
-
-fn after_value(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
 fn in_unit(unit: &str) -> String {

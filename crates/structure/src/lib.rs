@@ -12,7 +12,6 @@
 //! | [`rigid`] | the solitary block that rotates exactly as a structure does (Section 2.4.3) |
 //! | [`rule`] | equal displacement and equal energy: from the ZSBE demand to the structure's (Eq. 3.8–3.11, 3.14) |
 //! | [`design`](mod@design) | required capacity and check of Section 3.4.5 (Eq. 3.15) |
-//! | [`slenderness`] | preliminary design of Section 2.4.3 |
 //! | [`description`] | a structure as written in a TOML file |
 //!
 //! # From a spectrum to a structure
@@ -74,7 +73,6 @@ pub mod geometry;
 pub mod realization;
 pub mod rigid;
 pub mod rule;
-pub mod slenderness;
 pub mod variation;
 mod warning;
 
@@ -89,6 +87,5 @@ pub use geometry::Geometry;
 pub use realization::{Realization, UncertainQuantity};
 pub use rigid::RotatingBlock;
 pub use rule::{Capacity, Demand, Rule, relative_error};
-pub use slenderness::{SlendernessDesign, SpectrumPoint, design_slenderness};
 pub use variation::Quantity;
 pub use warning::Warning;

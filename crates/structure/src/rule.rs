@@ -195,7 +195,7 @@ pub fn relative_error(demand_m: f64, exact_m: f64) -> Option<f64> {
 }
 
 /// A safety factor `FS ≥ 1`.
-pub(crate) fn checked_safety_factor(safety_factor: f64) -> Result<f64, StructureError> {
+fn checked_safety_factor(safety_factor: f64) -> Result<f64, StructureError> {
     positive("safety_factor", safety_factor, "")?;
     require(safety_factor >= 1.0, "safety_factor", safety_factor, "", "at least 1")
 }

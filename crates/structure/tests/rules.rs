@@ -4,10 +4,7 @@
 use std::collections::BTreeMap;
 
 use proptest::prelude::*;
-use uplift_structure::{
-    Block, Capacity, Check, Conditions, Demand, Geometry, Reference, Rule, SpectrumPoint, StructureError, design,
-    design_slenderness,
-};
+use uplift_structure::{Block, Capacity, Check, Conditions, Demand, Geometry, Reference, Rule, StructureError, design};
 
 fn capacity(uplift_m: f64, capacity_m: f64) -> Capacity {
     Capacity::new(uplift_m, capacity_m).unwrap()
@@ -145,48 +142,6 @@ fn printed_tables_of_the_design_example() {
     assert_eq!(cells, 72);
 }
 
-fn point(tangent: f64, demand_m: f64) -> SpectrumPoint {
-    SpectrumPoint { tangent, demand_m }
-}
-
-#[test]
-fn slenderness_by_hand() {
-    // demand 1 − t meets 10 t at t = 1/11; 2.5/11 gives a demand of 8.5/11 and a capacity of 25/11
-    let found = design_slenderness(&[point(0.0, 1.0), point(1.0, 0.0)], 10.0, 2.5).unwrap();
-    for (found, expected) in [
-        (found.critical_tangent, 1.0 / 11.0),
-        (found.design_tangent, 2.5 / 11.0),
-        (found.demand_m, 8.5 / 11.0),
-        (found.capacity_m, 25.0 / 11.0),
-        (found.margin_m(), 16.5 / 11.0),
-        (found.utilisation(), 0.34),
-    ] {
-        assert!((found - expected).abs() < 1e-14, "{found} {expected}");
-    }
-    // a hump: 0.5 at 0.1 is below 10 t, 3 at 0.2 above again; from there to 0 at 0.3: 3 − 30 (t −
-    // 0.2) = 10 t at t = 0.225
-    let hump = [point(0.0, 1.0), point(0.1, 0.5), point(0.2, 3.0), point(0.3, 0.0), point(1.0, 0.0)];
-    let found = design_slenderness(&hump, 10.0, 2.0).unwrap();
-    assert!((found.critical_tangent - 0.225).abs() < 1e-15 && found.demand_m == 0.0);
-    // met exactly at a point
-    let found = design_slenderness(&[point(0.1, 1.0), point(0.2, 0.5), point(0.3, 0.5)], 10.0, 2.0).unwrap();
-    assert_eq!((found.critical_tangent, found.demand_m), (0.1, 0.5));
-}
-
-#[test]
-fn spectra_that_cannot_be_used_say_why() {
-    let refused = |spectrum: &[SpectrumPoint], factor| design_slenderness(spectrum, 10.0, factor).unwrap_err();
-    assert!(matches!(refused(&[point(0.1, 1.0)], 2.0), StructureError::TooFewPoints { points: 1 }));
-    let falling = [point(0.2, 1.0), point(0.1, 1.0)];
-    assert!(matches!(refused(&falling, 2.0), StructureError::SpectrumPoint { index: 1, .. }));
-    let broken = [point(0.1, f64::NAN), point(0.2, 1.0)];
-    assert!(matches!(refused(&broken, 2.0), StructureError::SpectrumPoint { index: 0, .. }));
-    assert!(matches!(refused(&[point(0.0, 9.0), point(0.1, 9.0)], 2.0), StructureError::NeverStands { .. }));
-    assert!(matches!(refused(&[point(0.1, 0.5), point(0.2, 0.5)], 2.0), StructureError::StandsThroughout { .. }));
-    assert!(matches!(refused(&[point(0.0, 0.0), point(0.2, 0.5)], 2.0), StructureError::StandsThroughout { .. }));
-    assert!(matches!(refused(&[point(0.0, 1.0), point(0.15, 0.5)], 2.1), StructureError::BeyondSpectrum { .. }));
-}
-
 /// Work of the loading curve to a displacement, from its areas.
 fn work(uplift: f64, slope: f64, displacement: f64) -> f64 {
     if displacement <= uplift {
@@ -270,6 +225,5 @@ proptest! {
                 let _ = design(&capacity, rule, numbers[3].abs(), numbers[2].abs());
             }
         }
-        let _ = design_slenderness(&[point(numbers[0], numbers[1]), point(numbers[2], numbers[3])], 10.0, 2.0);
     }
 }

@@ -7,22 +7,20 @@
 //! the spectrum was made from.
 
 mod analysis;
+mod report;
 mod verdict;
+mod words;
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde::Serialize;
 use uplift_alarms::{OwnRisk, Scope, alarms_within, own_risk_alarms, ranked, safety_factor_alarm, structure_alarms};
 use uplift_engine::analysis::{ResultJob, ShardReport};
 use uplift_ida::Shard;
 use uplift_job::JobError;
-use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
-use uplift_job::text::rounded;
 use uplift_job::typed::number;
 use uplift_motion::IntensityMeasure;
-use uplift_oscillator::PostUplift;
 use uplift_plausible::SAFETY_FACTOR;
 use uplift_questions::bootstrap::resampled;
 use uplift_result::ResultFile;
@@ -32,15 +30,16 @@ use uplift_uniform_risk::{EventRisk, OneRisk, SpectraOfResult, StudyOfResult, at
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
 use super::opening::{Place, job_name, records_and_pairs, restitution};
-use super::own_frame::{FrameReport, OwnFrame, STOPPED, of_frame};
+use super::own_frame::{OwnFrame, STOPPED, of_frame};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
-use super::rules::{MeasureVerdict, OwnCheck, RuleDemands, RuleOutcome, apply_rules, verdicts_by_curve};
+use super::rules::{MeasureVerdict, OwnCheck, RuleDemands, apply_rules, verdicts_by_curve};
 use super::spectrum::SpectrumDemand;
-use super::uncertain::UncertaintyReport;
 use super::weights::{RepairedWeights, SiteWeights};
 use crate::error::DesignError;
 use analysis::{DesignAnalysis, OwnAnalysis, Question};
+pub use report::DesignReport;
+use words::{assumed, beside, beyond_spectrum, differences, not_repaired, require_zero_stiffness, without_uncertainty};
 
 /// What is asked of a design.
 #[expect(clippy::struct_excessive_bools, reason = "each is an option")]
@@ -101,69 +100,6 @@ impl Default for DesignOptions {
             shards: Vec::new(),
         }
     }
-}
-
-/// The report of a design.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct DesignReport {
-    /// The structure, with the restitution of its oscillator.
-    pub structure: StructureReport,
-    /// The result that it was examined under.
-    #[serde(flatten)]
-    pub source: ReportSource,
-    /// The site.
-    pub site: String,
-    /// `PGV` or `PGA`.
-    pub im: &'static str,
-    /// Whether spectrum and risks are of records weighted so that they bring the site's hazard.
-    pub repaired: bool,
-    /// Probability of exceedance.
-    pub poe: f64,
-    /// Years that it refers to.
-    pub years: f64,
-    /// Its rate, 1/yr (Eq. 4.8).
-    pub target_per_year: f64,
-    /// Safety factor asked for.
-    pub required_safety_factor: f64,
-    /// What the spectrum says; none where it cannot be read.
-    pub spectrum: Option<SpectrumDemand>,
-    /// Why it cannot be read, which is a note as well; none where it can.
-    #[serde(skip)]
-    pub unread: Option<String>,
-    /// What the structure's own analysis says; none where there is none.
-    pub exact: Option<ExactDemand>,
-    /// Whether its capacity is at least the safety factor times that demand; none without a capacity.
-    pub own_check: Option<OwnCheck>,
-    /// Whether the structure describes a frame that can wobble.
-    pub wobbles: bool,
-    /// What the frame itself says; none of a structure that cannot wobble, by its proxy, and without an analysis.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frame: Option<FrameReport>,
-    /// Why a frame that can wobble is left out although no `--proxy` asks for that.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub without_frame: Option<String>,
-    /// The structure where its quantities are not known exactly; none where its file says that they are, and without
-    /// an analysis of its own.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub uncertainty: Option<UncertaintyReport>,
-    /// The rules; none where they do not apply, to positive post-uplift stiffness.
-    pub rules: Vec<RuleOutcome>,
-    /// The rules by the spectra of the other measures of the result.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub by_other_measures: Vec<MeasureVerdict>,
-    /// How the structure and the study differ, and what could not be done.
-    pub notes: Vec<String>,
-    /// Whether the spectrum is of another oscillator than the structure's: another uplift displacement, restitution or
-    /// gravity, or uncertain; the notes say which.
-    pub other_oscillator: bool,
-    /// Options of `uplift run` with which the study has the structure's oscillator; none where it has.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub own_oscillator: Option<String>,
-    /// What the structure's file leaves out and an answer hangs on, with what is taken for it.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub assumed: Vec<String>,
-    /// What to know before using the numbers, the worst first.
-    pub alarms: Vec<Alarm>,
 }
 
 /// Designs `structure` by a spectrum of the result at `result`, and tests the design by the structure's own risk.
@@ -325,18 +261,6 @@ fn site_weights<'a>(
     })
 }
 
-/// Why the structures that it may be are not analysed.
-fn without_uncertainty(options: &DesignOptions, source: &StudyOfResult) -> String {
-    let reason = if options.repaired {
-        "their risk is not computed with repaired weights (leave --repaired out)"
-    } else if source.study.records.at_level.is_some() {
-        "their risk is not computed with records of their own at each level (records.at_level)"
-    } else {
-        "the structure itself is not analysed"
-    };
-    format!("[uncertainty]: all numbers are of the structure as described, without its uncertainty: {reason}")
-}
-
 /// The repaired spectrum at a site and probability, m, `[strength]`; none where there is none.
 fn repaired_spectrum(
     file: &ResultFile,
@@ -380,44 +304,6 @@ fn verdicts_by_measure(
     Ok(verdicts)
 }
 
-/// Why there is no repaired spectrum of a site.
-fn not_repaired(source: &StudyOfResult, place: Place<'_>) -> DesignError {
-    JobError::input(format!(
-        "{}: has no repaired spectrum of {} by {}: compute it, or see why there is none: `uplift consistency {} \
-         --repair`",
-        source.path.display(),
-        place.name,
-        place.measure.measure().label(),
-        source.path.display()
-    ))
-    .into()
-}
-
-fn beside(plain: Option<SpectrumDemand>, repaired: Option<SpectrumDemand>) -> Option<String> {
-    let [plain_m, repaired_m] = [plain?, repaired?].map(|demand| demand.zero_stiffness_demand_m);
-    Some(format!(
-        "the repaired spectrum has {repaired_m:.4} m with zero stiffness, the plain one {plain_m:.4} m: --repaired \
-         designs by it"
-    ))
-}
-
-/// The rules start from the ZSBE system: a spectrum of another says nothing to them.
-fn require_zero_stiffness(source: &StudyOfResult) -> Result<(), DesignError> {
-    let (what, key) = match source.study.oscillator.post_uplift {
-        PostUplift::Zero => return Ok(()),
-        PostUplift::Negative { capacity_m } => (format!("negative stiffness (capacity {capacity_m} m)"), "capacity_m"),
-        PostUplift::Positive { stiffness_per_s2 } => {
-            (format!("positive stiffness ({stiffness_per_s2} 1/s2 after uplift)"), "post_uplift_stiffness_per_s2")
-        }
-    };
-    Err(JobError::input(format!(
-        "{}: its oscillator has {what}, but the rules start from zero stiffness (ZSBE): run the study without \
-         oscillator.{key}",
-        source.path.display()
-    ))
-    .into())
-}
-
 /// The spectrum read at the strength of the structure; none where it cannot be.
 fn spectrum_demand(structure: &Structure, source: &StudyOfResult, u_m: &[f64]) -> Option<SpectrumDemand> {
     let system = &structure.system;
@@ -425,74 +311,11 @@ fn spectrum_demand(structure: &Structure, source: &StudyOfResult, u_m: &[f64]) -
     SpectrumDemand::read(&source.study.strengths, u_m, (strength, system.participation()))
 }
 
-/// Why the spectrum cannot be read.
-fn beyond_spectrum(structure: &Structure, source: &StudyOfResult) -> String {
-    let strengths = &source.study.strengths;
-    let (first, last) = (strengths[0], strengths[strengths.len() - 1]);
-    let strength = structure.system.spectral_strength_at(source.study.gravity_m_s2);
-    let why = if (first..=last).contains(&strength) {
-        "an ordinate beside it is censored".to_owned()
-    } else {
-        format!("its strengths go from {first} to {last}; widen strengths.values and run the study again")
-    };
-    format!("the spectrum has no value at strength {strength:.4}: {why}")
-}
-
 /// The result at the risk asked for, with its bands there where it keeps draws: alarms take them, and what is quoted
 /// needs none.
 fn result_at(path: &Path, risk: OneRisk, events: &dyn Events) -> Result<ResultFile, DesignError> {
     let file = at(ResultFile::open(path)?, &risk.into())?;
     Ok(if file.draws()?.is_some() { resampled(file, events)? } else { file })
-}
-
-/// `restitution 0.95`, where the structure's file does not say so, and likewise.
-fn assumed(structure: &Structure, restitution: f64) -> Vec<String> {
-    let description = &structure.description;
-    let uplift_mm = rounded(1e3 * structure.system.conditions().uplift_displacement_m(), 4);
-    let uplift = description.assumes_uplift_displacement().then(|| format!("uplift displacement {uplift_mm} mm"));
-    let restitution = description.restitution.is_none().then(|| format!("restitution {restitution}"));
-    uplift.into_iter().chain(restitution).collect()
-}
-
-/// What the structure and the study's oscillator do not have in common, and the options with which they would.
-fn differences(structure: &Structure, source: &StudyOfResult, restitution: f64) -> (Vec<String>, Option<String>) {
-    let (system, oscillator) = (&structure.system, &source.study.oscillator);
-    let apart = |a: f64, b: f64| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
-    let (mut notes, mut settings) = (Vec::new(), Vec::new());
-    if source.study.uncertainty.is_some() {
-        notes.push(
-            "the spectrum is of uncertain oscillators ([uncertainty] of its study); the structure is compared with \
-             the one that the study describes"
-                .to_owned(),
-        );
-    }
-    if !system.is_of_uplift_displacement(oscillator.uplift_displacement_m) {
-        notes.push(format!(
-            "The spectrum is of another oscillator: its uplift displacement is {} mm; this structure's is {} mm ({} mm \
-             divided by Γ)",
-            rounded(1e3 * oscillator.uplift_displacement_m, 4),
-            rounded(1e3 * system.spectral_uplift_displacement_m(), 3),
-            rounded(1e3 * system.conditions().uplift_displacement_m(), 4)
-        ));
-        let own_m = rounded(system.spectral_uplift_displacement_m(), 4);
-        settings.push(format!("--set oscillator.uplift_displacement_m={own_m}"));
-    }
-    if apart(restitution, oscillator.restitution) {
-        notes.push(format!(
-            "The spectrum is of another oscillator: its restitution is {}; this structure's is {restitution}",
-            oscillator.restitution
-        ));
-        settings.push(format!("--set oscillator.restitution={restitution}"));
-    }
-    let gravity_m_s2 = system.conditions().gravity_m_s2();
-    if apart(gravity_m_s2, source.study.gravity_m_s2) {
-        notes.push(format!(
-            "the spectrum is of a gravity of {} m/s2, the structure's is {gravity_m_s2} m/s2",
-            source.study.gravity_m_s2
-        ));
-        settings.push(format!("--set gravity_m_s2={gravity_m_s2}"));
-    }
-    (notes, (!settings.is_empty()).then(|| settings.join(" ")))
 }
 
 /// What may come from outside the stripes: the demand, exceeding the capacity, overturning.

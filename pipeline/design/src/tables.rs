@@ -23,15 +23,13 @@ pub(super) fn risk_path(fragility: &Path) -> PathBuf {
 
 /// Writes the fragility to `path`, and the risk beside it.
 pub(super) fn write_tables(path: &Path, report: &OverturningReport) -> Result<(), DesignError> {
-    let line = format!(
-        "{}; overturning of {} ({}); result {}; records: {}",
-        outputs::mark(),
+    let line = outputs::marked(format_args!(
+        "overturning of {} ({}); result {}; records: {}",
         report.structure.name,
         report.structure.kind,
         report.source.result.display(),
         report.source.record_set
-    )
-    .replace(['\n', '\r'], " ");
+    ));
     write_table(path, &line, fragility(report))?;
     Ok(write_table(&risk_path(path), &line, risk(report))?)
 }

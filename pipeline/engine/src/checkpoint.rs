@@ -19,5 +19,6 @@ mod row_file;
 pub use error::CheckpointError;
 pub(crate) use error::in_brackets;
 pub use key::{RowKey, RowKeys, oscillator_key};
-pub use open::{Checkpoint, path_beside};
+pub use open::Checkpoint;
+pub(crate) use open::path_beside;
 pub use row_file::{Finding, FinishedRows, RowFile, RowFileHead, checkpoint_path};

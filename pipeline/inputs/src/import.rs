@@ -19,9 +19,10 @@ use polars::prelude::Column;
 use serde::Serialize;
 
 pub use measured::PairMeasures;
-pub use name::sequence_number;
+pub(crate) use name::sequence_number;
 pub use warnings::of_pair as warnings_of_pair;
-pub use warnings::{Remarks, Warning, unusual_peaks};
+pub(crate) use warnings::unusual_peaks;
+pub use warnings::{Remarks, Warning};
 
 use crate::FileOptions;
 use crate::error::InputsError;

@@ -32,7 +32,7 @@ pub use error::InputsError;
 pub use file_options::FileOptions;
 pub use hardly_possible::hardly_possible;
 pub use hazard::{BranchHazard, HazardInput, OtherHazard, SiteHazard, read_hazard, read_other_hazard};
-pub use made::made_pairs;
+pub(crate) use made::made_pairs;
 pub use other_unit::{
     POE, curve_line, file_of, unit_of_branch, unit_that_covers, unit_that_explains, units_that_make_possible,
 };

@@ -16,7 +16,7 @@ const SOON: usize = 200;
 /// # Errors
 /// An option out of its range, too few candidates that are strong enough; [`JobError::Interrupted`] where `events`
 /// say so.
-pub fn made_pairs(options: &SyntheticSetOptions, events: &dyn Events) -> Result<Vec<RecordPair>, InputsError> {
+pub(crate) fn made_pairs(options: &SyntheticSetOptions, events: &dyn Events) -> Result<Vec<RecordPair>, InputsError> {
     let pairs = Pairs::from_options(options)?;
     if options.pairs <= SOON {
         return Ok(pairs.collect::<Result<_, _>>()?);

@@ -86,7 +86,7 @@ pub fn record_files(path: &Path) -> Vec<PathBuf> {
 ///
 /// # Errors
 /// As [`read`].
-pub fn read_bytes(bytes: &[u8], path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
+pub(crate) fn read_bytes(bytes: &[u8], path: &Path, tag: Option<&str>) -> Result<Vec<Row>, Vec<String>> {
     let name = path.display();
     let table = parse(bytes)
         .map_err(|reason| vec![format!("manifest {name} cannot be read as a CSV table with a header row: {reason}")])?;

@@ -62,7 +62,7 @@ fn read_row(row: Row, gravity_m_s2: f64) -> Result<CheckedPair, Vec<String>> {
 ///
 /// # Errors
 /// In words: a file that is missing, cannot be read, or is not the one that the manifest was made from.
-pub fn read_component(file: &ComponentFile, options: &ReadOptions) -> Result<(Recording, String), String> {
+pub(crate) fn read_component(file: &ComponentFile, options: &ReadOptions) -> Result<(Recording, String), String> {
     let path: &Path = &file.path;
     let bytes = record_bytes(path).map_err(|error| error.to_string())?;
     let sum = checksum(&bytes);

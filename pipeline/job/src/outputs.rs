@@ -6,6 +6,7 @@
 
 mod metadata;
 
+use std::fmt::Display;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -284,6 +285,11 @@ pub fn beside(result: &Path, ending: &str) -> PathBuf {
 /// What this program says of itself in a file.
 pub fn mark() -> String {
     format!("uplift {}", crate::VERSION_AND_COMMIT)
+}
+
+/// The same with what a table holds, on one line whatever the names in it.
+pub fn marked(what: impl Display) -> String {
+    format!("{}; {what}", mark()).replace(['\n', '\r'], " ")
 }
 
 /// Makes a folder for what is to be written, and those above it.

@@ -19,6 +19,17 @@ pub fn spectrum_words(measure: &str, repaired: bool) -> String {
     if repaired { format!("{measure}, repaired") } else { measure.to_owned() }
 }
 
+/// What is in a list, each once, in the order of the list.
+pub fn distinct<T: PartialEq>(all: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut found = Vec::new();
+    for own in all {
+        if !found.contains(&own) {
+            found.push(own);
+        }
+    }
+    found
+}
+
 /// Positions of the values nearest to those `wanted`, each once.
 pub fn nearest(values: &[f64], wanted: &[f64]) -> Vec<usize> {
     let distance = |index: usize, wanted: f64| (values[index] - wanted).abs();
@@ -33,6 +44,21 @@ pub fn nearest(values: &[f64], wanted: &[f64]) -> Vec<usize> {
 /// A displacement in metres to the tenth of a millimetre.
 pub fn metres(value: f64) -> String {
     if value.is_infinite() { "censored".to_owned() } else { format!("{value:.4}") }
+}
+
+/// The same of a structure, for which none is that it overturns.
+pub fn metres_or_overturns(value_m: f64) -> String {
+    if value_m.is_infinite() { "overturns".to_owned() } else { format!("{value_m:.4}") }
+}
+
+/// The relative error of a demand: `+12.3 %`. It is infinite where a structure that stands was expected to overturn,
+/// and NaN where there is none.
+pub fn relative_error(error: f64) -> String {
+    match error {
+        _ if error.is_nan() => "-".to_owned(),
+        _ if error.is_infinite() => "too safe".to_owned(),
+        _ => format!("{:+.1} %", 100.0 * error),
+    }
 }
 
 /// A displacement with the two digits that a record set can tell.

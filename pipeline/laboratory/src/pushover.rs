@@ -7,8 +7,8 @@ mod tables;
 
 pub use measured::{MeasuredCurve, SideOfLoop};
 pub use protocol::{CyclicReport, ProtocolOptions, ProtocolReport, protocol};
+pub(crate) use run::anchorage_word;
 pub use run::{
-    CapacityReport, LinearCurve, PushoverOptions, PushoverReport, anchorage_word, axial_load_ratio, capacity, pushed,
-    pushover,
+    CapacityReport, LinearCurve, PushoverOptions, PushoverReport, axial_load_ratio, capacity, pushed, pushover,
 };
-pub use tables::check_rows;
+pub(crate) use tables::check_rows;

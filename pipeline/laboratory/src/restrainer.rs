@@ -6,6 +6,6 @@ mod design;
 
 pub use curve::{CurveRow, RestrainerCurve, RestrainerCurveOptions, StackReport, ThresholdRow, curve};
 pub use design::{
-    AtDemand, DesignTarget, RestrainerDesign, RestrainerDesignOptions, StopperOptions, StopperReport, TargetReport,
+    AtDemand, DesignTarget, RestrainerDesign, RestrainerDesignOptions, StackTarget, StopperOptions, StopperReport,
     design, stack_name,
 };

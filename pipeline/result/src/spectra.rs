@@ -291,25 +291,15 @@ impl ResultFile {
 
 /// The flag that is written as `number`.
 pub(super) fn flag_of(number: u8) -> Option<OrdinateFlag> {
-    [OrdinateFlag::Regular, OrdinateFlag::NoExceedance, OrdinateFlag::Censored]
-        .into_iter()
-        .find(|&flag| flag_number(flag) == number)
+    OrdinateFlag::ALL.into_iter().find(|flag| flag.number() == number)
 }
 
 /// How a flag stands in the file.
 pub fn flag_number(flag: OrdinateFlag) -> u8 {
-    match flag {
-        OrdinateFlag::Regular => 0,
-        OrdinateFlag::NoExceedance => 1,
-        OrdinateFlag::Censored => 2,
-    }
+    flag.number()
 }
 
 /// How it stands in tables.
 pub fn flag_word(flag: OrdinateFlag) -> &'static str {
-    match flag {
-        OrdinateFlag::Regular => "regular",
-        OrdinateFlag::NoExceedance => "no exceedance",
-        OrdinateFlag::Censored => "censored",
-    }
+    flag.word()
 }

@@ -10,11 +10,13 @@ mod spectra;
 mod tests_of_table;
 mod write;
 
-pub use csv::{COLUMN as TESTS_COLUMN, columns, shake_table_csv_path, tables, write_shake_table_csv};
+pub(crate) use csv::write_shake_table_csv;
+pub use csv::{COLUMN as TESTS_COLUMN, columns, tables};
 pub use inputs::Inputs;
 pub use plan::{Plan, plan};
 pub use report::RunReport;
 pub use run::{is_of_inputs, run};
 pub use tests_of_table::carry_out;
 pub use uplift_result::{Excitation, ShakeTable, TableLevel, TableSpectra, TableTest};
-pub use write::{ShakeTableOutcome, write_shake_table};
+pub use write::ShakeTableOutcome;
+pub(crate) use write::write_shake_table;

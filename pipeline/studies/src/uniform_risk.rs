@@ -11,11 +11,12 @@ mod work;
 mod write;
 mod write_hazard;
 
-pub use csv::{band_columns, csv_paths, quoted_bands_m, spectra_table, tables, write_csv};
+pub use csv::{band_columns, quoted_bands_m, spectra_table, tables};
+pub(crate) use csv::{csv_paths, write_csv};
 pub use earlier::{EarlierStripes, is_of_records};
 pub use levels::{LevelCheck, LevelProposal};
 pub use plan::{Plan, needs, plan};
 pub use report::{BranchReport, CoefficientsReport, MeasureReport, RunReport};
 pub use run::{ComputedStudy, run};
 pub use work::{Inputs, run_shard};
-pub use write::write_result;
+pub(crate) use write::write_result;

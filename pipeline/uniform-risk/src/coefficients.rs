@@ -28,7 +28,7 @@ pub fn fit_spectra(study: &UniformRiskStudy, spectra: &Spectra) -> Coefficients 
 ///
 /// # Errors
 /// A spectrum that has no fit: why.
-pub fn fit_spectrum(study: &UniformRiskStudy, spectrum: &[Ordinate]) -> Result<ExponentialFit, String> {
+pub(crate) fn fit_spectrum(study: &UniformRiskStudy, spectrum: &[Ordinate]) -> Result<ExponentialFit, String> {
     let u_m: Vec<f64> = spectrum.iter().map(|ordinate| ordinate.displacement_m).collect();
     fit_ordinates(&study.strengths, &u_m, study.regression.strength_above)
 }

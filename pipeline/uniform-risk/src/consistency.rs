@@ -26,7 +26,7 @@ mod spectra;
 mod write;
 
 pub use answer::Answer;
-pub use asked::consistency_of_asked;
+pub(crate) use asked::consistency_of_asked;
 pub use branches::BranchFindings;
 pub use earthquakes::{EarthquakeRow, disaggregated, earthquakes};
 pub use finding::Finding;
@@ -35,6 +35,6 @@ pub use report::{
     AgreementRow, ConsistencyReport, ConsistencyRow, MissRow, NearestRow, RepairRow, TargetRow, TwoSidedRow,
 };
 pub use reweighing::{RepairedAnalysis, Reweighed, ReweighedBranch, Reweighing};
-pub use spectra::{Repairs, repaired_spectra, repairs_of};
+pub use spectra::{Repairs, repairs_of};
 pub use uplift_consistency::Verdict;
 pub use write::{Keep, add, columns, consistency_path, replaced};

@@ -32,7 +32,7 @@ impl BranchSpectra {
     }
 
     /// Mean and fractiles of `spectra_m`, ordinates `[branch, poe, strength]`, m; NaN where a branch has none.
-    pub fn from_spectra(site: usize, names: Vec<String>, weights: Vec<f64>, spectra_m: Array<3>) -> Self {
+    pub(crate) fn from_spectra(site: usize, names: Vec<String>, weights: Vec<f64>, spectra_m: Array<3>) -> Self {
         let spread = spread(&weights, &spectra_m);
         Self { site, names, weights, spectra_m, spread }
     }

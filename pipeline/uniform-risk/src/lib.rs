@@ -27,7 +27,7 @@ mod study_of_result;
 mod units;
 
 pub use asked::{AskedRisk, OneRisk, at, stored_spectra};
-pub use coefficients::{Coefficients, fit_ordinates, fit_spectra, fit_spectrum};
+pub use coefficients::{Coefficients, fit_ordinates, fit_spectra};
 pub use displacement::{
     CONFIDENCE, Displacement, DisplacementOptions, DisplacementReport, QUOTED_LIMITS, displacements, measure_index,
     site_index, strength_index,

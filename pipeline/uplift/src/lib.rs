@@ -44,7 +44,7 @@
 //!
 //! | module | what is in it |
 //! |---|---|
-//! | [`run`](mod@run), [`plan`](mod@plan), [`shard`] | a study of either kind carried out, planned, shared |
+//! | [`run`](mod@run), [`plan`](mod@plan), [`shard`] | a study of any kind carried out, planned, shared |
 //! | [`init`](mod@init) | a small study to start from |
 //! | [`study_run`], [`lock`](mod@lock) | what the kinds of study share; one run at a time for one result |
 //! | [`events`] | what a job tells while it works, and how it is stopped |

@@ -1,8 +1,8 @@
 //! A study carried out, of whichever kind: the frame that all kinds share.
 //!
-//! A kind has a folder of its own, [`uniform_risk`], [`displacement`] or [`shake_table`], with
-//! the same files in it: `plan` (what it costs), `run` (from the inputs to the result file), `report` (what a run
-//! tells).
+//! A kind has a folder of its own, [`uniform_risk`], [`displacement`] or [`shake_table`], with the same files in it:
+//! `plan` (what it costs), `run` (from the inputs to the result file), `report` (what a run tells), `write` (what it
+//! puts into the file).
 
 use std::io::ErrorKind;
 use std::path::Path;

@@ -7,7 +7,7 @@ use uplift::alarms::{Alarm, Severity, synthetic_records};
 
 use super::{print_more, typed_path};
 use crate::error::CommandError;
-use crate::terminal::{Terminal, output};
+use crate::terminal::{Output, Terminal, output};
 
 /// Warnings shown at most, without `--details`.
 const SHOWN: usize = 3;
@@ -54,6 +54,25 @@ pub(super) fn print_warnings_and_more(
 ) -> Result<(), CommandError> {
     print_warnings(out, alarms, Some(result), terminal)?;
     if alarms.len() > SHOWN { Ok(()) } else { print_more(out, terminal) }
+}
+
+/// An answer about a structure, in detail what it is made of, and the warnings of it and of the result that it comes
+/// from.
+pub(super) fn print_in_parts<R>(
+    report: &R,
+    (answer, details): (
+        impl FnOnce(&mut Output, &R) -> Result<(), CommandError>,
+        impl FnOnce(&mut Output, &R) -> Result<(), CommandError>,
+    ),
+    (alarms, result): (&[Alarm], &Path),
+    terminal: &Terminal,
+) -> Result<(), CommandError> {
+    let out = &mut output();
+    answer(out, report)?;
+    if terminal.shows_details() {
+        details(out, report)?;
+    }
+    print_warnings_and_more(out, alarms, result, terminal)
 }
 
 /// The first lines, or `all`, and how to see the others; nothing where there are none. Whether some are left out.

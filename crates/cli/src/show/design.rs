@@ -7,39 +7,23 @@ use uplift::structure::{
     Bands, DemandBands, DemandRounding, DesignReport, EventRisk, ExactDemand, FrameReport, RuleCheck, RuleOutcome,
     Sensitivity, StructureReport, verdict_word,
 };
-use uplift::text::{self, Table, cell_with_band, metres_with_band, risk_in_words, short, two_digits};
+use uplift::text::{
+    self, Table, cell_with_band, metres_or_overturns, metres_with_band, relative_error, risk_in_words, short,
+    two_digits,
+};
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
-use super::alarms::print_warnings_and_more;
+use super::alarms::print_in_parts;
 use super::shown_path;
 use super::structure::{band_after, band_in_cell, demand_in_words, lines, rate, risk_cells};
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use crate::error::CommandError;
-use crate::terminal::{Terminal, output};
-
-/// A displacement; infinite where the structure overturns.
-fn metres(value_m: f64) -> String {
-    if value_m.is_infinite() { "overturns".to_owned() } else { format!("{value_m:.4}") }
-}
-
-/// An error in words; NaN where there is none.
-fn relative(error: f64) -> String {
-    match error {
-        _ if error.is_nan() => "-".to_owned(),
-        _ if error.is_infinite() => "too safe".to_owned(),
-        _ => format!("{:+.1} %", 100.0 * error),
-    }
-}
+use crate::terminal::Terminal;
 
 /// The verdict, demand and risk; in detail structure, rules, and what of the numbers is noise.
 pub(crate) fn print_design(report: &DesignReport, terminal: &Terminal) -> Result<(), CommandError> {
-    let out = &mut output();
-    print_answer(out, report)?;
-    if terminal.shows_details() {
-        print_details(out, report)?;
-    }
-    print_warnings_and_more(out, &report.alarms, &report.source.result, terminal)
+    print_in_parts(report, (print_answer, print_details), (&report.alarms, &report.source.result), terminal)
 }
 
 /// What an engineer asks first.
@@ -88,7 +72,7 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
     };
     let demand = |demand_m: f64, bands: Option<&DemandBands>| {
         if demand_m.is_infinite() {
-            metres(demand_m)
+            metres_or_overturns(demand_m)
         } else {
             cell_with_band(demand_m, bands.map(|of| of.demand_m.quoted()))
         }
@@ -238,8 +222,9 @@ fn print_demands(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     let factor = report.structure.participation;
     let mut rows = Vec::new();
     let mut row = |what: String, demand_m: f64, rounding: Option<&Noisy>| {
-        let shown = rounding.map_or_else(|| metres(demand_m), |rounding| rounding.marked(metres));
-        rows.push(vec![what, metres(demand_m / factor), shown]);
+        let shown =
+            rounding.map_or_else(|| metres_or_overturns(demand_m), |rounding| rounding.marked(metres_or_overturns));
+        rows.push(vec![what, metres_or_overturns(demand_m / factor), shown]);
     };
     if let Some(spectrum) = &report.spectrum {
         let (a, b) = spectrum.between_strengths;
@@ -279,17 +264,17 @@ fn print_rules(out: &mut impl Write, report: &DesignReport) -> Result<(), Comman
     if let Some(Sensitivity { rounding, .. }) = report.exact.as_ref().and_then(|exact| exact.sensitivity.as_ref()) {
         let dash = || "-".to_owned();
         let exact_demand = |of: &RuleOutcome, check: &RuleCheck| match rounding.rule_demands_m {
-            Some(demands) => demands.of(of.rule).marked(metres),
-            None => metres(check.demand_m),
+            Some(demands) => demands.of(of.rule).marked(metres_or_overturns),
+            None => metres_or_overturns(check.demand_m),
         };
-        let error = |of: &RuleOutcome| rounding.rule_errors.map(|errors| errors.of(of.rule).marked(relative));
+        let error = |of: &RuleOutcome| rounding.rule_errors.map(|errors| errors.of(of.rule).marked(relative_error));
         let spectral = |of: &RuleOutcome, shown: &dyn Fn(f64) -> String| {
             of.from_spectrum.as_ref().map_or_else(dash, |check| shown(check.demand_m))
         };
         let table = Table::of(&report.rules)
             .left("rule", |of| of.rule.words())
-            .right("from the spectrum, m", |of| spectral(of, &metres))
-            .right("error", |of| spectral(of, &|demand_m| rounding.error_of(demand_m).marked(relative)))
+            .right("from the spectrum, m", |of| spectral(of, &metres_or_overturns))
+            .right("error", |of| spectral(of, &|demand_m| rounding.error_of(demand_m).marked(relative_error)))
             .right("from the exact demand, m", |of| {
                 of.from_exact.as_ref().map_or_else(dash, |check| exact_demand(of, check))
             })
@@ -316,7 +301,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         let infinite = check.capacity_m.is_infinite();
         rows.push(vec![
             rule.words().to_owned(),
-            metres(check.demand_m),
+            metres_or_overturns(check.demand_m),
             format!("{:.4}", check.required_capacity_m),
             if infinite { "infinite".to_owned() } else { format!("{:.4}", check.capacity_m) },
             if infinite { "-".to_owned() } else { format!("{:+.4}", check.margin_m) },
@@ -331,7 +316,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         let if_stands = |text: String| if exact.overturns { "-".to_owned() } else { text };
         rows.push(vec![
             "its own demand".to_owned(),
-            metres(exact.demand_m),
+            metres_or_overturns(exact.demand_m),
             if_stands(format!("{:.4}", own.required_capacity_m)),
             format!("{capacity_m:.4}"),
             if_stands(format!("{:+.4}", capacity_m - own.required_capacity_m)),
@@ -412,7 +397,7 @@ fn print_bands(out: &mut impl Write, exact: &ExactDemand, bands: &DemandBands) -
     let left = |left_m: f64| if left_m.is_infinite() { "none".to_owned() } else { format!("{left_m:.4}") };
     let own_left = exact.capacity_less_demand_m.map_or_else(String::new, |left_m| format!(" ({} m)", left(left_m)));
     let told = [
-        of("demand on the structure", Some(bands.demand_m), metres, " m"),
+        of("demand on the structure", Some(bands.demand_m), metres_or_overturns, " m"),
         of(&format!("capacity less demand{own_left}"), bands.capacity_less_demand_m, left, " m"),
         of("u > capacity", bands.beyond_capacity_per_year, text::rate, " per year"),
         of("overturning", bands.overturning_per_year, text::rate, " per year"),
@@ -433,10 +418,10 @@ fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], sensitivity: &Sensit
     let mut row = |what: String, [noisy, rounding]: [Noisy; 2], shown: &dyn Fn(f64) -> String| {
         rows.push(vec![what, rounding.marked(shown), shown(noisy.lowest), shown(noisy.highest)]);
     };
-    row("demand on the structure, m".to_owned(), [noise.demand_m, rounding.demand_m], &metres);
+    row("demand on the structure, m".to_owned(), [noise.demand_m, rounding.demand_m], &metres_or_overturns);
     if let (Some(noisy), Some(rounding)) = (noise.rule_errors, rounding.rule_errors) {
         for &RuleOutcome { rule, .. } in rules {
-            row(format!("error of {}", rule.words()), [noisy.of(rule), rounding.of(rule)], &relative);
+            row(format!("error of {}", rule.words()), [noisy.of(rule), rounding.of(rule)], &relative_error);
         }
     }
     if let (Some(noisy), Some(rounded)) = (noise.beyond_capacity_per_year, rounding.beyond_capacity_per_year) {
@@ -456,17 +441,21 @@ fn print_rounding(out: &mut impl Write, rules: &[RuleOutcome], rounding: &Demand
             moved.push(format!("   {what}: {} to {}", shown(noisy.lowest), shown(noisy.highest)));
         }
     };
-    tell("zero stiffness, exact, m", Some(rounding.zero_stiffness_demand_of_spectrum_m), metres);
-    tell("zero stiffness, uplift and impacts of the structure, m", Some(rounding.zero_stiffness_demand_m), metres);
-    tell("the structure itself, m", Some(rounding.demand_m), metres);
+    tell("zero stiffness, exact, m", Some(rounding.zero_stiffness_demand_of_spectrum_m), metres_or_overturns);
+    tell(
+        "zero stiffness, uplift and impacts of the structure, m",
+        Some(rounding.zero_stiffness_demand_m),
+        metres_or_overturns,
+    );
+    tell("the structure itself, m", Some(rounding.demand_m), metres_or_overturns);
     for outcome in rules {
         let rule = outcome.rule.words();
         let of_spectrum = outcome.from_spectrum.as_ref().map(|check| rounding.error_of(check.demand_m));
         let [demand, error] =
             [rounding.rule_demands_m, rounding.rule_errors].map(|ranges| ranges.map(|ranges| ranges.of(outcome.rule)));
-        tell(&format!("error of {rule} from the spectrum"), of_spectrum, relative);
-        tell(&format!("{rule} from the exact demand, m"), demand, metres);
-        tell(&format!("error of {rule} from the exact demand"), error, relative);
+        tell(&format!("error of {rule} from the spectrum"), of_spectrum, relative_error);
+        tell(&format!("{rule} from the exact demand, m"), demand, metres_or_overturns);
+        tell(&format!("error of {rule} from the exact demand"), error, relative_error);
     }
     tell("u > capacity, per year", rounding.beyond_capacity_per_year, rate);
     tell("overturning, per year", Some(rounding.overturning_per_year), rate);

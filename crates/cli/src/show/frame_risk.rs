@@ -3,22 +3,15 @@
 use std::io::Write;
 
 use uplift::structure::{Banded, FrameRiskReport, ModelDemand, StateAtDemand};
-use uplift::text::{self, Table, metres_with_band, risk_in_words, short, two_digits};
+use uplift::text::{
+    self, Table, metres_or_overturns, metres_with_band, relative_error, risk_in_words, short, two_digits,
+};
 
-use super::alarms::print_warnings_and_more;
+use super::alarms::print_in_parts;
 use super::shown_path;
 use super::structure::{band_after, demand_in_words, lines, risk_cells};
 use crate::error::CommandError;
-use crate::terminal::{Terminal, output};
-
-/// A displacement; infinite where the structure overturns.
-fn metres(value_m: f64) -> String {
-    if value_m.is_infinite() { "overturns".to_owned() } else { format!("{value_m:.4}") }
-}
-
-fn per_cent(value: f64) -> String {
-    if value.is_infinite() { "too safe".to_owned() } else { format!("{:+.1} %", 100.0 * value) }
-}
+use crate::terminal::Terminal;
 
 fn band(of: &Banded, shown: fn(f64) -> String) -> String {
     format!("{} to {}", shown(of.lower), shown(of.upper))
@@ -26,12 +19,7 @@ fn band(of: &Banded, shown: fn(f64) -> String) -> String {
 
 /// Demand and overturning of the frame; in detail restrainers, events and directions.
 pub(crate) fn print_frame_risk(report: &FrameRiskReport, terminal: &Terminal) -> Result<(), CommandError> {
-    let out = &mut output();
-    print_answer(out, report)?;
-    if terminal.shows_details() {
-        print_details(out, report)?;
-    }
-    print_warnings_and_more(out, &report.alarms, &report.source.result, terminal)
+    print_in_parts(report, (print_answer, print_details), (&report.alarms, &report.source.result), terminal)
 }
 
 /// The demand on the frame with its band, what its proxies say, and how often it overturns.
@@ -45,7 +33,8 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
         writeln!(out, "  {exceeded}")?;
     }
     for proxy in proxies {
-        let of = proxy.error.as_ref().map_or_else(String::new, |error| format!(" (error {})", per_cent(error.value)));
+        let of =
+            proxy.error.as_ref().map_or_else(String::new, |error| format!(" (error {})", relative_error(error.value)));
         writeln!(out, "  {}: {}{of}", proxy.model, metres_with_band(proxy.demand_m.value, None))?;
     }
     let [per_year, _, return_period] = risk_cells(&report.overturning.risk);
@@ -90,12 +79,12 @@ fn print_demands(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
         |demand: &ModelDemand, shown: fn(&Banded) -> String| demand.error.as_ref().map_or("-".to_owned(), shown);
     let table = Table::of(&report.demands)
         .left("model", |demand| demand.model)
-        .right("demand, m", |demand| metres(demand.demand_m.value))
-        .right(format!("{:.0} % band", 100.0 * report.confidence), |demand| band(&demand.demand_m, metres))
-        .right("error", |demand| error(demand, |error| per_cent(error.value)))
-        .right("its band", |demand| error(demand, |error| band(error, per_cent)))
+        .right("demand, m", |demand| metres_or_overturns(demand.demand_m.value))
+        .right(format!("{:.0} % band", 100.0 * report.confidence), |demand| band(&demand.demand_m, metres_or_overturns))
+        .right("error", |demand| error(demand, |error| relative_error(error.value)))
+        .right("its band", |demand| error(demand, |error| band(error, relative_error)))
         .when(is_repaired, |table| {
-            table.right("repaired, m", |demand| demand.repaired_m.map_or_else(|| "-".to_owned(), metres))
+            table.right("repaired, m", |demand| demand.repaired_m.map_or_else(|| "-".to_owned(), metres_or_overturns))
         });
     writeln!(
         out,

@@ -6,21 +6,16 @@ use uplift::structure::{CollapseReport, OverturningReport, SiteRisk};
 use uplift::text::{self, Table, share};
 use uplift_spectra::Noisy;
 
-use super::alarms::print_warnings_and_more;
+use super::alarms::print_in_parts;
 use super::shown_path;
 use super::structure::{band_in_cell, limits, lines, rate, risk_cells};
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use crate::error::CommandError;
-use crate::terminal::{Terminal, output};
+use crate::terminal::Terminal;
 
 /// How often a structure overturns; in detail its models, fragility and tails.
 pub(crate) fn print_overturning(report: &OverturningReport, terminal: &Terminal) -> Result<(), CommandError> {
-    let out = &mut output();
-    print_answer(out, report)?;
-    if terminal.shows_details() {
-        print_details(out, report)?;
-    }
-    print_warnings_and_more(out, &report.alarms, &report.source.result, terminal)
+    print_in_parts(report, (print_answer, print_details), (&report.alarms, &report.source.result), terminal)
 }
 
 /// The rate of every site by measure and model, with its band.

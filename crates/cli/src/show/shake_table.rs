@@ -4,7 +4,7 @@ use std::io::Write;
 
 use uplift::result::ShakeTable;
 use uplift::table::TestsTable;
-use uplift::text::Table;
+use uplift::text::{Table, metres_or_overturns};
 use uplift_validation::Sample;
 
 use crate::error::CommandError;
@@ -34,7 +34,7 @@ pub(super) fn print_tests(out: &mut impl Write, found: &ShakeTable) -> Result<()
             }
             let Ok(sample) = Sample::new(u_m) else { continue };
             let mut cells = vec![level.name.clone(), class.unwrap_or("all").to_owned(), sample.len().to_string()];
-            cells.extend([0.16, 0.5, 0.84].map(|share| metres(fractile(&sample, share))));
+            cells.extend([0.16, 0.5, 0.84].map(|share| metres_or_overturns(fractile(&sample, share))));
             cells.extend([still.to_string(), sample.collapses().to_string()]);
             rows.push(cells);
         }
@@ -85,8 +85,4 @@ pub(super) fn print_order(out: &mut impl Write, found: &TestsTable) -> Result<()
 fn fractile(sample: &Sample, share: f64) -> f64 {
     let values = sample.sorted();
     values.iter().copied().find(|value| sample.cdf(*value) >= share).unwrap_or(f64::INFINITY)
-}
-
-fn metres(value: f64) -> String {
-    if value.is_infinite() { OVERTURNS.to_owned() } else { format!("{value:.4}") }
 }

@@ -22,7 +22,10 @@ pub(crate) fn visible_json(json: &str) -> String {
     text
 }
 
-pub(crate) fn output() -> Visible<Answer<StdoutLock<'static>>> {
+/// The stream of answers.
+pub(crate) type Output = Visible<Answer<StdoutLock<'static>>>;
+
+pub(crate) fn output() -> Output {
     Visible(Answer(io::stdout().lock(), &HAS_BEGUN))
 }
 

@@ -52,7 +52,7 @@ pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Ve
             if let Some(data_line) = DataLine::parse(line) {
                 head.has_data = true;
                 if data_line.is_acceleration(head) {
-                    head.begin_acceleration(source)?;
+                    source.begin_acceleration(&mut head.has_acceleration)?;
                     recordings.push(data_line.component(source, options, head, index + 1, &mut lines)?);
                 } else {
                     found = found.or(words(data_line.quantity));

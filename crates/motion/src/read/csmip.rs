@@ -54,7 +54,7 @@ pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Ve
         if let Some(data_line) = DataLine::parse(line) {
             current.has_data = true;
             if data_line.is_acceleration() {
-                current.begin_acceleration(source)?;
+                source.begin_acceleration(&mut current.has_acceleration)?;
                 recordings.push(data_line.component(source, options, current, index + 1, &mut lines)?);
             } else {
                 found = found.or(Some("velocity or displacement"));

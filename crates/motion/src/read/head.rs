@@ -20,6 +20,17 @@ impl Source<'_> {
         MotionError::HeaderLacks { name: self.name.to_owned(), format: self.format, key }
     }
 
+    /// Accelerations of a component follow, once.
+    ///
+    /// # Errors
+    /// [`MotionError::HeaderLacks`] where the component `has_acceleration` already: whose these are is not known.
+    pub(super) fn begin_acceleration(&self, has_acceleration: &mut bool) -> Result<(), MotionError> {
+        if std::mem::replace(has_acceleration, true) {
+            return Err(self.lacks("text above the accelerations of a further component"));
+        }
+        Ok(())
+    }
+
     /// `key` cannot be read in `text` on `line` (counted from one); `expected` is an example.
     pub(super) fn unreadable(&self, line: usize, key: &'static str, text: &str, expected: &'static str) -> MotionError {
         MotionError::HeaderValue { name: self.name.to_owned(), line, key, text: excerpt(text), expected }

@@ -5,7 +5,7 @@ use uplift::structure::{
     DemandRounding, DesignReport, EventRisk, RuleCheck, RuleOutcome, Sensitivity, StructureReport, verdict_word,
 };
 use uplift::study::Structure;
-use uplift::text::{Table, per_cent, risk_in_words, share, two_digits};
+use uplift::text::{Table, metres_or_overturns, per_cent, relative_error, risk_in_words, share, two_digits};
 use uplift_spectra::Noisy;
 
 use crate::page::TitledTable;
@@ -155,9 +155,14 @@ pub(super) fn rounding_words(report: &DesignReport) -> Option<String> {
             moved.push(format!("{what}: {} to {}{unit}", shown(of.lowest), shown(of.highest)));
         }
     };
-    tell("zero stiffness, exact", &rounding.zero_stiffness_demand_of_spectrum_m, metres, " m");
-    tell("zero stiffness with uplift and impacts of the structure", &rounding.zero_stiffness_demand_m, metres, " m");
-    tell("the structure itself", &rounding.demand_m, metres, " m");
+    tell("zero stiffness, exact", &rounding.zero_stiffness_demand_of_spectrum_m, metres_or_overturns, " m");
+    tell(
+        "zero stiffness with uplift and impacts of the structure",
+        &rounding.zero_stiffness_demand_m,
+        metres_or_overturns,
+        " m",
+    );
+    tell("the structure itself", &rounding.demand_m, metres_or_overturns, " m");
     for outcome in &report.rules {
         if let Some(check) = &outcome.from_spectrum {
             tell(&format!("error of {}", outcome.rule.words()), &rounding.error_of(check.demand_m), relative, "");
@@ -226,18 +231,21 @@ fn demands(report: &DesignReport) -> Option<TitledTable> {
     let mut rows = Vec::new();
     let mut row = |what: &str, demand: String| rows.push(vec![what.to_owned(), demand]);
     if let Some(spectrum) = &report.spectrum {
-        row("without stiffness after uplift, from the spectrum", metres(spectrum.zero_stiffness_demand_m));
+        row("without stiffness after uplift, from the spectrum", metres_or_overturns(spectrum.zero_stiffness_demand_m));
     }
     if let Some(exact) = &report.exact {
         let rounding = rounding(report);
         let (of_spectrum_m, zero_stiffness_m) =
             (exact.zero_stiffness_demand_of_spectrum_m, exact.zero_stiffness_demand_m);
         let of_spectrum = rounding.map(|of| &of.zero_stiffness_demand_of_spectrum_m);
-        row("without stiffness after uplift, exact", marked(of_spectrum_m, of_spectrum, metres));
+        row("without stiffness after uplift, exact", marked(of_spectrum_m, of_spectrum, metres_or_overturns));
         let zero_stiffness = rounding.map(|of| &of.zero_stiffness_demand_m);
         let what = "the same with the uplift and impacts of the structure";
-        row(what, marked(zero_stiffness_m, zero_stiffness, metres));
-        row("the structure itself, exact", marked(exact.demand_m, rounding.map(|of| &of.demand_m), metres));
+        row(what, marked(zero_stiffness_m, zero_stiffness, metres_or_overturns));
+        row(
+            "the structure itself, exact",
+            marked(exact.demand_m, rounding.map(|of| &of.demand_m), metres_or_overturns),
+        );
     }
     let note = format!(
         "{} by {}, {}: {} a year. Exact: from these records and levels.",
@@ -260,8 +268,10 @@ fn frame(report: &DesignReport) -> Option<TitledTable> {
     let dash = || "–".to_owned();
     let table = Table::of(&frame.models)
         .left("model", |of| of.model)
-        .right("demand, m", |of| metres(of.demand_m))
-        .right("required capacity, m", |of| of.check.map_or_else(dash, |check| metres(check.required_capacity_m)))
+        .right("demand, m", |of| metres_or_overturns(of.demand_m))
+        .right("required capacity, m", |of| {
+            of.check.map_or_else(dash, |check| metres_or_overturns(check.required_capacity_m))
+        })
         .left("verdict", |of| {
             of.check.map_or_else(dash, |check| if check.satisfied { "satisfied" } else { "NOT satisfied" }.to_owned())
         })
@@ -292,9 +302,9 @@ fn rules(report: &DesignReport) -> Option<TitledTable> {
         |(of, check): (&RuleOutcome, &RuleCheck)| check.error.map_or_else(|| "–".to_owned(), |error| marked(of, error));
     let table = Table::of(report.rules.iter().filter_map(|outcome| Some((outcome, outcome.check()?))))
         .left("rule", |(of, _)| of.rule.words())
-        .right("demand, m", |(_, check)| metres(check.demand_m))
-        .right("required capacity, m", |(_, check)| metres(check.required_capacity_m))
-        .right("capacity, m", |(_, check)| if_finite(check.capacity_m, "infinite", metres))
+        .right("demand, m", |(_, check)| metres_or_overturns(check.demand_m))
+        .right("required capacity, m", |(_, check)| metres_or_overturns(check.required_capacity_m))
+        .right("capacity, m", |(_, check)| if_finite(check.capacity_m, "infinite", metres_or_overturns))
         .right("margin, m", |(_, check)| if_finite(check.margin_m, "–", |margin_m| format!("{margin_m:+.4}")))
         .right("safety factor", |(_, check)| if_finite(check.safety_factor, "–", |factor| format!("{factor:.2}")))
         .right("tendons for it, N/m", |(_, check)| {
@@ -329,7 +339,7 @@ fn risk(report: &DesignReport) -> Option<TitledTable> {
     let capacity_m = report.structure.capacity_m.unwrap_or(f64::NAN);
     let rounding = rounding(report);
     let of_beyond = rounding.and_then(|of| of.beyond_capacity_per_year.as_ref());
-    let what = format!("beyond its capacity, {} m", metres(capacity_m));
+    let what = format!("beyond its capacity, {} m", metres_or_overturns(capacity_m));
     let beyond = exact.beyond_capacity.iter().map(|risk| row(what.clone(), risk, of_beyond));
     let overturning = row("overturning".to_owned(), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
     let years = format!("in {} years", report.years);
@@ -344,7 +354,7 @@ fn noise(report: &DesignReport) -> Option<TitledTable> {
     let mut range = |what: &str, [of, rounding]: [&Noisy; 2], shown: fn(f64) -> String| {
         rows.push(vec![what.to_owned(), rounding.marked(shown), shown(of.lowest), shown(of.highest)]);
     };
-    range("demand on the structure, m", [&noise.demand_m, &rounding.demand_m], metres);
+    range("demand on the structure, m", [&noise.demand_m, &rounding.demand_m], metres_or_overturns);
     if let (Some(of), Some(rounding)) = (&noise.rule_errors, &rounding.rule_errors) {
         range("own error of equal displacement", [&of.equal_displacement, &rounding.equal_displacement], relative);
         range("own error of equal energy", [&of.equal_energy, &rounding.equal_energy], relative);
@@ -363,17 +373,8 @@ fn if_finite(value: f64, otherwise: &str, shown: fn(f64) -> String) -> String {
     if value.is_finite() { shown(value) } else { otherwise.to_owned() }
 }
 
-/// A displacement; infinite where the structure overturns.
-fn metres(value_m: f64) -> String {
-    if value_m.is_infinite() { "overturns".to_owned() } else { format!("{value_m:.4}") }
-}
-
 fn relative(error: f64) -> String {
-    match error {
-        _ if error.is_nan() => "–".to_owned(),
-        _ if error.is_infinite() => "too safe".to_owned(),
-        _ => format!("{:+.1} %", 100.0 * error),
-    }
+    if error.is_nan() { "–".to_owned() } else { relative_error(error) }
 }
 
 /// A probability in per cent, two digits of it unless they say that it is certain.

@@ -1,6 +1,6 @@
 //! The section `[uncertainty]`: quantities of a structure that are not known exactly.
 
-use uplift_plausible::{Range, USUAL_VARIATION};
+use uplift_plausible::{Range, USUAL_VARIATION, after_value};
 use uplift_structure::UncertainQuantity;
 use uplift_uncertainty::{Distribution, Family, GaussianCopula, RandomVector, Sampling, UncertaintyError};
 
@@ -427,7 +427,7 @@ fn far_off(field: &Field<'_>, mean: f64, own: f64, unit: &str) -> Option<Doubt> 
     if !(times.is_finite() && times > FAR) {
         return None;
     }
-    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    let unit = after_value(unit);
     // what is computed of a structure has more digits than anyone reads
     let own_shown = format!("{own:.3e}").parse::<f64>().unwrap_or(own);
     let far = if mean.abs() > own { format!("{times:.0} times") } else { format!("a {times:.0}th of") };

@@ -7,7 +7,7 @@ use uplift_statics::{
 };
 use uplift_structure::{Kind, StructureDescription};
 
-use super::Mistake;
+use super::resolve::Mistake;
 use crate::error::StudyError;
 use crate::keys::{self, ANY, Choice, Integer, Judged, Key, Number, SectionKeys, choice, integer, number};
 use crate::reading::findings::refused;

@@ -2,7 +2,8 @@
 
 use uplift_structure::Quantity;
 
-use super::{Mistake, ReadStructure, Structure};
+use super::Structure;
+use super::resolve::{Mistake, ReadStructure};
 
 impl Structure {
     /// The structure with `quantity` at `value`, in its unit, all else kept: other columns have the restrainer of the

@@ -11,7 +11,7 @@ use crate::reading::{Field, Rule, Section, optional};
 
 pub(super) const KEYS: SectionKeys =
     SectionKeys::new("consistency", &[&REPAIR, &AGAINST, &SMOOTHNESS, &LEAST_EFFECTIVE, &SCALE_FACTORS]);
-const REPAIR: Key<Choice<Repair>> = choice("repair", &Repair::ALL, Repair::key).with_default(Repair::None).meaning(
+const REPAIR: Key<Choice<Repair>> = choice("repair", &Repair::ALL, Repair::key).with_default(DEFAULT.repair).meaning(
     "`\"weights\"`: spectra with weights of the records by which the set has both hazard curves of a site, beside the \
      plain ones; `\"none\"`: the consistency is checked and not repaired",
 );
@@ -23,16 +23,25 @@ const AGAINST: Key<Special> = special("against", || json!({ "type": "string", "m
     )
     .note("a measure with a curve at a site");
 const SMOOTHNESS: Key<Number> = number("smoothness", "", Rule::From(0.001, 10.0, "0.001 to 10 (0.05 is usual)"))
-    .with_default(0.05)
+    .with_default(DEFAULT.smoothness)
     .meaning("how much a bend of the weights' exponent over the level counts against the fit");
 const LEAST_EFFECTIVE: Key<Integer> = integer("least_effective", 1, MOST_RECORDS)
-    .with_default(20)
+    .with_default(DEFAULT.least_effective)
     .meaning("effective records below which a repaired spectrum gets a warning");
 const SCALE_FACTORS: Key<List<Number>> = number("scale_factors", "", SCALE_FACTOR)
     .list()
-    .with_default(&[0.2, 5.0])
+    .with_default(&DEFAULT.scale_factors)
     .meaning("scale factors outside of these two are counted; nothing is left out")
     .note("the smaller first");
+
+/// What holds where a study says nothing.
+const DEFAULT: Consistency = Consistency {
+    repair: Repair::None,
+    against: None,
+    smoothness: 0.05,
+    least_effective: 20,
+    scale_factors: [0.2, 5.0],
+};
 
 const SCALE_FACTOR: Rule = Rule::From(1e-6, 1e6, "1e-6 to 1e6");
 /// Most records of an analysis.
@@ -89,7 +98,7 @@ impl Serialize for Repair {
 
 impl Default for Consistency {
     fn default() -> Self {
-        Self { repair: Repair::None, against: None, smoothness: 0.05, least_effective: 20, scale_factors: [0.2, 5.0] }
+        DEFAULT
     }
 }
 
@@ -97,7 +106,7 @@ impl Consistency {
     /// Whether the study says no more than is so without the section: it is then left out where the study is kept, as
     /// it was before there was such a section.
     pub(super) fn is_default(&self) -> bool {
-        *self == Self::default()
+        *self == DEFAULT
     }
 
     /// The keys besides `repair` whose values differ from those of `other`.
@@ -119,7 +128,7 @@ pub(super) fn read(mut section: Section<'_>) -> Option<Consistency> {
     let smoothness = section.read(&SMOOTHNESS);
     let least_effective = section.read(&LEAST_EFFECTIVE);
     let scale_factors =
-        section.given(&SCALE_FACTORS).map_or(Some(Consistency::default().scale_factors), |field| scale_factors(&field));
+        section.given(&SCALE_FACTORS).map_or(Some(DEFAULT.scale_factors), |field| scale_factors(&field));
     section.finish();
     Some(Consistency {
         repair: repair?,

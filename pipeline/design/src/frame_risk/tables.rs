@@ -28,16 +28,14 @@ pub(super) fn write_tables(
     report: &FrameRiskReport,
     (set, levels, demands): (&RecordSet, &[f64], &Demands),
 ) -> Result<(), DesignError> {
-    let line = format!(
-        "{}; frame {} ({}); {}; result {}; records: {}",
-        outputs::mark(),
+    let line = outputs::marked(format_args!(
+        "frame {} ({}); {}; result {}; records: {}",
         report.structure.name,
         report.structure.kind,
         report.notes.first().map_or("", String::as_str),
         report.source.result.display(),
         report.source.record_set
-    )
-    .replace(['\n', '\r'], " ");
+    ));
     write_table(path, &line, peaks(report, set, levels, demands))?;
     Ok(write_table(&levels_path(path), &line, by_level(report, set.records.len(), levels, demands))?)
 }

@@ -14,9 +14,8 @@ pub(super) const FIRST_COLUMN: &str = "quantity";
 
 /// Writes a row a value.
 pub(super) fn write(path: &Path, report: &TargetReport) -> Result<(), DesignError> {
-    let line = format!(
-        "{}; target of {} ({}): {} at most {} per year at {} by {}; result {}; records: {}",
-        outputs::mark(),
+    let line = outputs::marked(format_args!(
+        "target of {} ({}): {} at most {} per year at {} by {}; result {}; records: {}",
         report.structure.name,
         report.structure.kind,
         report.event,
@@ -25,8 +24,7 @@ pub(super) fn write(path: &Path, report: &TargetReport) -> Result<(), DesignErro
         report.im,
         report.source.result.display(),
         report.source.record_set
-    )
-    .replace(['\n', '\r'], " ");
+    ));
     let mut columns = ColumnsOf::new(&report.tried)
         .with(FIRST_COLUMN, |_| report.quantity)
         .with("unit", |_| report.quantity_unit)

@@ -75,7 +75,7 @@ impl<'a> Work<'a> {
     }
 
     /// How many of the rows of one shard are among `rows`, and how many there are.
-    pub fn share_of(&self, shard: Shard, rows: &FinishedRows) -> [u64; 2] {
+    pub(crate) fn share_of(&self, shard: Shard, rows: &FinishedRows) -> [u64; 2] {
         let found = self.keys_of(shard).filter(|key| rows.contains(*key)).count();
         [found as u64, self.keys_of(shard).count() as u64]
     }

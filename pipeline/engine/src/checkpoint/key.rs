@@ -4,7 +4,6 @@ use sha2::{Digest, Sha256};
 use uplift_ida::{Axes, NUMERICS, Plan};
 use uplift_job::checksum::motion_key;
 use uplift_labelled::hexadecimal;
-use uplift_oscillator::PostUplift;
 use uplift_study::UniformRiskStudy;
 
 /// Key of an analysis row.
@@ -16,11 +15,7 @@ pub struct RowKey(pub [u8; 16]);
 /// by cell.
 pub fn oscillator_key(study: &UniformRiskStudy) -> String {
     let oscillator = &study.oscillator;
-    let (kind, parameter) = match oscillator.post_uplift {
-        PostUplift::Zero => (0_u32, 0.0),
-        PostUplift::Negative { capacity_m } => (1, capacity_m),
-        PostUplift::Positive { stiffness_per_s2 } => (2, stiffness_per_s2),
-    };
+    let (kind, parameter) = oscillator.post_uplift.identity();
     let mut hash = Sha256::new();
     hash.update(NUMERICS.to_le_bytes());
     hash.update(kind.to_le_bytes());

@@ -145,7 +145,7 @@ impl Checkpoint {
 }
 
 /// `europe.h5`, `design pier` and `part` make `europe.h5.design-pier.part`.
-pub fn path_beside(result: &Path, name: &str, extension: &str) -> PathBuf {
+pub(crate) fn path_beside(result: &Path, name: &str, extension: &str) -> PathBuf {
     let result = &final_place(result).unwrap_or_else(|_| result.to_owned());
     let plain: String =
         name.chars().map(|letter| if letter.is_alphanumeric() || letter == '_' { letter } else { '-' }).collect();

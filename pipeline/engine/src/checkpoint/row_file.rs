@@ -257,7 +257,7 @@ impl RowFile {
     }
 
     /// Whether nothing can be appended any more.
-    pub fn is_full(&self) -> bool {
+    pub(crate) fn is_full(&self) -> bool {
         self.failure.get().is_some()
     }
 

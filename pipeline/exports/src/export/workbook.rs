@@ -3,10 +3,10 @@
 mod about;
 mod added;
 mod consistency;
+mod shake_table;
 pub(super) mod sheet;
 mod spectra;
 mod tables;
-mod tests;
 
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, XlsxError};
 use uplift_job::JobError;

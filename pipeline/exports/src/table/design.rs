@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 use uplift_job::events::Events;
+use uplift_job::text::distinct;
 use uplift_job::{JobError, ReferenceTable};
 use uplift_result::{DesignRow, ResultFile};
 use uplift_spectra::Noisy;
@@ -116,16 +117,6 @@ pub(super) fn read(
         noise_relative: design.noise_relative,
         compared,
     })
-}
-
-fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let mut found: Vec<&str> = Vec::new();
-    for name in names {
-        if !found.contains(&name) {
-            found.push(name);
-        }
-    }
-    found
 }
 
 fn read_reference(path: &Path) -> Result<Vec<Reference>, ExportsError> {

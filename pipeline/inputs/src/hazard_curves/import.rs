@@ -17,10 +17,9 @@ use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::write_atomically;
-use uplift_job::text::counted;
+use uplift_job::text::{counted, distinct};
 use uplift_job::typed::number;
 
-use super::read::distinct;
 use crate::error::InputsError;
 use check::{check_weights, one_site, remarks};
 use text::{curve_text, file_stem, study_lines};

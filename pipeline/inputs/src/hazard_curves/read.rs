@@ -8,7 +8,7 @@ use uplift_hazard::{
     read_export, table_text,
 };
 use uplift_job::events::Events;
-use uplift_job::text::counted;
+use uplift_job::text::{counted, distinct};
 use uplift_job::typed::number;
 use uplift_motion::{IntensityMeasure, STANDARD_GRAVITY_M_S2};
 
@@ -131,15 +131,4 @@ fn named(path: &Path, exported: ExportedCurve) -> NamedCurve {
         kind => kind.to_string(),
     };
     NamedCurve { name: format!("{place}, {kind}"), curve: exported.curve, read_as: None }
-}
-
-/// The files given, each once.
-pub(super) fn distinct(files: &[PathBuf]) -> Vec<&PathBuf> {
-    let mut distinct: Vec<&PathBuf> = Vec::new();
-    for file in files {
-        if !distinct.contains(&file) {
-            distinct.push(file);
-        }
-    }
-    distinct
 }

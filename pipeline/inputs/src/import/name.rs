@@ -58,7 +58,7 @@ impl RecordName {
 }
 
 /// The record sequence number of a file `RSN1041_…` or `NGA_no_829_…`.
-pub fn sequence_number(stem: &str) -> Option<u64> {
+pub(crate) fn sequence_number(stem: &str) -> Option<u64> {
     let lower = stem.to_lowercase();
     let after = lower.strip_prefix("rsn").or_else(|| lower.strip_prefix("nga_no_"))?;
     let digits: String = after.chars().take_while(char::is_ascii_digit).collect();

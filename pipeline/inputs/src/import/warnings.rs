@@ -37,7 +37,7 @@ const USUAL_PGA_G: [f64; 2] = [1e-3, 3.0];
 const USUAL_PGA_RATIO: f64 = 20.0;
 
 /// What to say of the largest accelerations \[g\] of the components of a record, which the ground hardly has.
-pub fn unusual_peaks(pga_g: &[f64]) -> Option<String> {
+pub(crate) fn unusual_peaks(pga_g: &[f64]) -> Option<String> {
     let [least, largest] = USUAL_PGA_G;
     if let Some(strong) = pga_g.iter().find(|&&pga_g| pga_g >= largest || pga_g.is_nan()) {
         return Some(format!("mistake? PGA {strong:.3} g: is its unit right, cm/s2 perhaps?"));

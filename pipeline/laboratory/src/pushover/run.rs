@@ -297,7 +297,7 @@ fn linear_curve(
 }
 
 /// What an anchorage is called in a file.
-pub fn anchorage_word(path: TendonPath) -> &'static str {
+pub(crate) fn anchorage_word(path: TendonPath) -> &'static str {
     match path {
         TendonPath::Column => "column",
         TendonPath::Foundation => "foundation",

@@ -24,7 +24,7 @@ const MOST_ROWS: u32 = 100_000;
 ///
 /// # Errors
 /// That number.
-pub fn check_rows(rows: u32) -> Result<(), LaboratoryError> {
+pub(crate) fn check_rows(rows: u32) -> Result<(), LaboratoryError> {
     if (2..=MOST_ROWS).contains(&rows) {
         return Ok(());
     }

@@ -1,8 +1,9 @@
 //! Stacks out of a catalogue for the columns of a structure.
 
+mod report;
+
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
 use uplift_alarms::{Scope, alarms_of_inputs, ranked};
 use uplift_design::{DesignError, DesignOptions, DesignReport, FrameReport, design as design_by_spectrum};
 use uplift_job::JobError;
@@ -12,13 +13,14 @@ use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_result::ResultFile;
 use uplift_statics::selection::{select, stopper_yield_force_n};
-use uplift_statics::{Candidate, Imperfections, Limits, Ranking, StaticsError, Target, TendonPath, Tolerance};
+use uplift_statics::{Candidate, Imperfections, Limits, Ranking, StaticsError, Target, TendonPath};
 use uplift_structure::{Kind, StructureDescription};
 use uplift_study::{ColumnShape, Structure};
 
 use super::catalogue;
 use crate::error::LaboratoryError;
 use crate::pushover::pushed;
+pub use report::{AtDemand, RestrainerDesign, StackTarget, StopperReport};
 
 /// A column of every list of stacks, and of no other table.
 const STACK_COLUMN: &str = "tendon_utilisation";
@@ -82,86 +84,6 @@ pub struct RestrainerDesignOptions {
     pub table: Option<PathBuf>,
     /// Whether an existing file there is overwritten.
     pub force: bool,
-}
-
-/// The target in numbers.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TargetReport {
-    /// In words.
-    pub words: String,
-    /// Stiffness of a restrainer, N/m: asked for, or by the linear law for the capacity.
-    pub stiffness_n_m: f64,
-    /// Displacement capacity asked for, m.
-    pub capacity_m: Option<f64>,
-    /// Displacement that the spectrum demands, m; none where the target is no spectrum's.
-    pub demand_m: Option<f64>,
-    /// Travel at which the stiffness counts, m.
-    pub at_m: f64,
-    /// Stiffness at which the linear force neither falls nor rises, N/m.
-    pub critical_stiffness_n_m: f64,
-}
-
-/// A stack at the demand of a spectrum.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct AtDemand {
-    /// Force of the tendon, N.
-    pub tendon_n: f64,
-    /// Deformation of the springs, m.
-    pub spring_m: f64,
-}
-
-/// A stopper for a stack.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct StopperReport {
-    /// Force of the springs when it engages, N.
-    pub engages_at_n: f64,
-    /// Travel of the deck there, m; none where the columns do not come so far.
-    pub engages_at_m: Option<f64>,
-    /// The most at which its rods may yield, N; none where the springs alone are too much for the tendon, or are flat
-    /// before the gap closes.
-    pub most_yield_n: Option<f64>,
-}
-
-/// The report of a design.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct RestrainerDesign {
-    /// Name for people.
-    #[serde(skip)]
-    pub name: String,
-    /// The structure file.
-    pub file: PathBuf,
-    /// The catalogue.
-    pub catalogue: PathBuf,
-    /// Discs in it.
-    pub discs: usize,
-    /// The target.
-    pub target: TargetReport,
-    /// How many stacks meet it.
-    pub found: usize,
-    /// The first of them.
-    pub stacks: Vec<Candidate>,
-    /// Each of these at the demand; none where the target is no spectrum's.
-    pub at_demand: Vec<AtDemand>,
-    /// The structure with the first of these as a frame that wobbles; none where it cannot, by its proxy, and where the
-    /// target is no spectrum's.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frame: Option<FrameReport>,
-    /// Whether the verdict is that of the proxy of a frame that can wobble.
-    pub proxy: bool,
-    /// Why, where it was not asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub without_frame: Option<String>,
-    /// A stopper for each of these; none was asked for where there is none.
-    pub stoppers: Vec<StopperReport>,
-    /// The stack that the tolerances are of, as [`stack_name`] calls it.
-    pub tolerances_of: String,
-    /// What imperfections do to it.
-    pub tolerances: Vec<Tolerance>,
-    /// What to know before the demand of a spectrum is used, the worst first; none where the target is no spectrum's.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub alarms: Vec<Alarm>,
-    /// The files written.
-    pub files: Vec<PathBuf>,
 }
 
 /// Finds stacks out of a catalogue for the columns of a structure.
@@ -333,12 +255,12 @@ fn target_of(
     structure: &Structure,
     options: &RestrainerDesignOptions,
     events: &dyn Events,
-) -> Result<(Target, TargetReport, Vec<Alarm>), LaboratoryError> {
+) -> Result<(Target, StackTarget, Vec<Alarm>), LaboratoryError> {
     let columns = pushed(structure, 0)?;
     let free = columns.without_stoppers()?.linear(0.0)?;
     let critical_stiffness_n_m = free.critical_stiffness_n_m();
     let at_m = options.at_m.unwrap_or(2.0 * columns.geometry().width_m());
-    let report = |words: String, stiffness_n_m: f64, capacity_m: Option<f64>| TargetReport {
+    let report = |words: String, stiffness_n_m: f64, capacity_m: Option<f64>| StackTarget {
         words,
         stiffness_n_m,
         capacity_m,
@@ -389,7 +311,7 @@ fn target_of(
                 design.safety_factor, found.site, found.poe, found.years, found.im
             );
             let (target, told, _) = capacity(words, required_m)?;
-            let told = TargetReport { demand_m: Some(required_m / design.safety_factor), ..told };
+            let told = StackTarget { demand_m: Some(required_m / design.safety_factor), ..told };
             Ok((target, told, alarms_of_demand(result, &found)?))
         }
         DesignTarget::ZeroStiffness => {
@@ -441,7 +363,7 @@ fn resolved(
 fn none_found(
     columns: &uplift_statics::RestrainedColumns,
     discs: &[uplift_statics::CatalogueDisc],
-    (target, told): (Target, &TargetReport),
+    (target, told): (Target, &StackTarget),
     limits: &Limits,
     options: &RestrainerDesignOptions,
 ) -> String {

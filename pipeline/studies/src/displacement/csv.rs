@@ -14,7 +14,7 @@ use super::{DisplacementOutcome, printed};
 use crate::error::StudiesError;
 
 /// The tables beside the result file `result`: spectra, and the design example.
-pub fn displacement_csv_paths(result: &Path) -> [PathBuf; 2] {
+fn displacement_csv_paths(result: &Path) -> [PathBuf; 2] {
     ["displacements.csv", "design.csv"].map(|ending| beside(result, ending))
 }
 
@@ -31,7 +31,7 @@ pub fn tables(study: &DisplacementStudy, result: &Path) -> Vec<Output> {
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn write_displacement_csv(
+pub(crate) fn write_displacement_csv(
     result: &Path,
     outcome: &DisplacementOutcome<'_>,
     design: &[DesignRow],

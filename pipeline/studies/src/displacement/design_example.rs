@@ -64,7 +64,7 @@ pub fn design_analyses(study: &DisplacementStudy, plan: &DesignPlan, set: &Motio
 ///
 /// # Errors
 /// [`JobError::Paused`] or [`JobError::Interrupted`] where `events` say so; what the solvers and rules refuse.
-pub fn carry_out_designs(
+pub(crate) fn carry_out_designs(
     study: &DisplacementStudy,
     sets: &KeyedMotions<'_>,
     shard: Shard,

@@ -60,7 +60,7 @@ pub(super) fn with_free_vibration(study: &DisplacementStudy) -> bool {
 /// What `set` asks of the structures of `study`.
 ///
 /// * `peaks` — over `[motion, structure, way of scaling that differs]`
-pub fn set_spectra(study: &DisplacementStudy, set: &MotionSet<'_>, peaks: &Peaks) -> SetSpectra {
+pub(crate) fn set_spectra(study: &DisplacementStudy, set: &MotionSet<'_>, peaks: &Peaks) -> SetSpectra {
     let (ways, places) = study.scaling.ways();
     let (abscissae, motions) = (study.structures.abscissa(), set.motions().len());
     let mut spectra = SetSpectra {

@@ -67,7 +67,7 @@ impl DisplacementOutcome<'_> {
 ///
 /// # Errors
 /// Whatever keeps the file from being written, a full disk for instance.
-pub fn write_displacements(path: &Path, outcome: &DisplacementOutcome<'_>) -> Result<(), StudiesError> {
+pub(crate) fn write_displacements(path: &Path, outcome: &DisplacementOutcome<'_>) -> Result<(), StudiesError> {
     let mut writer = LabelledWriter::create(path)?;
     write_root(&mut writer, outcome)?;
     let structures = StoredStructures::from(&outcome.study.structures);

@@ -15,7 +15,7 @@ use crate::error::StudiesError;
 pub const COLUMN: &str = "base_shear_n";
 
 /// The table beside the result file `result`.
-pub fn shake_table_csv_path(result: &Path) -> PathBuf {
+fn shake_table_csv_path(result: &Path) -> PathBuf {
     beside(result, "tests.csv")
 }
 
@@ -29,7 +29,7 @@ pub fn tables(study: &ShakeTableStudy, result: &Path) -> Vec<Output> {
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn write_shake_table_csv(result: &Path, outcome: &ShakeTableOutcome<'_>) -> Result<PathBuf, StudiesError> {
+pub(crate) fn write_shake_table_csv(result: &Path, outcome: &ShakeTableOutcome<'_>) -> Result<PathBuf, StudiesError> {
     let file = shake_table_csv_path(result);
     let line = outcome.provenance.line(&outcome.study.title, &outcome.table.records);
     write_table(&file, &line, columns(outcome.table))?;

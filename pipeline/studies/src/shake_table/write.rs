@@ -30,7 +30,7 @@ pub struct ShakeTableOutcome<'a> {
 ///
 /// # Errors
 /// Whatever keeps the file from being written, a full disk for instance.
-pub fn write_shake_table(path: &Path, outcome: &ShakeTableOutcome<'_>) -> Result<(), StudiesError> {
+pub(crate) fn write_shake_table(path: &Path, outcome: &ShakeTableOutcome<'_>) -> Result<(), StudiesError> {
     let ShakeTableOutcome { study, table, .. } = outcome;
     let mut writer = LabelledWriter::create(path)?;
     let origin = Origin {

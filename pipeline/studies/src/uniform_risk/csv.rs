@@ -16,7 +16,7 @@ use super::site_table::{cube_path, site_table_paths};
 use crate::error::StudiesError;
 
 /// The tables beside the result file `result`: spectra and coefficients.
-pub fn csv_paths(result: &Path) -> [PathBuf; 2] {
+pub(crate) fn csv_paths(result: &Path) -> [PathBuf; 2] {
     ["urs.csv", "regression.csv"].map(|ending| beside(result, ending))
 }
 
@@ -45,7 +45,7 @@ pub fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn write_csv(result: &Path, outcome: &ComputedStudy<'_>) -> Result<(), StudiesError> {
+pub(crate) fn write_csv(result: &Path, outcome: &ComputedStudy<'_>) -> Result<(), StudiesError> {
     let line = outcome.provenance.line(&outcome.study.title, &outcome.records.description);
     let [ordinates, coefficients] = csv_paths(result);
     let spectra = outcome.stored_spectra();

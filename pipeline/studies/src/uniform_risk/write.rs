@@ -23,7 +23,7 @@ use crate::error::StudiesError;
 ///
 /// # Errors
 /// Whatever keeps the file from being written, a full disk for instance.
-pub fn write_result(
+pub(crate) fn write_result(
     path: &Path,
     outcome: &ComputedStudy<'_>,
     additions: Option<KeptGroups>,

@@ -16,7 +16,7 @@ use crate::stored_stripes::StoredStripes;
 ///
 /// # Errors
 /// A file that is damaged.
-pub fn consistency_of_asked(file: &ResultFile) -> Result<Vec<StoredConsistency>, UniformRiskError> {
+pub(crate) fn consistency_of_asked(file: &ResultFile) -> Result<Vec<StoredConsistency>, UniformRiskError> {
     let (question, is_repaired) = (Question::from_result(file)?, file.has_repair());
     let findings = question.findings(is_repaired)?;
     let axes = file.axes()?;

@@ -138,7 +138,7 @@ impl Question {
     /// What the result `file` is asked of its motions, each once, whatever structures they shake.
     ///
     /// # Errors
-    /// As [`of_result`](Self::from_result).
+    /// As [`from_result`](Self::from_result).
     pub fn from_motions(file: &ResultFile) -> Result<Self, UniformRiskError> {
         let structures = file.stored_study()?.structures_of_a_motion();
         let mut question = Self::from_result(file)?;

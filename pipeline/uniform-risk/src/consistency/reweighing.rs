@@ -66,7 +66,7 @@ impl Reweighing {
     /// spectra.
     ///
     /// # Errors
-    /// As [`of_result`](Self::from_result).
+    /// As [`from_result`](Self::from_result).
     pub fn from_motions(file: &ResultFile) -> Result<Option<Self>, UniformRiskError> {
         if !file.has_repair() {
             return Ok(None);

@@ -33,7 +33,7 @@ pub struct Repairs {
 ///
 /// # Errors
 /// Demands that are not demands, in a file that was changed.
-pub fn repaired_spectra(
+pub(crate) fn repaired_spectra(
     study: &UniformRiskStudy,
     measure: IntensityMeasure,
     (findings, branches): (&[Finding], &[BranchFindings]),

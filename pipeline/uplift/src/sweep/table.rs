@@ -1,5 +1,6 @@
 //! All spectra of all variants in one table, a row an ordinate.
 
+use uplift_job::outputs;
 use uplift_job::table::{ColumnsOf, write_table};
 
 use super::{SweepReport, VariantReport, VariantSpectrum};
@@ -9,14 +10,11 @@ use crate::error::UpliftError;
 pub(super) const FIRST_COLUMN: &str = "variant";
 
 pub(super) fn write(report: &SweepReport, digest: &str) -> Result<(), UpliftError> {
-    let line = format!(
-        "uplift {} ({}); {} variants of the study {}; study digest {digest}",
-        uplift_job::VERSION,
-        uplift_job::COMMIT,
+    let line = outputs::marked(format_args!(
+        "{} variants of the study {}; study digest {digest}",
         report.variants.len(),
         report.study.display()
-    )
-    .replace(['\n', '\r'], " ");
+    ));
     let rows = report.variants.iter().flat_map(|variant| {
         let of_spectrum = move |spectrum| (0..variant.strengths.len()).map(move |at| (variant, spectrum, at));
         variant.spectra.iter().flat_map(of_spectrum)

@@ -37,7 +37,7 @@ pub(super) struct Head<'a> {
     /// Whether values followed.
     pub(super) has_data: bool,
     /// Whether they are accelerations.
-    has_acceleration: bool,
+    pub(super) has_acceleration: bool,
 }
 
 impl<'a> Head<'a> {
@@ -62,18 +62,6 @@ impl<'a> Head<'a> {
         if !self.has_data && self.lines.len() < MOST_LINES {
             self.lines.push(line);
         }
-    }
-
-    /// Accelerations follow, once.
-    ///
-    /// # Errors
-    ///
-    /// [`MotionError::HeaderLacks`] where the component has some already: whose they are is not known.
-    pub(super) fn begin_acceleration(&mut self, source: Source) -> Result<(), MotionError> {
-        if std::mem::replace(&mut self.has_acceleration, true) {
-            return Err(source.lacks("text above the accelerations of a further component"));
-        }
-        Ok(())
     }
 
     /// What a component without values holds instead.
