@@ -34,9 +34,6 @@ pub struct ExportOptions {
     /// Stripes and hazard as JSON, for the browser page
     #[arg(long)]
     pub web: bool,
-    /// Fragilities or demands in place of spectra.
-    #[command(flatten, next_help_heading = "Fragility and demand")]
-    pub assessment: AssessmentOptions,
     /// Output file, for one format [default: beside the result]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
@@ -46,6 +43,9 @@ pub struct ExportOptions {
     /// Whether existing files are overwritten.
     #[command(flatten)]
     pub overwriting: Overwriting,
+    /// Fragilities or demands in place of spectra.
+    #[command(flatten, next_help_heading = "Fragility and demand")]
+    pub assessment: AssessmentOptions,
 }
 
 /// Fragilities or demands in place of spectra.

@@ -19,16 +19,17 @@ use crate::terminal::Terminal;
 pub(super) struct ResponseArguments {
     #[command(flatten)]
     options: ResponseOptions,
+    // the heading of the options before would hold here too
     /// Print JSON
-    #[arg(long)]
+    #[arg(long, help_heading = None::<&'static str>)]
     json: bool,
     /// Write the time history with uplifts and impacts
-    #[arg(long, value_name = "FILE.csv")]
+    #[arg(long, value_name = "FILE.csv", help_heading = None::<&'static str>)]
     history: Option<PathBuf>,
     /// Draw the time history
-    #[arg(long, value_name = "FILE.svg|png")]
+    #[arg(long, value_name = "FILE.svg|png", help_heading = None::<&'static str>)]
     plot: Option<PathBuf>,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = None::<&'static str>)]
     overwriting: Overwriting,
 }
 

@@ -57,12 +57,6 @@ pub struct ResponseOptions {
     /// Coefficient of restitution [default: 0.95; block Eq. 2.3; frame its file's, else Eq. 6.5]
     #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
     pub restitution: Option<f64>,
-    /// The block.
-    #[command(flatten)]
-    pub block: BlockOptions,
-    /// The frame.
-    #[command(flatten)]
-    pub frame: FrameOptions,
     /// Acceleration of gravity, m/s2
     #[arg(
         long,
@@ -88,6 +82,12 @@ pub struct ResponseOptions {
         allow_negative_numbers = true, value_parser = number
     )]
     pub free_vibration_s: f64,
+    /// The block.
+    #[command(flatten)]
+    pub block: BlockOptions,
+    /// The frame.
+    #[command(flatten)]
+    pub frame: FrameOptions,
     /// Whether the report holds the time history.
     #[arg(skip)]
     pub history: bool,
