@@ -42,6 +42,11 @@ impl OrdinateFlag {
         }
     }
 
+    /// The one that stands as this number.
+    pub fn from_number(number: u8) -> Option<Self> {
+        Self::ALL.into_iter().find(|flag| flag.number() == number)
+    }
+
     /// How it stands in tables.
     pub fn word(self) -> &'static str {
         match self {

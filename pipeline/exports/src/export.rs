@@ -82,7 +82,7 @@ const FINDINGS: &str = "structures.csv";
 pub struct ExportReport {
     /// The files, in the order of the formats; last the table of answers about structures, where CSV was asked for.
     pub files: Vec<PathBuf>,
-    /// What demands are of, and what a format of fragilities leaves out.
+    /// What the demands refer to, and what a format of fragilities leaves out.
     pub notes: Vec<String>,
 }
 

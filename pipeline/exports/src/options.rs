@@ -37,7 +37,7 @@ pub struct ExportOptions {
     /// Output file, for one format [default: beside the result]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// The risks of the spectra; the one whose intensity the demands are of.
+    /// Risks of the spectra, or the risk that sets the intensity of the demands.
     #[command(flatten)]
     pub risk: AskedRisk,
     /// Whether existing files are overwritten.

@@ -24,7 +24,7 @@ pub enum JobError {
     Choice {
         /// What is chosen, as the command line calls it: `--site`.
         option: &'static str,
-        /// What it is: `site`.
+        /// What the option selects, as a noun: `site`.
         noun: &'static str,
         /// The choice made; none where there is none, and there are several.
         wanted: Option<String>,

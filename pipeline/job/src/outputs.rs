@@ -287,7 +287,7 @@ pub fn mark() -> String {
     format!("uplift {}", crate::VERSION_AND_COMMIT)
 }
 
-/// The same with what a table holds, on one line whatever the names in it.
+/// [`mark`] and a description of what a file holds, without line breaks.
 pub fn marked(what: impl Display) -> String {
     format!("{}; {what}", mark()).replace(['\n', '\r'], " ")
 }

@@ -46,14 +46,14 @@ pub fn metres(value: f64) -> String {
     if value.is_infinite() { "censored".to_owned() } else { format!("{value:.4}") }
 }
 
-/// The same of a structure, for which none is that it overturns.
+/// A displacement of a structure in metres to the tenth of a millimetre; "overturns" where it is infinite.
 pub fn metres_or_overturns(value_m: f64) -> String {
     if value_m.is_infinite() { "overturns".to_owned() } else { format!("{value_m:.4}") }
 }
 
 /// The relative error of a demand: `+12.3 %`. It is infinite where a structure that stands was expected to overturn,
 /// and NaN where there is none.
-pub fn relative_error(error: f64) -> String {
+pub fn relative_error_in_words(error: f64) -> String {
     match error {
         _ if error.is_nan() => "-".to_owned(),
         _ if error.is_infinite() => "too safe".to_owned(),

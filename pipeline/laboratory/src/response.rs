@@ -31,7 +31,7 @@ use crate::error::LaboratoryError;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 
-/// Of the oscillators of the studies.
+/// Default restitution of an oscillator, as in studies.
 const OSCILLATOR_RESTITUTION: f64 = 0.95;
 
 /// What became of the system that was shaken.

@@ -60,7 +60,7 @@ group! {
     "<other>_implied" [SITE, RATE] F64 "<other_unit>" "level of the records, <label>"
         = |of, at| of.implied_level[at];
     "<other>_bias" [SITE] F64 "1" "level of the records over the site's, mean of the range"
-        ("exp of the mean of ln(implied/site)") as "bias" "bias" = |of, at| of.bias[at];
+        ("exp of the mean of ln(implied/site)") as "bias" = |of, at| of.bias[at];
     "<other>_max" [SITE] F64 "1" "largest absolute ln(implied/site)" as "max" "largest |ln|" = |of, at| of.max[at];
     "<other>_verdict" [SITE] Text "" "consistent, off or inconsistent; empty where unknown"
         ("`consistent`, `off`, `inconsistent`; empty where undecided") = |of, at| of.verdict[at];

@@ -1,6 +1,6 @@
 //! How stored arrays are declared. A declaration is a constant beside the plain value whose field it names; writing,
 //! reading, the tables of `docs/hdf5-layout.md` and the names in exports follow from it. Most are rows of a `group!`.
-//! A new row goes below the others, by whose first one a group is known, and is `later`.
+//! Add new rows at the end, marked `later`: a group is recognised by its first row that is not.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -11,7 +11,6 @@ use uplift_motion::IntensityMeasure;
 use uplift_risk::OrdinateFlag;
 
 use super::file::ResultFile;
-use super::spectra::{flag_number, flag_of};
 use crate::error::ResultError;
 
 /// The flag of an ordinate that does not exist, of records that could not be repaired.
@@ -37,7 +36,8 @@ pub struct Quantity<T: 'static> {
     pub long_name: &'static str,
     /// What `docs/hdf5-layout.md` says of it; empty where that is its `long_name`.
     pub note: &'static str,
-    /// Its name in tables and exports, and its heading in a workbook; none where these do not have it.
+    /// Its name in tables and exports, and its heading in a workbook. Of a group in which some have it, the others are
+    /// in none of these; of other groups all are, by their own names.
     pub exported: Option<(&'static str, &'static str)>,
     /// Whether results of earlier versions lack it: its field then keeps what it held.
     pub is_later: bool,
@@ -70,12 +70,12 @@ pub struct Place<T, V> {
 }
 
 /// A [`Quantity`] as a row: the name of the array, its axes, type, unit, long name, in brackets the note where it is
-/// another, after `as` its name in tables and exports and its heading, and the field; `later` before all where earlier
-/// results lack it.
+/// another, after `as` its name in tables and exports and its heading where that is another, and the field; `later`
+/// before all where earlier results lack it.
 macro_rules! quantity {
     (
         $($later:ident)? $name:literal $axes:tt $kind:ident $unit:literal $long_name:literal $(($note:literal))?
-            $(as $exported:literal $heading:literal)? = |$of:ident, $at:ident| $field:expr
+            $(as $exported:literal $($heading:literal)?)? = |$of:ident, $at:ident| $field:expr
     ) => {
         $crate::declared::Quantity {
             name: $name,
@@ -83,12 +83,13 @@ macro_rules! quantity {
             unit: $unit,
             long_name: $long_name,
             note: concat!($($note)?),
-            exported: $crate::declared::quantity!(@exported $($exported $heading)?),
+            exported: $crate::declared::quantity!(@exported $($exported $($heading)?)?),
             is_later: $crate::declared::quantity!(@is_later $($later)?),
             field: $crate::declared::quantity!(@field $kind |$of, $at| $field),
         }
     };
     (@exported) => { None };
+    (@exported $name:literal) => { Some(($name, $name)) };
     (@exported $name:literal $heading:literal) => { Some(($name, $heading)) };
     (@is_later) => { false };
     (@is_later later) => { true };
@@ -107,13 +108,13 @@ macro_rules! group {
     (
         $(#[$doc:meta])* pub const $group:ident: $value:ty = $path:expr;
         $($($later:ident)? $name:literal $axes:tt $kind:ident $unit:literal $long_name:literal $(($note:literal))?
-            $(as $exported:literal $heading:literal)? = |$of:ident, $at:ident| $field:expr;)+
+            $(as $exported:literal $($heading:literal)?)? = |$of:ident, $at:ident| $field:expr;)+
     ) => {
         $(#[$doc])*
         pub const $group: $crate::declared::Group<$value> = $crate::declared::Group {
             path: $path,
             quantities: &[$($crate::declared::quantity!(
-                $($later)? $name $axes $kind $unit $long_name $(($note))? $(as $exported $heading)?
+                $($later)? $name $axes $kind $unit $long_name $(($note))? $(as $exported $($heading)?)?
                     = |$of, $at| $field
             )),+],
         };
@@ -168,7 +169,7 @@ impl<T> Quantity<T> {
             Field::F64(place) => Some(*(place.get)(value, index)),
             Field::U32(place) => Some((*(place.get)(value, index)).into()),
             Field::Bool(place) => Some(f64::from(u8::from(*(place.get)(value, index)))),
-            Field::Flag(place) => Some(flag_number(*(place.get)(value, index)).into()),
+            Field::Flag(place) => Some((place.get)(value, index).number().into()),
             Field::Text(_) => None,
             Field::Made(number) => Some(number(value, index)),
         }
@@ -187,7 +188,11 @@ impl<T> Quantity<T> {
 
     /// Its axes with their lengths.
     pub fn shape(&self, names: Names<'_>, lengths: Lengths<'_>) -> Vec<(String, usize)> {
-        let length = |axis: &str| lengths.iter().find(|(name, _)| *name == axis).map_or(0, |(_, length)| *length);
+        let length = |axis: &str| {
+            let known = lengths.iter().find(|(name, _)| *name == axis);
+            debug_assert!(known.is_some(), "{}: no length of {axis}", self.name);
+            known.map_or(0, |(_, length)| *length)
+        };
         self.axes(names).into_iter().map(|axis| (axis.clone(), length(&axis))).collect()
     }
 
@@ -219,7 +224,7 @@ impl<T> Quantity<T> {
                 writer.array_u8(path, dims, &all(rows, each, |row, at| u8::from(*get(row, at)), &0), unit, long_name)
             }
             Field::Flag(Place { get, .. }) => {
-                let flags = all(rows, each, |row, at| flag_number(*get(row, at)), &NO_ORDINATE);
+                let flags = all(rows, each, |row, at| get(row, at).number(), &NO_ORDINATE);
                 writer.array_u8(path, dims, &flags, unit, long_name)
             }
             Field::Text(Place { get, .. }) => {
@@ -249,10 +254,10 @@ impl<T> Quantity<T> {
             }
             Field::Flag(place) => {
                 let numbers = file.checked(path, reader.array_u8(path)?, shape)?;
-                if let Some(unknown) = numbers.iter().find(|&&number| flag_of(number).is_none()) {
+                if let Some(unknown) = numbers.iter().find(|&&number| OrdinateFlag::from_number(number).is_none()) {
                     return Err(file.damaged(format!("{path} has the unknown flag {unknown}")));
                 }
-                fill(value, place, numbers.into_iter().filter_map(flag_of));
+                fill(value, place, numbers.into_iter().filter_map(OrdinateFlag::from_number));
             }
             Field::Made(_) => {}
         }
@@ -325,12 +330,13 @@ impl<T> Group<T> {
         named(&format!("{}/{}", self.path, quantity.name), names).into_owned()
     }
 
-    /// The path of the first of its arrays.
+    /// The path of the first of its arrays that results of every version have.
     pub fn first_path(&self, names: Names<'_>) -> String {
-        self.path(&self.quantities[0], names)
+        let first = self.quantities.iter().find(|own| !own.is_later);
+        self.path(first.unwrap_or(&self.quantities[0]), names)
     }
 
-    /// Whether `file` has the first of its arrays.
+    /// Whether `file` has that array.
     pub(super) fn is_in(&self, file: &ResultFile, names: Names<'_>) -> bool {
         file.reader.exists(&self.first_path(names))
     }

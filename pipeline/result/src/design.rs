@@ -30,16 +30,16 @@ group! {
         "demand on the zero-stiffness system<rounded>" ("oscillators: demand on the zero-stiffness system")
         = |of, at| bounds(of.zero_stiffness_m)[at];
     "u_cap_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "m" "designed capacity (Eq. 3.15)<rounded>"
-        as "u_cap_m" "u_cap_m"
+        as "u_cap_m"
         = |of, at| bounds(of.capacity_m)[at];
     "u_dem_th_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "m"
-        "demand on the designed system by time histories<rounded>" as "u_dem_TH_m" "u_dem_TH_m"
+        "demand on the designed system by time histories<rounded>" as "u_dem_TH_m"
         = |of, at| bounds(of.time_history_m)[at];
     "u_dem_rule_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "m"
-        "demand on the designed system by the rule<rounded>" as "u_dem_rule_m" "u_dem_rule_m"
+        "demand on the designed system by the rule<rounded>" as "u_dem_rule_m"
         = |of, at| bounds(of.rule_m)[at];
     "error<rounding>" [RECORD_SET, SCALING, SCALED_BY, RULE, BOUND] Made "1"
-        "(rule - time histories)/time histories<rounded>" as "error_pct" "error_pct"
+        "(rule - time histories)/time histories<rounded>" as "error_pct"
         = |of, at| bounds(of.error)[at];
 }
 
@@ -48,16 +48,16 @@ group! {
     pub const SOLITARY_DESIGN: SolitaryExample = RESTRAINED_DESIGN.path;
     "tan_alpha<rounding>" [RECORD_SET, SCALING, SCALED_BY, BOUND] Made "1" "design slenderness tan(alpha_D)<rounded>"
         ("blocks: design slenderness; NaN where the capacity line meets no demand")
-        as "tan_alpha_design" "tan_alpha_design"
+        as "tan_alpha_design"
         = |of, at| bounds(of.design_tangent)[at];
     "u_endless_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, BOUND] Made "m"
-        "displacement of the endless block there<rounded>" as "<endless>" "<endless>"
+        "displacement of the endless block there<rounded>" as "<endless>"
         = |of, at| bounds(of.endless_m)[at];
     "u_block_m<rounding>" [RECORD_SET, SCALING, SCALED_BY, BOUND] Made "m"
-        "displacement of the block itself there<rounded>" as "<block>" "<block>"
+        "displacement of the block itself there<rounded>" as "<block>"
         = |of, at| bounds(of.block_m)[at];
     "error<rounding>" [RECORD_SET, SCALING, SCALED_BY, BOUND] Made "1" "(endless - block)/block<rounded>"
-        as "error_pct" "error_pct"
+        as "error_pct"
         = |of, at| bounds(of.error)[at];
 }
 

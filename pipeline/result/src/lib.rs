@@ -72,7 +72,6 @@ pub use records::{StoredRecords, drawn_names, intensity_names};
 pub use shake_table::{DESIGN_SPECTRUM, TABLE_EXCITATIONS, TABLE_ORDER, TABLE_SPECTRA, TABLE_TESTS};
 pub use shake_table::{DIRECTIONS, Excitation, ShakeTable, TableLevel, TableSpectra, TableTest};
 pub use spectra::{Fit, Fits, MeasureSpectra, Spectrum, StoredSpectra, regression, urs};
-pub use spectra::{flag_number, flag_word};
 pub use spread::{
     BRANCH_WEIGHTS, EPISTEMIC, EPISTEMIC_SPECTRA, REPAIRED_EPISTEMIC, REPAIRED_EPISTEMIC_SPECTRA, UNCERTAINTY,
     UNCERTAINTY_SPECTRA,

@@ -59,7 +59,7 @@ pub mod urs {
     /// What kind of ordinate each is.
     pub const FLAG: Quantity<MeasureSpectra> = quantity!("flag" [SITE, POE, STRENGTH] Flag "1"
         "0 regular, 1 no exceedance so that the ordinate is 0, 2 censored"
-        ("0 regular; 1 no exceedance, ordinate 0; 2 censored") as "flag" "flag" = |of, at| of.flags[at]);
+        ("0 regular; 1 no exceedance, ordinate 0; 2 censored") as "flag" = |of, at| of.flags[at]);
     /// The risk from below the first level.
     pub const LOWER_TAIL_SHARE: Quantity<MeasureSpectra> = quantity!("lower_tail_share" [SITE, POE, STRENGTH] F64 "1"
         "share of the risk from below the first level"
@@ -287,19 +287,4 @@ impl ResultFile {
         let super::RiskAxes { strengths, poes, years, sites, .. } = axes;
         Ok(StoredSpectra { strengths, poes, years, sites, measures })
     }
-}
-
-/// The flag that is written as `number`.
-pub(super) fn flag_of(number: u8) -> Option<OrdinateFlag> {
-    OrdinateFlag::ALL.into_iter().find(|flag| flag.number() == number)
-}
-
-/// How a flag stands in the file.
-pub fn flag_number(flag: OrdinateFlag) -> u8 {
-    flag.number()
-}
-
-/// How it stands in tables.
-pub fn flag_word(flag: OrdinateFlag) -> &'static str {
-    flag.word()
 }

@@ -63,7 +63,7 @@
 //! | [`machine`] | what a job needs of memory and disk, and what there is |
 //! | [`status`], [`verify`] | how far a run is, and whether a result is as it was written |
 //! | [`mod@alarms`] | what to know before the numbers of a result are used |
-//! | [`table`](mod@table), [`export`] | a result beside a reference, for other programs |
+//! | [`table`](mod@table), [`export`] | a result compared with a reference; exported, as fragilities or demands too |
 //! | [`response`], [`pulses`] | one record through one oscillator, block or frame; rocking spectra under wavelets |
 //! | [`library`](mod@library) | response of blocks and oscillators over normalised intensities |
 //! | [`pushover`](mod@pushover), [`restrainer`] | columns under a static force; restrainers, stacks of a catalogue |

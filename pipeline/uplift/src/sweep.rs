@@ -25,7 +25,7 @@ use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::study_run::RunOptions;
 use uplift_job::text::counted;
 use uplift_labelled::hexadecimal;
-use uplift_result::{ResultFile, flag_word};
+use uplift_result::ResultFile;
 use uplift_studies::uniform_risk::Inputs;
 use uplift_study::{AnyStudy, Study, StudyError, UniformRiskStudy};
 use uplift_uniform_risk::{BandOf, Displacement, DisplacementOptions, DisplacementReport, displacements};
@@ -158,8 +158,9 @@ pub fn sweep_folder(options: &SweepOptions) -> Result<PathBuf, UpliftError> {
 /// goes on from there.
 pub fn sweep(options: &SweepOptions, events: &dyn Events) -> Result<SweepReport, UpliftError> {
     let variants = match &options.cases {
-        Some(table) => cases(table)?,
-        None => product(&options.over)?,
+        Some(table) if options.over.is_empty() => cases(table)?,
+        None if !options.over.is_empty() => product(&options.over)?,
+        _ => return Err(JobError::Usage("give what varies: --over KEY=VALUE,VALUE or --cases FILE.csv".into()).into()),
     };
     let study = Study::load(&options.study_file, &options.overrides)?;
     let folder = sweep_folder(options)?;
@@ -333,7 +334,7 @@ impl VariantReport {
             im: row.measure.label(),
             poe: row.poe,
             u_m: row.u_m.to_vec(),
-            flags: row.flags.iter().map(|flag| flag_word(*flag)).collect(),
+            flags: row.flags.iter().map(|flag| flag.word()).collect(),
             lower_tail_share: row.lower_tail_share.to_vec(),
             upper_tail_share: row.upper_tail_share.to_vec(),
             repaired_m: repaired(&row),

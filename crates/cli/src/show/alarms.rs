@@ -56,8 +56,7 @@ pub(super) fn print_warnings_and_more(
     if alarms.len() > SHOWN { Ok(()) } else { print_more(out, terminal) }
 }
 
-/// An answer about a structure, in detail what it is made of, and the warnings of it and of the result that it comes
-/// from.
+/// Prints an answer about a structure, its details if they are asked for, then its warnings and those of the result.
 pub(super) fn print_in_parts<R>(
     report: &R,
     (answer, details): (

@@ -8,7 +8,7 @@ use uplift::structure::{
     Sensitivity, StructureReport, verdict_word,
 };
 use uplift::text::{
-    self, Table, cell_with_band, metres_or_overturns, metres_with_band, relative_error, risk_in_words, short,
+    self, Table, cell_with_band, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short,
     two_digits,
 };
 use uplift_spectra::Noisy;
@@ -267,14 +267,15 @@ fn print_rules(out: &mut impl Write, report: &DesignReport) -> Result<(), Comman
             Some(demands) => demands.of(of.rule).marked(metres_or_overturns),
             None => metres_or_overturns(check.demand_m),
         };
-        let error = |of: &RuleOutcome| rounding.rule_errors.map(|errors| errors.of(of.rule).marked(relative_error));
+        let error =
+            |of: &RuleOutcome| rounding.rule_errors.map(|errors| errors.of(of.rule).marked(relative_error_in_words));
         let spectral = |of: &RuleOutcome, shown: &dyn Fn(f64) -> String| {
             of.from_spectrum.as_ref().map_or_else(dash, |check| shown(check.demand_m))
         };
         let table = Table::of(&report.rules)
             .left("rule", |of| of.rule.words())
             .right("from the spectrum, m", |of| spectral(of, &metres_or_overturns))
-            .right("error", |of| spectral(of, &|demand_m| rounding.error_of(demand_m).marked(relative_error)))
+            .right("error", |of| spectral(of, &|demand_m| rounding.error_of(demand_m).marked(relative_error_in_words)))
             .right("from the exact demand, m", |of| {
                 of.from_exact.as_ref().map_or_else(dash, |check| exact_demand(of, check))
             })
@@ -421,7 +422,7 @@ fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], sensitivity: &Sensit
     row("demand on the structure, m".to_owned(), [noise.demand_m, rounding.demand_m], &metres_or_overturns);
     if let (Some(noisy), Some(rounding)) = (noise.rule_errors, rounding.rule_errors) {
         for &RuleOutcome { rule, .. } in rules {
-            row(format!("error of {}", rule.words()), [noisy.of(rule), rounding.of(rule)], &relative_error);
+            row(format!("error of {}", rule.words()), [noisy.of(rule), rounding.of(rule)], &relative_error_in_words);
         }
     }
     if let (Some(noisy), Some(rounded)) = (noise.beyond_capacity_per_year, rounding.beyond_capacity_per_year) {
@@ -453,9 +454,9 @@ fn print_rounding(out: &mut impl Write, rules: &[RuleOutcome], rounding: &Demand
         let of_spectrum = outcome.from_spectrum.as_ref().map(|check| rounding.error_of(check.demand_m));
         let [demand, error] =
             [rounding.rule_demands_m, rounding.rule_errors].map(|ranges| ranges.map(|ranges| ranges.of(outcome.rule)));
-        tell(&format!("error of {rule} from the spectrum"), of_spectrum, relative_error);
+        tell(&format!("error of {rule} from the spectrum"), of_spectrum, relative_error_in_words);
         tell(&format!("{rule} from the exact demand, m"), demand, metres_or_overturns);
-        tell(&format!("error of {rule} from the exact demand"), error, relative_error);
+        tell(&format!("error of {rule} from the exact demand"), error, relative_error_in_words);
     }
     tell("u > capacity, per year", rounding.beyond_capacity_per_year, rate);
     tell("overturning, per year", Some(rounding.overturning_per_year), rate);

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use uplift::structure::{Banded, FrameRiskReport, ModelDemand, StateAtDemand};
 use uplift::text::{
-    self, Table, metres_or_overturns, metres_with_band, relative_error, risk_in_words, short, two_digits,
+    self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short, two_digits,
 };
 
 use super::alarms::print_in_parts;
@@ -33,8 +33,10 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
         writeln!(out, "  {exceeded}")?;
     }
     for proxy in proxies {
-        let of =
-            proxy.error.as_ref().map_or_else(String::new, |error| format!(" (error {})", relative_error(error.value)));
+        let of = proxy
+            .error
+            .as_ref()
+            .map_or_else(String::new, |error| format!(" (error {})", relative_error_in_words(error.value)));
         writeln!(out, "  {}: {}{of}", proxy.model, metres_with_band(proxy.demand_m.value, None))?;
     }
     let [per_year, _, return_period] = risk_cells(&report.overturning.risk);
@@ -81,8 +83,8 @@ fn print_demands(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
         .left("model", |demand| demand.model)
         .right("demand, m", |demand| metres_or_overturns(demand.demand_m.value))
         .right(format!("{:.0} % band", 100.0 * report.confidence), |demand| band(&demand.demand_m, metres_or_overturns))
-        .right("error", |demand| error(demand, |error| relative_error(error.value)))
-        .right("its band", |demand| error(demand, |error| band(error, relative_error)))
+        .right("error", |demand| error(demand, |error| relative_error_in_words(error.value)))
+        .right("its band", |demand| error(demand, |error| band(error, relative_error_in_words)))
         .when(is_repaired, |table| {
             table.right("repaired, m", |demand| demand.repaired_m.map_or_else(|| "-".to_owned(), metres_or_overturns))
         });

@@ -5,7 +5,7 @@ use uplift::structure::{
     DemandRounding, DesignReport, EventRisk, RuleCheck, RuleOutcome, Sensitivity, StructureReport, verdict_word,
 };
 use uplift::study::Structure;
-use uplift::text::{Table, metres_or_overturns, per_cent, relative_error, risk_in_words, share, two_digits};
+use uplift::text::{Table, metres_or_overturns, per_cent, relative_error_in_words, risk_in_words, share, two_digits};
 use uplift_spectra::Noisy;
 
 use crate::page::TitledTable;
@@ -374,7 +374,7 @@ fn if_finite(value: f64, otherwise: &str, shown: fn(f64) -> String) -> String {
 }
 
 fn relative(error: f64) -> String {
-    if error.is_nan() { "–".to_owned() } else { relative_error(error) }
+    if error.is_nan() { "–".to_owned() } else { relative_error_in_words(error) }
 }
 
 /// A probability in per cent, two digits of it unless they say that it is certain.

@@ -183,7 +183,7 @@ pub struct TargetOptions {
 }
 
 impl TargetOptions {
-    /// A search with nothing chosen that has a default, nor how often what must not happen may.
+    /// A search with all defaults; the event and its frequency are still to be set.
     pub fn new(quantity: Quantity) -> Self {
         Self {
             manifest: None,

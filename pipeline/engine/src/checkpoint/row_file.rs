@@ -60,7 +60,7 @@ impl RowFileHead {
         Self { format, work, title, shard, shards, analyses, analyses_a_peak: a_peak, peaks_of_others: 0 }
     }
 
-    /// Whether both are of one shard of one work, whatever was carried over.
+    /// Whether both describe the same shard of the same work; rows carried over do not count.
     fn is_of(&self, other: &Self) -> bool {
         Self { peaks_of_others: other.peaks_of_others, ..self.clone() } == *other
     }
@@ -97,10 +97,10 @@ impl FinishedRows {
         self.rows.len()
     }
 
-    /// Number of peaks in those with keys as `are_meant`.
-    fn peaks(&self, are_meant: impl Fn(&RowKey) -> bool) -> u64 {
+    /// Number of peaks in the rows whose keys count.
+    fn peaks(&self, is_counted: impl Fn(&RowKey) -> bool) -> u64 {
         let of_row = |(displacement_m, _): &Row| displacement_m.iter().filter(|peak_m| !peak_m.is_nan()).count() as u64;
-        self.rows.iter().filter(|(key, _)| are_meant(key)).map(|(_, row)| of_row(row)).sum()
+        self.rows.iter().filter(|(key, _)| is_counted(key)).map(|(_, row)| of_row(row)).sum()
     }
 
     /// Whether there is none.
@@ -185,7 +185,7 @@ impl RowFile {
     }
 
     /// Opens the file at `path` to append to it, a new one with `head` unless a sound one of the same work is there;
-    /// with what it holds. Of rows that were another work's, those with the `own` keys count as finished.
+    /// with what it holds. If it held other work, only rows with the `own` keys count as finished.
     ///
     /// # Errors
     /// A file that cannot be written, that holds something else, or that is a shard of other work: nothing else is

@@ -6,7 +6,7 @@ use uplift_questions::influence::{CHANGES, RecordInfluence};
 use uplift_result::declared::{Field, Group, Quantity};
 use uplift_result::{
     BAND_FIGURES, BandKind, EFFICIENCY, Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, TRENDS,
-    flag_word, regression, urs,
+    regression, urs,
 };
 use uplift_uniform_risk::QUOTED_LIMITS;
 
@@ -125,7 +125,7 @@ fn cell<T>(quantity: &Quantity<T>, of: &T, at: usize) -> Value {
         Field::Made(number) => finite(number(of, at)).into(),
         Field::U32(place) => (*(place.get)(of, at)).into(),
         Field::Bool(place) => (*(place.get)(of, at)).into(),
-        Field::Flag(place) => flag_word(*(place.get)(of, at)).into(),
+        Field::Flag(place) => (place.get)(of, at).word().into(),
         Field::Text(place) => (place.get)(of, at).as_str().into(),
     }
 }

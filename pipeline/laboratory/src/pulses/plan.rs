@@ -28,7 +28,7 @@ const SHAPES: [(&str, &[RickerShape]); 3] = [
 const AXES: &str = "Axes (numbers, or start:step:stop, set apart by commas)";
 const BLOCKS: &str = "Blocks with a size in metres";
 
-/// The spectra of Figures 2.2 to 2.7.
+/// The spectra of Figures 2.2 to 2.7; their axes have values above zero, increasing.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct PulsePlan {
     /// Wavelet: second or third derivative of the Gaussian (Eq. 2.7, 2.8)

@@ -50,7 +50,8 @@ impl ResponseOptions {
     /// The one record that shakes an oscillator or a block, with its file; refused are a place for the history where
     /// something else is, and a time step or unit for a file that says its own.
     pub(super) fn read(&self) -> Result<(Accelerogram, &Path), LaboratoryError> {
-        let record = self.record.as_deref().unwrap_or(Path::new(""));
+        let missing = || JobError::Usage("give a record file".to_owned());
+        let record = self.record.as_deref().ok_or_else(missing)?;
         self.check_history("ground_acceleration_m_s2")?;
         let (motion, format) = self.read_told(record, self.channel.first().copied())?;
         self.refuse_unused(&[(record, format)])?;

@@ -7,7 +7,7 @@ use polars::prelude::Column;
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_result::declared::{Field, Place, Quantity};
-use uplift_result::{Fits, ResultFile, StoredSpectra, flag_word, regression, urs};
+use uplift_result::{Fits, ResultFile, StoredSpectra, regression, urs};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::{DisplacementOptions, QUOTED_LIMITS, displacements};
 
@@ -131,7 +131,7 @@ fn column<'a, T: 'a>(
         }
         Field::U32(place) => Column::new(name, cells(place, places, is_there, |&count| count)),
         Field::Bool(place) => Column::new(name, cells(place, places, is_there, |&is| is)),
-        Field::Flag(place) => Column::new(name, cells(place, places, is_there, |&flag| flag_word(flag))),
+        Field::Flag(place) => Column::new(name, cells(place, places, is_there, |flag| flag.word())),
         Field::Text(place) => Column::new(name, cells(place, places, is_there, String::as_str)),
     }
 }

@@ -3,7 +3,7 @@
 use rust_xlsxwriter::XlsxError;
 use uplift_job::text::per_cent;
 use uplift_result::declared::Field;
-use uplift_result::{BandKind, EPISTEMIC, flag_word, urs};
+use uplift_result::{BandKind, EPISTEMIC, urs};
 use uplift_uniform_risk::CONFIDENCE;
 
 use super::sheet::{Sheet, Shown};
@@ -49,7 +49,7 @@ impl Export {
                 for (line, place) in self.places(&row).enumerate() {
                     let cell = (below + line, column);
                     if let Field::Flag(flag) = &quantity.field {
-                        sheet.text(cell, flag_word(*(flag.get)(row.of_measure, place)))?;
+                        sheet.text(cell, (flag.get)(row.of_measure, place).word())?;
                     } else if let Some(value) = quantity.number(row.of_measure, place) {
                         sheet.number(cell, value, shown, "")?;
                     }
@@ -98,6 +98,7 @@ impl Export {
         let mut column = 1;
         for row in self.rows() {
             for over in self.spread_over() {
+                // in the order of the declaration
                 let Some(limits_m) = self.spread_of(&row, over) else { continue };
                 for (quantity, values) in EPISTEMIC.quantities.iter().zip(limits_m) {
                     head_of(sheet, column, &row)?;

@@ -7,7 +7,7 @@ use uplift_job::outputs::{SITES_KIND, beside, mark};
 use uplift_job::{Array, JobError};
 use uplift_labelled::{AttributeValue, GrowingArray, LabelledReader, LabelledWriter};
 use uplift_regression::ExponentialFit;
-use uplift_result::{NO_ORDINATE, flag_number};
+use uplift_result::NO_ORDINATE;
 use uplift_study::{Repair, UniformRiskStudy};
 use uplift_uniform_risk::SiteSpectra;
 
@@ -244,9 +244,8 @@ impl Shape {
         for spectra in spectra {
             for poe in 0..self.poes {
                 let ordinates = spectra.as_ref().ok().map(|own| own.at_poe(poe).0);
-                let flag = |&strength: &usize| {
-                    ordinates.map_or(NO_ORDINATE, |ordinates| flag_number(ordinates[strength].flag))
-                };
+                let flag =
+                    |&strength: &usize| ordinates.map_or(NO_ORDINATE, |ordinates| ordinates[strength].flag.number());
                 flags.extend(self.strengths.iter().map(flag));
                 problems.push(problem(spectra, poe));
             }

@@ -7,7 +7,6 @@ use uplift_inputs::{ListedSite, SiteList};
 use uplift_job::table::neutral;
 use uplift_job::text::nearest;
 use uplift_regression::ExponentialFit;
-use uplift_result::flag_word;
 use uplift_risk::Ordinate;
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::{QUOTED_LIMITS, SiteSpectra, SiteSpread};
@@ -22,7 +21,7 @@ pub const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
 pub(super) const FEATURE: &str = "{\"type\":\"Feature\",";
 /// Columns of the spectra, before their bands.
 const SPECTRA: [&str; 9] = ["site", "longitude", "latitude", "im", "poe", "years", "strength", "u_m", "flag"];
-/// Columns of the coefficients, with those of a [`FIT`] in between and those of the study's own table at the end.
+/// Columns of the coefficients before and after those of [`FIT`]; then come those of the study's own table.
 const COEFFICIENTS: [&[&str]; 2] =
     [&["site", "longitude", "latitude", "im", "poe", "years"], &["bound_active", "problem"]];
 /// The name of a number of a fit, and where it is.
@@ -233,7 +232,7 @@ impl SiteTableLayout {
         let Some((ordinates, bands_m)) = spectrum else { return };
         for (place, &index) in self.shape.strengths.iter().enumerate() {
             let Ordinate { displacement_m, flag, .. } = ordinates[index];
-            let _ = write!(rows, "{head},{:?},{displacement_m:?},{}", self.strengths[index], flag_word(flag));
+            let _ = write!(rows, "{head},{:?},{displacement_m:?},{}", self.strengths[index], flag.word());
             for limit_m in bands_m.get(place).into_iter().flatten() {
                 let _ = write!(rows, ",{}", number(*limit_m));
             }
