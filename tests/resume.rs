@@ -474,3 +474,17 @@ fn a_full_disk_loses_nothing() {
     Command::new("umount").arg(&small).status().unwrap();
     assert!(same && computed > 0 && computed < all, "{computed} of {all}");
 }
+
+/// What an interrupted run left is no other run's to throw away.
+#[test]
+fn a_run_with_other_settings_leaves_the_checkpoint() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "--shard", "1/1", "-o", "all", "-q"]).ok();
+    let rows = std::fs::read(study.path().join("all")).unwrap();
+    let checkpoint = study.path().join("r.h5.part");
+    std::fs::write(&checkpoint, &rows[..rows.len() * 3 / 4]).unwrap();
+    let other = study.uplift(&["run", "study.toml", "--set", "records.first=2", "-o", "r.h5"]).ok();
+    assert!(other.stderr.contains("r.h5.part stays: it holds analyses of other settings"), "{}", other.stderr);
+    let plain = study.uplift(&["run", "study.toml", "-o", "r.h5", "--force"]).ok();
+    assert!(plain.stderr.contains("analyses resumed") && !checkpoint.exists(), "{}", plain.stderr);
+}

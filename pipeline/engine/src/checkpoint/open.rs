@@ -136,6 +136,18 @@ impl Checkpoint {
         file.full().map_or_else(|| file.sync(), Err)
     }
 
+    /// Takes the file away, once its rows are in a result; one that holds rows of other settings too, which may be all
+    /// that is left of an interrupted run, stays.
+    pub fn remove_unless_shared(self, events: &dyn Events) {
+        match &self.file {
+            Some(file) if file.has_others => events.note(&format!(
+                "{} stays: it holds analyses of other settings; delete it if they are of no use",
+                file.path().display()
+            )),
+            _ => self.remove(),
+        }
+    }
+
     /// Takes the file away, once its rows are in a result or told.
     pub fn remove(self) {
         if let Some(file) = self.file {

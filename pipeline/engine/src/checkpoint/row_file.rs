@@ -141,6 +141,8 @@ pub struct RowFile {
     file: Mutex<(File, Instant)>,
     /// Why nothing can be appended any more.
     failure: OnceLock<std::io::Error>,
+    /// Whether it holds peaks of other work too.
+    pub(super) has_others: bool,
 }
 
 /// The checkpoint of the result at `result`.
@@ -210,6 +212,7 @@ impl RowFile {
             Some(found) if found.head.format == FORMAT_BEFORE => None,
             found => found,
         };
+        let mut has_others = found.as_ref().is_some_and(|found| found.head.peaks_of_others > 0);
         let (rows, damaged_bytes, same) = found.map_or((FinishedRows::default(), 0, false), |found| {
             (found.rows, found.damaged_bytes, found.damaged_bytes == 0 && found.head.is_of(head))
         });
@@ -217,6 +220,7 @@ impl RowFile {
             // written again without what is damaged; rows of other work may be of use, and are carried over
             let own = if rows.is_empty() { HashSet::new() } else { own() };
             let head = RowFileHead { peaks_of_others: rows.peaks(|key| !own.contains(key)), ..head.clone() };
+            has_others = head.peaks_of_others > 0;
             let mut content = serde_json::to_vec(&head).map_err(|error| fail(error.into()))?;
             content.push(b'\n');
             for (key, (displacement_m, impacts)) in &rows.rows {
@@ -227,7 +231,7 @@ impl RowFile {
         let file = File::options().append(true).open(path).map_err(fail)?;
         let file = Mutex::new((file, Instant::now()));
         let found = Finding { head: head.clone(), rows, damaged_bytes };
-        Ok((Self { path: path.to_owned(), file, failure: OnceLock::new() }, found))
+        Ok((Self { path: path.to_owned(), file, failure: OnceLock::new(), has_others }, found))
     }
 
     /// Where it is.

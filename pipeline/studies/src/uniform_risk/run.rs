@@ -114,7 +114,7 @@ pub fn run(
     let earlier = Earlier::keep(path, &provenance.study_digest, additions.as_ref())?;
     write_result(path, &outcome, additions)?;
     earlier.set_aside(events)?;
-    checkpoint.remove();
+    checkpoint.remove_unless_shared(events);
     let mut files = vec![path.to_owned()];
     if study.output.csv && !study.sites.is_empty() {
         write_csv(path, &outcome)?;
