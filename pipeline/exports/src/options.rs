@@ -108,7 +108,7 @@ impl AssessmentOptions {
         Ok(self.structure.as_deref().map(Structure::load).transpose()?)
     }
 
-    /// Of its limit states by a measure, or all.
+    /// Options of its limit states, by one measure or all.
     pub(crate) fn limits(&self, measure: Option<IntensityMeasure>) -> LimitOptions {
         LimitOptions { manifest: self.manifest.clone(), measure, capacity_share: self.capacity_share }
     }

@@ -212,15 +212,14 @@ impl RowFile {
             Some(found) if found.head.format == FORMAT_BEFORE => None,
             found => found,
         };
-        let mut has_others = found.as_ref().is_some_and(|found| found.head.peaks_of_others > 0);
-        let (rows, damaged_bytes, same) = found.map_or((FinishedRows::default(), 0, false), |found| {
-            (found.rows, found.damaged_bytes, found.damaged_bytes == 0 && found.head.is_of(head))
-        });
+        let same = found.as_ref().is_some_and(|found| found.damaged_bytes == 0 && found.head.is_of(head));
+        let (rows, damaged_bytes, mut peaks_of_others) =
+            found.map_or_else(Default::default, |found| (found.rows, found.damaged_bytes, found.head.peaks_of_others));
         if !same {
             // written again without what is damaged; rows of other work may be of use, and are carried over
             let own = if rows.is_empty() { HashSet::new() } else { own() };
-            let head = RowFileHead { peaks_of_others: rows.peaks(|key| !own.contains(key)), ..head.clone() };
-            has_others = head.peaks_of_others > 0;
+            peaks_of_others = rows.peaks(|key| !own.contains(key));
+            let head = RowFileHead { peaks_of_others, ..head.clone() };
             let mut content = serde_json::to_vec(&head).map_err(|error| fail(error.into()))?;
             content.push(b'\n');
             for (key, (displacement_m, impacts)) in &rows.rows {
@@ -231,7 +230,8 @@ impl RowFile {
         let file = File::options().append(true).open(path).map_err(fail)?;
         let file = Mutex::new((file, Instant::now()));
         let found = Finding { head: head.clone(), rows, damaged_bytes };
-        Ok((Self { path: path.to_owned(), file, failure: OnceLock::new(), has_others }, found))
+        let (path, failure, has_others) = (path.to_owned(), OnceLock::new(), peaks_of_others > 0);
+        Ok((Self { path, file, failure, has_others }, found))
     }
 
     /// Where it is.
