@@ -279,7 +279,11 @@ fn the_quoted_band_is_by_earthquake_where_records_of_one_are_alike() {
         found["bands"].as_array().unwrap().iter().map(|band| band["of"].clone()).collect()
     };
     assert_eq!((of(&shared), of(&alone)), (vec!["records".into(), "earthquakes".into()], vec!["records".into()]));
-    assert_eq!(shared["bands"][1]["value"], alone["bands"][0]["value"]);
+    let value = |found: &Value, band: usize| limits(&found["bands"][band]["value"]);
+    for (of_shared, of_alone) in value(&shared, 1).into_iter().zip(value(&alone, 0)) {
+        // other sums, rounded
+        assert!((of_shared - of_alone).abs() <= 1e-12 * of_alone, "{of_shared} {of_alone}");
+    }
     // as it comes to drawing them
     study.uplift(&["bootstrap", "r.h5", "-q", "--replicates", "50", "--sizes", "24", "--unit", "event"]).ok();
     let by_event = array(&study.path().join("r.h5"), "/bootstrap/pgv/truth_upper_m");
@@ -305,7 +309,9 @@ fn components_of_a_pair_scatter_together() {
             .map(|name| array(&study.path().join(&result), &format!("/bootstrap/pgv/{name}")))
     };
     let ([drawn, one @ ..], [drawn_alone, both @ ..]) = (bands_of("h1", "6"), bands_of("both", "12"));
-    assert!(one.iter().zip(&both).all(|(one, both)| same_bits(one, both)), "{one:?}\n{both:?}");
+    // upper limits lie between demands, by a factor that is rounded
+    let is_same = |(one, both): (&f64, &f64)| (one - both).abs() <= 1e-12 * one;
+    assert!(one.iter().flatten().zip(both.iter().flatten()).all(is_same), "{one:?}\n{both:?}");
     assert!(one.iter().flatten().all(|limit| !limit.is_nan()));
     assert!(!same_bits(&drawn, &drawn_alone), "components are drawn one by one");
 }

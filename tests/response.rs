@@ -102,6 +102,17 @@ fn mistakes_are_said() {
     response(&["one.txt", "--strength", "0.2", "--capacity-m", "0.0001", "--dt-s", "0.01", "--unit", "g"])
         .fails(2, &["0.0001", "capacity"]);
     response(&["one.txt"]).fails(2, &["--strength"]);
+    // what can be, and is a mistake of unit or scale
+    for system in [&["--strength", "0.2"][..], &["--block", "--width-m", "1", "--height-m", "5"]] {
+        let asked = ["one.txt", "--dt-s", "0.01", "--unit", "g", "--scale", "1000"];
+        let said = response(&[&asked[..], system].concat()).ok();
+        let all = said.stdout + &said.stderr;
+        assert!(all.contains("PGA of the record is 200 g") && all.contains("4 is the most"), "{all}");
+        let asked = ["one.txt", "--dt-s", "1", "--unit", "m/s2", "--scale", "90"];
+        let said = response(&[&asked[..], system].concat()).ok();
+        let all = said.stdout + &said.stderr;
+        assert!(all.contains("PGV of the record is ") && all.contains("time step"), "{all}");
+    }
 }
 
 #[test]

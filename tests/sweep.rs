@@ -108,6 +108,7 @@ fn a_table_of_cases_names_its_results() {
         ("name,records.first\nx,2\ny,3,4\n", 4, &["line 3: it has 3 cells, and the header has 2 columns"]),
         ("name\n\"a\n", 4, &["line 2: a quote (\") is opened and not closed"]),
         ("", 4, &["it is empty"]),
+        ("records.first\n", 4, &["bad.csv: no case below the header"]),
         ("risk.years,risk.years\n1,2\n", 4, &["column risk.years is given twice"]),
         (
             "records.frist,oscillator.restitution\n2,0.9\n,1.5\n",
@@ -130,10 +131,10 @@ fn all_mistakes_of_all_variants_are_reported_before_anything_is_computed() {
         2,
         &[
             "to mend in the variants",
-            "oscillator.restitution=1.5",
-            "oscillator.restitution=95",
-            "records.frist=3",
-            "frist=4",
+            "- --over oscillator.restitution=1.5: ",
+            "- --over oscillator.restitution=95: ",
+            "- --over records.frist=3: ",
+            "- --over records.frist=4: ",
         ],
     );
     assert!(!study.path().join("s").exists());

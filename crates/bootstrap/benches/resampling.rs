@@ -93,6 +93,12 @@ fn benchmarks(criterion: &mut Criterion) {
     group.bench_function("records that count alike, of the truth alone", |bencher| {
         bencher.iter(|| truth_limits(&demand, &weights, &units, black_box(&TARGETS[1..2]), 0.9).unwrap());
     });
+    // 28 of 1 to 10 records
+    let event_of: Vec<usize> = (0..RECORDS).map(|record| record * 2 % 7 * 4 + record % 4 * (record % 3) / 2).collect();
+    let earthquakes = uplift_bootstrap::units(&event_of);
+    group.bench_function("earthquakes of different numbers of records", |bencher| {
+        bencher.iter(|| inferred_limits(&demand, &weights, &earthquakes, black_box(&TARGETS), asked).unwrap());
+    });
     group.bench_function("weighted records", |bencher| {
         bencher.iter(|| repaired_limits(&demand, &alike, &units, black_box(&TARGETS), asked).unwrap());
     });

@@ -2,12 +2,9 @@
 
 use uplift_risk::{PooledDemand, RiskError, RunWeights, StripeWeights};
 
-use crate::shared_rates::SharedRates;
-use crate::skewed_mean::{AboveInterval, SkewedMean, StudentQuantiles, of_side};
-use crate::unit_rates::UnitRates;
-
-/// Where the deviate of a target is less, that of a larger target is below −1, whatever rounding leaves of either.
-pub(crate) const SURELY_BELOW: f64 = -1.0 - 1e-9;
+use crate::inversion::Inversion;
+use crate::rates::Rates;
+use crate::skewed_mean::{SkewedMean, StudentQuantiles};
 
 /// Limits of an ordinate beyond the set that it was computed with.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,9 +19,8 @@ pub struct InferredLimits {
 ///
 /// A displacement c belongs to the band of a target rate λ* where λ(c), a mean over the units, does not differ from λ*
 /// by more than chance allows ([`SkewedMean`]): the interval of a quantile by inverting that of its probability
-/// (Woodruff, 1952). The band runs from the largest such displacement down to where λ(c) first differs too much: λ(c)
-/// rises as c falls, and what single motions at frequent levels add to its scatter further down brings nothing back. No
-/// resampling takes part, and no transformation of the displacement changes the band.
+/// (Woodruff, 1952). The band runs from the ordinate down to where λ(c) is first too large, and up to where it is first
+/// too small, and from there that of demands that spread about those at hand. No resampling takes part.
 ///
 /// - `units`: the records of each unit, `[unit]`, by their positions; each record in one of them.
 /// - `targets_per_year`: target rates λ*, 1/yr.
@@ -46,7 +42,12 @@ pub fn inferred_limits(
     (sizes, confidence): (&[usize], f64),
 ) -> Result<Vec<InferredLimits>, RiskError> {
     check(demand, weights, units)?;
-    limits(demand, weights, (Rates::from_demand(demand, units), units), targets_per_year, (sizes, confidence))
+    limits(
+        demand,
+        (Rates::from_demand(demand, units, weights.per_year()), units),
+        targets_per_year,
+        (sizes, confidence),
+    )
 }
 
 /// The same of records that count as `weights` say, repaired: the weights are taken as they are.
@@ -61,88 +62,102 @@ pub fn repaired_limits(
     (sizes, confidence): (&[usize], f64),
 ) -> Result<Vec<InferredLimits>, RiskError> {
     check(demand, weights.stripes(), units)?;
-    let rates = Rates::weighted(weights, units);
-    limits(demand, weights.stripes(), (rates, units), targets_per_year, (sizes, confidence))
+    limits(demand, (Rates::weighted(weights, units), units), targets_per_year, (sizes, confidence))
+}
+
+/// The limits of the truth alone, m, `[target]`: those of [`inferred_limits`] for as many units as the set has.
+///
+/// # Errors
+/// As [`inferred_limits`].
+pub fn truth_limits(
+    demand: &PooledDemand,
+    weights: &StripeWeights,
+    units: &[Vec<usize>],
+    targets_per_year: &[f64],
+    confidence: f64,
+) -> Result<Vec<[f64; 2]>, RiskError> {
+    check(demand, weights, units)?;
+    truths(demand, (Rates::from_demand(demand, units, weights.per_year()), units), targets_per_year, confidence)
+}
+
+/// The same of records that count as `weights` say, repaired: those of [`repaired_limits`].
+///
+/// # Errors
+/// As [`inferred_limits`].
+pub fn repaired_truth_limits(
+    demand: &PooledDemand,
+    weights: &RunWeights,
+    units: &[Vec<usize>],
+    targets_per_year: &[f64],
+    confidence: f64,
+) -> Result<Vec<[f64; 2]>, RiskError> {
+    check(demand, weights.stripes(), units)?;
+    truths(demand, (Rates::weighted(weights, units), units), targets_per_year, confidence)
+}
+
+fn truths(
+    demand: &PooledDemand,
+    rates: (Rates, &[Vec<usize>]),
+    targets_per_year: &[f64],
+    confidence: f64,
+) -> Result<Vec<[f64; 2]>, RiskError> {
+    let units = rates.1.len();
+    let samples = [Sample { units, wider: 1.0, size: units }];
+    bands(demand, rates, targets_per_year, (&samples, confidence))
 }
 
 fn limits(
     demand: &PooledDemand,
-    weights: &StripeWeights,
     rates: (Rates, &[Vec<usize>]),
     targets_per_year: &[f64],
-    asked: (&[usize], f64),
+    (sizes, confidence): (&[usize], f64),
 ) -> Result<Vec<InferredLimits>, RiskError> {
-    let of = |[truth, prediction]: [Search; 2]| InferredLimits {
-        truth_m: truth.limits_m(),
-        prediction_m: prediction.limits_m(),
+    let units = rates.1.len();
+    let of_size = |&size: &usize| {
+        // its own scatter is added to that of the set
+        let wider = (1.0 + units as f64 / size as f64).sqrt();
+        [Sample { units: size, wider: 1.0, size }, Sample { units, wider, size }]
     };
-    Ok(searches(demand, weights, rates, targets_per_year, asked)?.into_iter().map(of).collect())
+    let samples: Vec<Sample> = sizes.iter().flat_map(of_size).collect();
+    let limits_m = bands(demand, rates, targets_per_year, (&samples, confidence))?;
+    let of = |both: &[[f64; 2]]| InferredLimits { truth_m: both[0], prediction_m: both[1] };
+    Ok(limits_m.chunks_exact(2).map(of).collect())
 }
 
-/// The bands of each target and size, `[target, size]`: that of the truth, and that of another set.
-fn searches(
+/// What a band is said by: so many units, within quantiles that are so much wider, with demands that spread as those of
+/// a set of the size.
+#[derive(Debug, Clone, Copy)]
+struct Sample {
+    units: usize,
+    wider: f64,
+    size: usize,
+}
+
+/// The limits of the ordinates of target rates, m, `[target, sample]`.
+fn bands(
     demand: &PooledDemand,
-    weights: &StripeWeights,
-    (mut rates, units): (Rates, &[Vec<usize>]),
+    (rates, units): (Rates, &[Vec<usize>]),
     targets_per_year: &[f64],
-    (sizes, confidence): (&[usize], f64),
-) -> Result<Vec<[Search; 2]>, RiskError> {
+    (samples, confidence): (&[Sample], f64),
+) -> Result<Vec<[f64; 2]>, RiskError> {
     targets_per_year.iter().try_for_each(|target| check_target(*target))?;
     if units.len() < 2 {
-        return Ok(vec![[Search::NONE; 2]; targets_per_year.len() * sizes.len()]);
+        return Ok(vec![[f64::NAN; 2]; targets_per_year.len() * samples.len()]);
     }
-    let most = sizes.iter().copied().max().unwrap_or(1).max(units.len());
+    let most = samples.iter().map(|sample| sample.units).fold(1, usize::max);
     let quantiles = StudentQuantiles::new(confidence, most);
-    let mut searches = vec![[Search::default(); 2]; targets_per_year.len() * sizes.len()];
-    let per_year = weights.per_year();
-    let all = units.len();
-    let root = |units: usize| (units as f64).sqrt();
-    let root_of_all = root(all);
-    // its own scatter is added to that of the set
-    let of_sizes: Vec<(usize, f64, f64)> =
-        sizes.iter().map(|&size| (size, root(size), (1.0 + all as f64 / size as f64).sqrt())).collect();
-    let rising = rising(targets_per_year);
-    let mut look = |rates: &Rates, from_m: f64, to_m: f64| {
-        let mean = rates.mean();
-        let of_units = |units: usize, root| (mean.deviates(root), mean.quantiles(&quantiles, units).map(f64::recip));
-        let (of_set, per_quantile_of_set) = of_units(all, root_of_all);
-        let mut is_open = false;
-        for (place, &(size, root, wider)) in of_sizes.iter().enumerate() {
-            let of_another = (of_set, per_quantile_of_set.map(|per| per / wider));
-            for (kind, (deviates, per_quantile)) in [of_units(size, root), of_another].into_iter().enumerate() {
-                for &(target, row) in &rising {
-                    let search = &mut searches[row * sizes.len() + place][kind];
-                    if search.was_beyond {
-                        continue;
-                    }
-                    let deviate = deviates.of(target);
-                    let deviate = deviate * of_side(per_quantile, deviate);
-                    search.see(deviate, from_m, to_m);
-                    is_open |= !search.was_beyond;
-                    if deviate < SURELY_BELOW {
-                        break;
-                    }
-                }
-            }
-        }
-        is_open
+    let sizes: Vec<f64> = samples.iter().map(|sample| sample.size as f64 / units.len() as f64).collect();
+    let mut inversion = Inversion::new(demand, vec![rates]);
+    let of_target = |&target: &f64| {
+        let place = |sample: usize, means: &[SkewedMean]| {
+            let Sample { units, wider, .. } = samples[sample];
+            means[0].place(target, (units, wider), &quantiles)
+        };
+        // by the one curve
+        let ordinate_m = inversion.ordinates_m(target)[0];
+        inversion.limits_m(ordinate_m, &sizes, place)
     };
-    fall(demand, |step| match step {
-        Step::Between(from_m, to_m) => look(&rates, from_m, to_m),
-        Step::Run { record, level } => {
-            rates.add(record, level, per_year[level]);
-            true
-        }
-    });
-    Ok(searches)
-}
-
-/// Targets with their positions, the least first: where the band of one has not been reached, those of larger ones have
-/// not.
-pub(crate) fn rising(targets_per_year: &[f64]) -> Vec<(f64, usize)> {
-    let mut rising: Vec<(f64, usize)> = targets_per_year.iter().copied().zip(0..).collect();
-    rising.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    rising
+    Ok(targets_per_year.iter().flat_map(of_target).collect())
 }
 
 /// Limits of the rate at which `threshold_m` is exceeded, 1/yr, by all records there could be: the interval that
@@ -157,7 +172,7 @@ pub fn inferred_rate(
     (threshold_m, confidence): (f64, f64),
 ) -> Result<[f64; 2], RiskError> {
     check(demand, weights, units)?;
-    Ok(interval(demand, weights, (Rates::from_demand(demand, units), units), (threshold_m, confidence)))
+    Ok(interval(demand, (Rates::from_demand(demand, units, weights.per_year()), units), (threshold_m, confidence)))
 }
 
 /// The same of records that count as `weights` say, repaired: the interval that [`repaired_limits`] inverts.
@@ -171,20 +186,16 @@ pub fn repaired_rate(
     (threshold_m, confidence): (f64, f64),
 ) -> Result<[f64; 2], RiskError> {
     check(demand, weights.stripes(), units)?;
-    Ok(interval(demand, weights.stripes(), (Rates::weighted(weights, units), units), (threshold_m, confidence)))
+    Ok(interval(demand, (Rates::weighted(weights, units), units), (threshold_m, confidence)))
 }
 
 fn interval(
     demand: &PooledDemand,
-    weights: &StripeWeights,
-    (mut rates, units): (Rates, &[Vec<usize>]),
+    (rates, units): (Rates, &[Vec<usize>]),
     (threshold_m, confidence): (f64, f64),
 ) -> [f64; 2] {
-    let per_year = weights.per_year();
-    for (_, record, level) in demand.falling_runs().take_while(|run| run.0 > threshold_m) {
-        rates.add(record, level, per_year[level]);
-    }
-    rates.mean().interval(&StudentQuantiles::new(confidence, units.len()))
+    let quantiles = StudentQuantiles::new(confidence, units.len());
+    Inversion::new(demand, vec![rates]).rate_limits(threshold_m, |means| means[0].interval(&quantiles))
 }
 
 /// Limits of the rate of all records there could be, 1/yr, where each record at hand contributes so much and the mean
@@ -219,89 +230,6 @@ pub(crate) fn mean_of(contributions_per_year: &[f64], units: &[Vec<usize>]) -> R
     Ok(SkewedMean::new(mean, [2, 3, 4].map(moment), units.len()))
 }
 
-/// A step of a displacement that falls through all runs.
-pub(crate) enum Step {
-    /// No run lies between these displacements, m, the lower one first.
-    Between(f64, f64),
-    /// A run is exceeded from here on.
-    Run { record: usize, level: usize },
-}
-
-/// Lets a displacement fall from above all runs to zero, as long as `take` wants to go on.
-pub(crate) fn fall(demand: &PooledDemand, mut take: impl FnMut(Step) -> bool) {
-    let mut above_m = f64::INFINITY;
-    let mut runs = demand.falling_runs().peekable();
-    while let Some(&(edp_m, ..)) = runs.peek() {
-        if !take(Step::Between(edp_m, above_m)) {
-            return;
-        }
-        while let Some((_, record, level)) = runs.next_if(|run| run.0 == edp_m) {
-            take(Step::Run { record, level });
-        }
-        above_m = edp_m;
-    }
-    take(Step::Between(0.0, above_m));
-}
-
-/// The rate of the runs gone through, with the scatter of its units.
-pub(crate) enum Rates {
-    /// Of records that are all run at every level.
-    Alike(UnitRates),
-    /// Of levels with records of their own, of units that are not of equally many records, and of weights.
-    Shared(SharedRates),
-}
-
-impl Rates {
-    pub(crate) fn from_demand(demand: &PooledDemand, units: &[Vec<usize>]) -> Self {
-        let is_alike = units.windows(2).all(|two| two[0].len() == two[1].len());
-        match demand.shares() {
-            None if is_alike => Self::Alike(UnitRates::new(units)),
-            Some(shares) if is_alike => Self::Shared(SharedRates::new(units, shares)),
-            Some(shares) => Self::Shared(SharedRates::new(units, shares).with_leverage()),
-            None => {
-                let runs = demand.record_count() * demand.level_count();
-                let shares = vec![1.0 / demand.record_count() as f64; runs];
-                Self::Shared(SharedRates::new(units, &shares).with_leverage())
-            }
-        }
-    }
-
-    pub(crate) fn weighted(weights: &RunWeights, units: &[Vec<usize>]) -> Self {
-        Self::Shared(SharedRates::new(units, weights.shares()).with_effective_units())
-    }
-
-    pub(crate) fn add(&mut self, record: usize, level: usize, per_year: f64) {
-        match self {
-            Self::Alike(rates) => rates.add(record, per_year),
-            Self::Shared(rates) => rates.add(record, level, per_year),
-        }
-    }
-
-    pub(crate) fn mean(&self) -> SkewedMean {
-        match self {
-            Self::Alike(rates) => rates.mean(),
-            Self::Shared(rates) => rates.mean(),
-        }
-    }
-
-    /// The mean alone.
-    pub(crate) fn per_year(&self) -> f64 {
-        match self {
-            Self::Alike(rates) => rates.per_year(),
-            Self::Shared(rates) => rates.per_year,
-        }
-    }
-
-    /// Whether `target` is surely above the interval of the `mean`: told where that takes less time than the
-    /// [`mean`](Self::mean) itself.
-    pub(crate) fn is_below(&self, target: f64, mean: f64, above: &AboveInterval) -> bool {
-        match self {
-            Self::Alike(rates) => rates.is_below(target, mean, above),
-            Self::Shared(_) => false,
-        }
-    }
-}
-
 /// Whether it is a target.
 pub(crate) fn check_target(rate: f64) -> Result<(), RiskError> {
     if rate.is_finite() && rate > 0.0 { Ok(()) } else { Err(RiskError::Target { rate }) }
@@ -315,37 +243,4 @@ pub(crate) fn check(demand: &PooledDemand, weights: &StripeWeights, units: &[Vec
 
 fn fits(what: &'static str, found: usize, expected: usize) -> Result<(), RiskError> {
     if found == expected { Ok(()) } else { Err(RiskError::Count { what, found, expected }) }
-}
-
-/// The displacements of a band, while they are gone through from above.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Search {
-    /// Least and largest displacement that belong to it, m.
-    pub(crate) found_m: Option<[f64; 2]>,
-    /// Where the deviate leaves the band, or leaps over the whole of it.
-    leap_m: f64,
-    /// Whether it has left: nothing more comes to it.
-    pub(crate) was_beyond: bool,
-}
-
-impl Search {
-    /// Of a single unit, which has no band.
-    const NONE: Self = Self { found_m: Some([f64::NAN; 2]), leap_m: f64::NAN, was_beyond: true };
-
-    /// All displacements from `from_m` to `to_m` have this `deviate`, over its quantile.
-    pub(crate) fn see(&mut self, deviate: f64, from_m: f64, to_m: f64) {
-        if self.was_beyond {
-            return;
-        }
-        if deviate.abs() <= 1.0 {
-            let upper_m = self.found_m.map_or(to_m, |found| found[1]);
-            self.found_m = Some([from_m, upper_m]);
-        } else if deviate > 1.0 {
-            (self.leap_m, self.was_beyond) = (to_m, true);
-        }
-    }
-
-    pub(crate) fn limits_m(&self) -> [f64; 2] {
-        self.found_m.unwrap_or([self.leap_m; 2])
-    }
 }

@@ -29,23 +29,29 @@ mod error;
 mod falling;
 mod inferred;
 mod interval;
+mod inversion;
 mod jackknife;
 mod over_curves;
 mod plan;
+mod rates;
 mod replicates;
 mod shared_rates;
 mod simultaneous;
 mod skewed_mean;
-mod truth;
+mod spread;
 mod unit;
 mod unit_rates;
+mod walk;
 mod weighted;
 mod weighted_replicates;
 
 pub use accuracy::{error_of_median, range_of_interval};
 pub use error::BootstrapError;
 pub use falling::{crossing, falling};
-pub use inferred::{InferredLimits, inferred_limits, inferred_mean, inferred_rate, repaired_limits, repaired_rate};
+pub use inferred::{
+    InferredLimits, inferred_limits, inferred_mean, inferred_rate, repaired_limits, repaired_rate,
+    repaired_truth_limits, truth_limits,
+};
 pub use interval::{Band, Interval};
 pub use jackknife::{acceleration, contributions, leave_one_out, without_each};
 pub use over_curves::{inferred_limits_over_curves, inferred_mean_over_alternatives, inferred_rate_over_curves};
@@ -53,7 +59,6 @@ pub use plan::ResamplingPlan;
 pub use replicates::Replicates;
 pub use simultaneous::simultaneous_bands;
 pub use skewed_mean::{SkewedMean, StudentQuantiles};
-pub use truth::{repaired_truth_limits, truth_limits};
 pub use unit::{Unit, is_too_narrow, units, units_in_sample};
 pub use weighted::weighted_quantile;
 pub use weighted_replicates::{left_out, left_out_together, weighted_replicates};

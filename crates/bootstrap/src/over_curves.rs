@@ -3,8 +3,11 @@
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use uplift_risk::{PooledDemand, RiskError, StripeWeights};
 
-use crate::inferred::{Rates, Search, Step, check, check_target, fall, mean_of};
+use crate::inferred::{check, check_target, mean_of};
+use crate::inversion::Inversion;
+use crate::rates::Rates;
 use crate::skewed_mean::{SkewedMean, StudentQuantiles, of_side};
+use crate::weighted_quantile;
 
 /// Limits of the rate at which `threshold_m` is exceeded, 1/yr, by all records there could be and by one of several
 /// hazard curves.
@@ -27,18 +30,12 @@ pub fn inferred_rate_over_curves(
     units: &[Vec<usize>],
     (threshold_m, confidence): (f64, f64),
 ) -> Result<[f64; 2], RiskError> {
-    let mixture = Mixture::new(weights_of(curves), units, confidence);
-    let mut means = Vec::with_capacity(curves.len());
-    for (_, weights) in curves {
-        check(demand, weights, units)?;
-        let per_year = weights.per_year();
-        let mut rates = Rates::from_demand(demand, units);
-        for (_, record, level) in demand.falling_runs().take_while(|run| run.0 > threshold_m) {
-            rates.add(record, level, per_year[level]);
-        }
-        means.push(rates.mean());
+    let rates = rates_of(demand, curves, units)?;
+    if units.len() < 2 || curves.is_empty() {
+        return Ok([f64::NAN; 2]);
     }
-    Ok(mixture.interval(&means))
+    let mixture = Mixture::new(weights_of(curves), units, confidence);
+    Ok(Inversion::new(demand, rates).rate_limits(threshold_m, |means| mixture.interval(means)))
 }
 
 /// Limits of the exact ordinate of `target_per_year` \[1/yr\] by all records there could be and by one of several
@@ -54,32 +51,31 @@ pub fn inferred_limits_over_curves(
     (target_per_year, confidence): (f64, f64),
 ) -> Result<[f64; 2], RiskError> {
     check_target(target_per_year)?;
-    for (_, weights) in curves {
-        check(demand, weights, units)?;
-    }
+    let rates = rates_of(demand, curves, units)?;
     if units.len() < 2 || curves.is_empty() {
         return Ok([f64::NAN; 2]);
     }
+    let mut inversion = Inversion::new(demand, rates);
     let mixture = Mixture::new(weights_of(curves), units, confidence);
-    let per_year: Vec<Vec<f64>> = curves.iter().map(|(_, weights)| weights.per_year()).collect();
-    let mut rates: Vec<Rates> = curves.iter().map(|_| Rates::from_demand(demand, units)).collect();
-    let mut means = Vec::with_capacity(curves.len());
-    let mut search = Search::default();
-    fall(demand, |step| match step {
-        Step::Between(from_m, to_m) => {
-            means.clear();
-            means.extend(rates.iter().map(Rates::mean));
-            search.see(mixture.place(&means, target_per_year), from_m, to_m);
-            !search.was_beyond
-        }
-        Step::Run { record, level } => {
-            for (rates, per_year) in rates.iter_mut().zip(&per_year) {
-                rates.add(record, level, per_year[level]);
-            }
-            true
-        }
-    });
-    Ok(search.limits_m())
+    // in the middle of those by each curve the target is neither surely too large nor too small
+    let mut ordinates_m: Vec<(f64, f64)> =
+        inversion.ordinates_m(target_per_year).into_iter().zip(weights_of(curves)).collect();
+    ordinates_m.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let ordinate_m = weighted_quantile(&ordinates_m, 0.5);
+    Ok(inversion.limits_m(ordinate_m, &[1.0], |_, means| mixture.place(means, target_per_year))[0])
+}
+
+/// The rates by each curve.
+fn rates_of(
+    demand: &PooledDemand,
+    curves: &[(f64, StripeWeights)],
+    units: &[Vec<usize>],
+) -> Result<Vec<Rates>, RiskError> {
+    let of = |(_, weights): &(f64, StripeWeights)| {
+        check(demand, weights, units)?;
+        Ok(Rates::from_demand(demand, units, weights.per_year()))
+    };
+    curves.iter().map(of).collect()
 }
 
 /// Limits of the rate, 1/yr, where each record contributes so much by each of several alternatives, hazard curves or
@@ -144,7 +140,7 @@ impl Mixture {
     /// they are too large for it.
     fn place(&self, means: &[SkewedMean], target_per_year: f64) -> f64 {
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-        for place in means.iter().map(|mean| mean.place(target_per_year, &self.quantiles)) {
+        for place in means.iter().map(|mean| mean.place(target_per_year, (mean.units, 1.0), &self.quantiles)) {
             (least, most) = (least.min(place), most.max(place));
         }
         // where all curves agree there is nothing to weigh
@@ -214,7 +210,7 @@ mod tests {
             assert!((found - expected).abs() <= 1e-12 * expected, "{found} {expected}");
         }
         for target in [0.05, 0.2, 0.5, 1.0, 4.0] {
-            let alone = of_curve.place(target, &twice.quantiles);
+            let alone = of_curve.place(target, (6, 1.0), &twice.quantiles);
             assert_eq!(twice.place(&[of_curve; 2], target).abs() <= 1.0, alone.abs() <= 1.0, "{target}");
         }
     }

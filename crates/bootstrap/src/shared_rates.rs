@@ -4,7 +4,7 @@ use crate::SkewedMean;
 use crate::skewed_mean::sums;
 use crate::unit_rates::unit_of;
 
-/// How units deviate from the rate λ(c) of all of them, summed while the displacement c falls.
+/// How units deviate from the rate λ(c) of all of them, summed while the displacement c moves.
 ///
 /// Level j, with the weight w, is exceeded by the share F of its records, each of which counts for its share p of the
 /// level: λ(c) = Σ w F over the levels, F = Σ p 1(u > c) over the records. A sample that draws a record more often has
@@ -32,8 +32,8 @@ pub(crate) struct SharedRates {
     leverage: Vec<f64>,
     /// What each unit carries of λ, 1/yr; none where units count alike.
     carried: Option<Vec<f64>>,
-    /// λ so far, 1/yr.
-    pub(crate) per_year: f64,
+    /// λ, 1/yr.
+    per_year: f64,
     /// The deviation of each unit, 1/yr.
     deviations: Vec<f64>,
 }
@@ -67,10 +67,48 @@ impl SharedRates {
         self.with_effective_units()
     }
 
-    /// The run of `record` at `level`, whose stripe weighs `per_year`, 1/yr, is exceeded from here on.
-    pub(crate) fn add(&mut self, record: usize, level: usize, per_year: f64) {
+    /// To how many units that count alike they amount: one over the mean of Σ p² over the levels, p being the share of
+    /// a unit.
+    pub(crate) fn equivalent_units(&self) -> f64 {
+        let levels = self.of_units.len() / self.deviations.len().max(1);
+        let found = levels as f64 / self.of_units.iter().map(|share| share * share).sum::<f64>();
+        // 12 units that count alike are 12, whatever rounding leaves
+        if (found - found.round()).abs() < 1e-9 * found { found.round() } else { found }
+    }
+
+    /// What the run of `record` at `level` adds to the rate of all, over what its stripe weighs.
+    pub(crate) fn share(&self, record: usize, level: usize) -> f64 {
+        self.shares[level * self.unit_of.len() + record]
+    }
+
+    /// Just these runs are exceeded: of the record, at the level, whose stripe weighs so much, 1/yr.
+    pub(crate) fn start(&mut self, runs: impl Iterator<Item = (usize, usize, f64)>) {
         let units = self.deviations.len();
-        let own = per_year * self.shares[level * self.unit_of.len() + record];
+        let mut of_levels = vec![0.0; self.of_units.len() / units.max(1)];
+        self.per_year = 0.0;
+        self.deviations.fill(0.0);
+        for (record, level, per_year) in runs {
+            let (own, unit) = (per_year * self.share(record, level), self.unit_of[record]);
+            of_levels[level] += own;
+            self.deviations[unit] += own * units as f64 * self.leverage[level * units + unit];
+        }
+        self.carried.iter_mut().for_each(|carried| carried.fill(0.0));
+        for (level, own) in of_levels.into_iter().enumerate() {
+            self.all_deviate(level, own);
+        }
+    }
+
+    /// The run of `record` at `level`, whose stripe weighs `per_year`, 1/yr, is exceeded too; negative where it is
+    /// exceeded no more.
+    pub(crate) fn add(&mut self, record: usize, level: usize, per_year: f64) {
+        let (own, units, unit) = (per_year * self.share(record, level), self.deviations.len(), self.unit_of[record]);
+        self.deviations[unit] += own * units as f64 * self.leverage[level * units + unit];
+        self.all_deviate(level, own);
+    }
+
+    /// λ grows by `own`, 1/yr, at `level`: every unit deviates by its share of that.
+    fn all_deviate(&mut self, level: usize, own: f64) {
+        let units = self.deviations.len();
         self.per_year += own;
         let (of_level, leverage) = (&self.of_units[level * units..][..units], &self.leverage[level * units..][..units]);
         for (carried, share) in self.carried.iter_mut().flatten().zip(of_level) {
@@ -80,8 +118,6 @@ impl SharedRates {
         for ((deviation, share), leverage) in self.deviations.iter_mut().zip(of_level).zip(leverage) {
             *deviation -= own * share * leverage;
         }
-        let unit = self.unit_of[record];
-        self.deviations[unit] += own * leverage[unit];
     }
 
     /// The rate of all records, 1/yr, with the scatter of the units.

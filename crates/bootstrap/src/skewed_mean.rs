@@ -57,7 +57,7 @@ impl SkewedMean {
         Self {
             mean,
             deviation: (second * n / (n - 1.0)).sqrt(),
-            skewness: adjustment(units) * third / second.powf(1.5),
+            skewness: adjustment(units) * third / (second * second.sqrt()),
             kurtosis: fourth / (second * second),
             units,
             effective_units: n,
@@ -79,12 +79,16 @@ impl SkewedMean {
     /// How far the mean of `units` such units lies above `value`, as the deviate of a normal variable; infinite where
     /// they do not scatter.
     pub fn deviate(&self, value: f64, units: usize) -> f64 {
-        self.deviates((units as f64).sqrt()).of(value)
-    }
-
-    /// The deviates of so many such units, of which `root` is the square root, from any value.
-    pub(crate) fn deviates(&self, root: f64) -> Deviates {
-        Deviates { mean: self.mean, per_error: root / self.deviation, a: self.skewness / root }
+        /// A division takes as long as all else.
+        const THIRD: f64 = 1.0 / 3.0;
+        let difference = self.mean - value;
+        if self.deviation == 0.0 {
+            return if difference == 0.0 { 0.0 } else { f64::INFINITY.copysign(difference) };
+        }
+        let root = (units as f64).sqrt();
+        let (t, a) = (difference * (root / self.deviation), self.skewness / root);
+        let third = THIRD * a * t;
+        t * (1.0 + third * (1.0 + THIRD * third)) + 0.5 * THIRD * a
     }
 
     /// Degrees of freedom of the quantiles of `units` such units, for values below and above the mean.
@@ -105,11 +109,16 @@ impl SkewedMean {
         self.degrees_of_freedom(units).map(|freedom| of_freedom.at(freedom))
     }
 
-    /// How far the mean lies above `value`, over the quantile of that side: within −1 and 1 where it may be the mean of
-    /// all units there could be.
-    pub(crate) fn place(&self, value: f64, of_freedom: &StudentQuantiles) -> f64 {
-        let deviate = self.deviate(value, self.units);
-        deviate / of_side(self.quantiles(of_freedom, self.units), deviate)
+    /// Where `value` lies in what the mean of so many `units` leaves open, within quantiles that are so much `wider`:
+    /// within −1 and 1 where it may be the mean of all there could be, above 1 where the mean is too large for it.
+    pub(crate) fn place(&self, value: f64, (units, wider): (usize, f64), of_freedom: &StudentQuantiles) -> f64 {
+        let deviate = self.deviate(value, units);
+        // with fewer degrees of freedom a quantile is larger
+        let least = of_freedom.at(units.saturating_sub(1)) * wider;
+        if deviate.abs() <= least {
+            return deviate / least;
+        }
+        deviate / (of_side(self.quantiles(of_freedom, units), deviate) * wider)
     }
 
     /// The interval of the mean over all units there could be, at the level of `quantiles`; NaN of a single unit. The
@@ -146,92 +155,6 @@ pub(crate) fn of_side<T>([below, above]: [T; 2], deviate: f64) -> T {
 fn adjustment(units: usize) -> f64 {
     let n = units as f64;
     if units > 2 { (n * (n - 1.0)).sqrt() / (n - 2.0) } else { 0.0 }
-}
-
-/// What the deviates of a mean need, whatever it is held against.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Deviates {
-    mean: f64,
-    /// One over the standard error of the mean; infinite where the units do not scatter.
-    per_error: f64,
-    /// γ/√n.
-    a: f64,
-}
-
-impl Deviates {
-    /// That from `value`: see [`SkewedMean::deviate`].
-    pub(crate) fn of(&self, value: f64) -> f64 {
-        /// A division takes as long as all else.
-        const THIRD: f64 = 1.0 / 3.0;
-        let difference = self.mean - value;
-        if self.per_error == f64::INFINITY {
-            return if difference == 0.0 { 0.0 } else { f64::INFINITY.copysign(difference) };
-        }
-        let (t, a) = (difference * self.per_error, self.a);
-        let third = THIRD * a * t;
-        t * (1.0 + third * (1.0 + THIRD * third)) + 0.5 * THIRD * a
-    }
-}
-
-/// Tells that a value lies above the interval of a [`SkewedMean`] of units that count alike, without a root, and with
-/// one division: as many means as a displacement falls through are looked at.
-///
-/// With D₂, D₃ and D₄ the sums of powers of the deviations, G = √D₂ g(T) and y = γT/(3√n),
-/// G = −√(n(n−1)) (value − mean) (1 + y + y²/3) + A D₃/(6 D₂): a value above the mean is above
-/// its interval where G < 0 and G² > q² D₂.
-#[derive(Debug, Clone)]
-pub(crate) struct AboveInterval {
-    units: f64,
-    /// √(n(n−1)).
-    per_error: f64,
-    /// The adjustment A of the skewness.
-    adjustment: f64,
-    /// The adjusted kurtosis, less 3, over κ, and what it is more.
-    excess: [f64; 2],
-    /// Squares of the quantiles by the excess of the kurtosis, plus 2, rounded down.
-    squares: Vec<f64>,
-}
-
-impl AboveInterval {
-    /// What rounding may change of a number, and more.
-    const MARGIN: f64 = 1.0 + 1e-6;
-
-    /// Of so many units.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and the number of units")]
-    pub(crate) fn new(quantiles: &StudentQuantiles, units: usize) -> Self {
-        let n = units as f64;
-        let at = |kurtosis: f64| adjusted_excess(n, kurtosis);
-        // the largest that its bin can have
-        let square = |bin: usize| {
-            let freedom = 2.0 * n / ((bin + 1) as f64 * Self::MARGIN) - 1.0;
-            quantiles.at(freedom.clamp(1.0, n - 1.0) as usize).powi(2) * Self::MARGIN
-        };
-        Self {
-            units: n,
-            per_error: (n * (n - 1.0)).sqrt(),
-            adjustment: adjustment(units),
-            excess: if units > 3 { [at(1.0) - at(0.0), at(0.0)] } else { [0.0, f64::INFINITY] },
-            squares: (0..=units).map(square).collect(),
-        }
-    }
-
-    /// Whether `value` is surely above that of this `mean`, with the second to fourth powers of the deviations summed.
-    #[inline]
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above 1, and held below the last")]
-    pub(crate) fn has(&self, value: f64, mean: f64, [second, third, fourth]: [f64; 3]) -> bool {
-        let per_second = 1.0 / second;
-        let skewed = self.adjustment * third * per_second;
-        let distance = self.per_error * (value - mean);
-        let y = -(1.0 / 3.0) * skewed * distance * per_second;
-        let g = -distance * (1.0 + y * (1.0 + (1.0 / 3.0) * y)) + (1.0 / 6.0) * skewed;
-        let [slope, at_zero] = self.excess;
-        let adjusted = slope * self.units * fourth * per_second * per_second + at_zero;
-        let least = 1.5 * self.units * skewed * skewed * per_second;
-        let excess = if adjusted > least { adjusted } else { least };
-        // held first, it is converted in a moment
-        let bin = if excess + 2.0 < self.units { (excess + 2.0) as u32 as usize } else { self.squares.len() - 1 };
-        distance > 0.0 && g < 0.0 && g * g > self.squares[bin] * second
-    }
 }
 
 /// Two-sided quantiles of Student's distribution, by whole degrees of freedom.
@@ -338,9 +261,13 @@ pub(crate) mod tests {
         let found = of(&[0.1, 0.2, 0.25, 0.4, 2.0, 0.3]);
         let quantiles = StudentQuantiles::new(0.9, 5);
         let [low, high] = found.interval(&quantiles);
-        assert!((found.place(high, &quantiles) + 1.0).abs() < 1e-9, "{}", found.place(high, &quantiles));
+        assert!(
+            (found.place(high, (6, 1.0), &quantiles) + 1.0).abs() < 1e-9,
+            "{}",
+            found.place(high, (6, 1.0), &quantiles)
+        );
         // the lower limit is not negative, and lies further from the mean than Student's would not
-        assert!(low >= 0.0 && found.place(low, &quantiles) <= 1.0 + 1e-9);
+        assert!(low >= 0.0 && found.place(low, (6, 1.0), &quantiles) <= 1.0 + 1e-9);
         assert!(high - found.mean > found.mean - low, "{low} {high}");
     }
 

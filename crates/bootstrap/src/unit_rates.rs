@@ -1,9 +1,9 @@
-//! The rates that single records, or earthquakes of equally many, bring, summed while the displacement falls.
+//! The rates that single records, or earthquakes of equally many, bring.
 
 use crate::SkewedMean;
-use crate::skewed_mean::AboveInterval;
+use crate::skewed_mean::sums;
 
-/// The rates of the units above a displacement that falls, with the sums that their mean and scatter need. All units
+/// The rates of the units above a displacement that moves, with the sums that their mean and scatter need. All units
 /// are of equally many records.
 #[derive(Debug, Clone)]
 pub(crate) struct UnitRates {
@@ -30,7 +30,17 @@ impl UnitRates {
         }
     }
 
-    /// A run of `record` is exceeded from here on: its stripe weighs `per_year`, 1/yr.
+    /// Just these runs are exceeded: of the record, whose stripe weighs so much, 1/yr.
+    pub(crate) fn start(&mut self, runs: impl Iterator<Item = (usize, f64)>) {
+        self.rates.fill(0.0);
+        runs.for_each(|(record, per_year)| self.rates[self.unit_of[record]] += per_year * self.per_record);
+        self.sums = sums(&self.rates, |own| {
+            let square = own * own;
+            [own, square, own * square, square * square]
+        });
+    }
+
+    /// A run of `record` is exceeded too: its stripe weighs `per_year`, 1/yr; negative where it is exceeded no more.
     pub(crate) fn add(&mut self, record: usize, per_year: f64) {
         let rate = &mut self.rates[self.unit_of[record]];
         let (before, after) = (*rate, *rate + per_year * self.per_record);
@@ -43,20 +53,20 @@ impl UnitRates {
         *rate = after;
     }
 
-    /// The rate of all records, 1/yr.
-    pub(crate) fn per_year(&self) -> f64 {
-        self.sums[0] / self.rates.len() as f64
+    /// How many units.
+    pub(crate) fn units(&self) -> usize {
+        self.rates.len()
+    }
+
+    /// What a run adds to the rate of all, over what its stripe weighs.
+    pub(crate) fn share(&self) -> f64 {
+        self.per_record / self.rates.len() as f64
     }
 
     /// The rate of all records, 1/yr, with the scatter of the units.
     pub(crate) fn mean(&self) -> SkewedMean {
-        let (mean, units) = (self.per_year(), self.rates.len());
+        let (mean, units) = (self.sums[0] / self.rates.len() as f64, self.rates.len());
         SkewedMean::new(mean, self.central(mean).map(|sum| sum / units as f64), units)
-    }
-
-    /// Whether `value` is surely above the interval of that `mean`.
-    pub(crate) fn is_below(&self, value: f64, mean: f64, above: &AboveInterval) -> bool {
-        above.has(value, mean, self.central(mean))
     }
 
     /// Σ (W − mean)^p for p from 2 to 4, by the binomial theorem.
@@ -84,7 +94,6 @@ pub(crate) fn unit_of(units: &[Vec<usize>]) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::StudentQuantiles;
 
     // two earthquakes of two records, and the records by themselves
     #[test]
@@ -106,29 +115,6 @@ mod tests {
             assert!((found.deviation - expected.deviation).abs() < 1e-14, "{found:?} {expected:?}");
             assert!((found.skewness - expected.skewness).abs() < 1e-9, "{found:?} {expected:?}");
             assert!((found.kurtosis - expected.kurtosis).abs() < 1e-9, "{found:?} {expected:?}");
-        }
-    }
-
-    // what is told is true, and most of what is true is told
-    #[test]
-    fn values_surely_above_the_interval_are_above_it() {
-        for (count, least) in [(2, 0), (3, 0), (4, 600), (20, 600)] {
-            let units: Vec<Vec<usize>> = (0..count).map(|record| vec![record]).collect();
-            let quantiles = StudentQuantiles::new(0.9, count);
-            let (above, mut rates) = (AboveInterval::new(&quantiles, count), UnitRates::new(&units));
-            let (mut told, mut known) = (0, 0);
-            for step in 0..400_usize {
-                rates.add((step * step + step / 7) % count, 1e-3 * (1.0 + (step % 11) as f64));
-                let mean = rates.mean();
-                for target in [0.5, 0.99, 1.01, 1.3, 2.0, 4.0].map(|factor| factor * mean.mean) {
-                    let place = mean.place(target, &quantiles);
-                    let is_told = rates.is_below(target, mean.mean, &above);
-                    assert!(!is_told || place < -1.0, "{count}, {step}: {place}");
-                    told += usize::from(is_told);
-                    known += usize::from(place < -1.0);
-                }
-            }
-            assert!(told >= least, "{count}: {told} of {known}");
         }
     }
 }

@@ -4,8 +4,8 @@
 use proptest::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 use uplift_bootstrap::{
-    InferredLimits, ResamplingPlan, SkewedMean, StudentQuantiles, inferred_limits, inferred_rate, repaired_limits,
-    repaired_truth_limits, truth_limits,
+    InferredLimits, ResamplingPlan, SkewedMean, StudentQuantiles, inferred_limits, inferred_limits_over_curves,
+    inferred_rate, repaired_limits, repaired_truth_limits, truth_limits,
 };
 use uplift_fragility::Stripes;
 use uplift_risk::{PooledDemand, RecordSample, RiskCurve, RunWeights, StripeWeights};
@@ -21,55 +21,78 @@ fn pooled(edp_m: &[f64]) -> PooledDemand {
     PooledDemand::new(&Stripes::new(&LEVELS, edp_m).unwrap()).unwrap()
 }
 
-/// The plain way: at every displacement of the pool and between, the rates of the units written out.
-fn plain_limits(edp_m: &[f64], units: &[Vec<usize>], target: f64, (size, confidence): (usize, f64)) -> InferredLimits {
+/// The plain way: from the ordinate on, the rates of the units written out at every displacement.
+fn plain_limits(edp_m: &[f64], units: &[Vec<usize>], target: f64, asked: (usize, f64)) -> InferredLimits {
+    let count = edp_m.len() / LEVELS.len();
+    let of_one = units.iter().map(|unit| (unit.len() as f64 / count as f64).powi(2)).sum::<f64>();
+    let as_they_are = [(1.0, 1.0)];
+    let deviates = |points: &[(f64, f64)], c_m: f64| deviates((edp_m, points), c_m, units, target, asked);
+    let is_exceeded_more = |c_m: f64| deviates(&as_they_are, c_m)[0] > target;
+    let all = places(edp_m, &as_they_are);
+    let ordinate = (0..all.len()).find(|&at| !is_exceeded_more(all[at])).unwrap();
+    // from the displacement `from_m` on, the first at which the rate is too small
+    let too_small = |points: &[(f64, f64)], from_m: f64, which: usize| {
+        let above = places(edp_m, points).into_iter().filter(|&place_m| place_m > from_m && place_m.is_finite());
+        let found = std::iter::once(from_m).chain(above).find(|&c_m| deviates(points, c_m)[which] < -1.0);
+        found.filter(|_| from_m.is_finite()).unwrap_or(f64::INFINITY)
+    };
+    let limits = |which: usize| {
+        let too_large = (0..ordinate).rev().find(|&at| deviates(&as_they_are, all[at])[which] > 1.0);
+        let of_one = of_one * units.len() as f64 / asked.0 as f64;
+        let factor = (3.0_f64.sqrt() * pooled(edp_m).ln_deviation() * (of_one / 2.0).cbrt()).exp();
+        let spread = [(factor, 1.0 / 6.0), (1.0, 2.0 / 3.0), (1.0 / factor, 1.0 / 6.0)];
+        let upper_m = too_small(&spread, too_small(&as_they_are, all[ordinate], which), which);
+        [all[too_large.map_or(0, |at| at + 1)], upper_m]
+    };
+    InferredLimits { truth_m: limits(1), prediction_m: limits(2) }
+}
+
+/// 0 and the demands at all `points`, rising: each a factor and what it counts.
+fn places(edp_m: &[f64], points: &[(f64, f64)]) -> Vec<f64> {
+    let demands = edp_m.iter().flat_map(|edp_m| points.iter().map(move |(factor, _)| factor * edp_m));
+    let mut places: Vec<f64> = demands.chain([0.0]).collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup();
+    places
+}
+
+/// The rate at which `c_m` is exceeded, and where the target lies in what it leaves open for the truth and another set.
+fn deviates(
+    (edp_m, points): (&[f64], &[(f64, f64)]),
+    c_m: f64,
+    units: &[Vec<usize>],
+    target: f64,
+    (size, confidence): (usize, f64),
+) -> [f64; 3] {
     let per_year = weights().per_year();
     let count = edp_m.len() / LEVELS.len();
     let quantiles = StudentQuantiles::new(confidence, size.max(units.len()));
-    let mut places: Vec<f64> = edp_m.to_vec();
-    places.push(0.0);
-    places.sort_by(f64::total_cmp);
-    places.dedup();
-    let deviates = |c_m: f64| {
-        let rate = |record: usize| -> f64 {
-            let row = &edp_m[record * LEVELS.len()..(record + 1) * LEVELS.len()];
-            row.iter().zip(&per_year).filter(|run| *run.0 > c_m).map(|run| run.1).sum()
-        };
-        let mean = (0..count).map(rate).sum::<f64>() / count as f64;
-        let share = units.len() as f64 / count as f64;
-        // a unit of more records than others hides its own deviation
-        let is_alike = units.iter().all(|unit| unit.len() == units[0].len());
-        let leverage = |unit: &Vec<usize>| {
-            let rest = 1.0 - unit.len() as f64 / count as f64;
-            if is_alike { 1.0 } else { (1.0 - 1.0 / units.len() as f64) / rest }
-        };
-        let deviation =
-            |unit: &Vec<usize>| unit.iter().map(|&record| rate(record) - mean).sum::<f64>() * share * leverage(unit);
-        let carried: Vec<f64> = units.iter().map(|unit| mean * unit.len() as f64).collect();
-        let moment =
-            |power: i32| units.iter().map(|unit| deviation(unit).powi(power)).sum::<f64>() / units.len() as f64;
-        let mean = SkewedMean::new(mean, [2, 3, 4].map(moment), units.len());
-        let mean = if is_alike { mean } else { mean.carried_by(&carried) };
-        let wider = (1.0 + units.len() as f64 / size as f64).sqrt();
-        let place = |size: usize| {
-            let deviate = mean.deviate(target, size);
-            let [below, above] = mean.degrees_of_freedom(size);
-            deviate / quantiles.at(if deviate < 0.0 { above } else { below })
-        };
-        [place(size), place(units.len()) / wider]
+    let beyond = |edp_m: f64| -> f64 { points.iter().filter(|point| point.0 * edp_m > c_m).map(|point| point.1).sum() };
+    let rate = |record: usize| -> f64 {
+        let row = &edp_m[record * LEVELS.len()..(record + 1) * LEVELS.len()];
+        row.iter().zip(&per_year).map(|(&edp_m, per_year)| beyond(edp_m) * per_year).sum()
     };
-    let limits = |which: usize| {
-        let found: Vec<f64> = places.iter().map(|&c_m| deviates(c_m)[which]).collect();
-        // λ is the same from a place to the next; it is too large from the first such place downwards
-        let next = |at: usize| places.get(at + 1).copied().unwrap_or(f64::INFINITY);
-        let leap = (0..places.len()).rev().find(|&at| found[at] > 1.0);
-        let least = leap.map_or(0, |leap| leap + 1);
-        let within: Vec<usize> = (least..places.len()).filter(|&at| found[at].abs() <= 1.0).collect();
-        let none_m = leap.map_or(0.0, next);
-        let lower_m = within.first().map_or(none_m, |&first| places[first]);
-        [lower_m, within.last().map_or(none_m, |&last| next(last))]
+    let mean = (0..count).map(rate).sum::<f64>() / count as f64;
+    let share = units.len() as f64 / count as f64;
+    // a unit of more records than others hides its own deviation
+    let is_alike = units.iter().all(|unit| unit.len() == units[0].len());
+    let leverage = |unit: &Vec<usize>| {
+        let rest = 1.0 - unit.len() as f64 / count as f64;
+        if is_alike { 1.0 } else { (1.0 - 1.0 / units.len() as f64) / rest }
     };
-    InferredLimits { truth_m: limits(0), prediction_m: limits(1) }
+    let deviation =
+        |unit: &Vec<usize>| unit.iter().map(|&record| rate(record) - mean).sum::<f64>() * share * leverage(unit);
+    let carried: Vec<f64> = units.iter().map(|unit| mean * unit.len() as f64).collect();
+    let moment = |power: i32| units.iter().map(|unit| deviation(unit).powi(power)).sum::<f64>() / units.len() as f64;
+    let skewed = SkewedMean::new(mean, [2, 3, 4].map(moment), units.len());
+    let skewed = if is_alike { skewed } else { skewed.carried_by(&carried) };
+    let wider = (1.0 + units.len() as f64 / size as f64).sqrt();
+    let place = |size: usize| {
+        let deviate = skewed.deviate(target, size);
+        let [below, above] = skewed.degrees_of_freedom(size);
+        deviate / quantiles.at(if deviate < 0.0 { above } else { below })
+    };
+    [mean, place(size), place(units.len()) / wider]
 }
 
 fn demands() -> impl Strategy<Value = Vec<f64>> {
@@ -92,7 +115,11 @@ proptest! {
         prop_assert_eq!(alone, of_both.iter().map(|limits| limits.truth_m).collect::<Vec<_>>());
         for (size, found) in sizes.into_iter().zip(&found) {
             let expected = plain_limits(&edp_m, &units, target, (size, 0.9));
-            prop_assert_eq!(*found, expected);
+            let limits = |of: &InferredLimits| [of.truth_m, of.prediction_m].concat();
+            for (found, expected) in limits(found).into_iter().zip(limits(&expected)) {
+                // how many units count alike is rounded
+                prop_assert!(found == expected || (found - expected).abs() <= 1e-12 * expected, "{found} {expected}");
+            }
         }
     }
 }
@@ -188,7 +215,55 @@ fn nine_bands_of_ten_hold_the_truth_and_another_set() {
     assert!((522..=558).contains(&predicted), "{predicted} of 600 hold the ordinate of the next set");
 }
 
+// 600 sets of 20 where one record of twenty carries the rate: a third of the sets have none of these. Where demands do
+// not spread for the upper limit, 37 % of the bands lie below the truth.
+#[test]
+fn bands_hold_the_truth_that_one_record_of_twenty_carries() {
+    let (levels, _) = many_levels();
+    let levels = &levels[..8];
+    let weights = StripeWeights::new(&levels.iter().map(|level| 0.5 * level.powf(-1.6)).collect::<Vec<_>>(), Some(1.0));
+    let (weights, normal, records) = (weights.unwrap(), Normal::standard(), 2000_usize);
+    let factor = |record: usize| (0.6 * normal.inverse_cdf((record as f64 + 0.5) / records as f64)).exp();
+    let row = |record: usize| levels.iter().map(move |level| 1e-3 * factor(record) * level.powf(1.4));
+    let pooled = |edp_m: &[f64]| PooledDemand::new(&Stripes::new(levels, edp_m).unwrap()).unwrap();
+    let truth_m = row(records * 19 / 20).next_back().unwrap();
+    let target = RiskCurve::new(&pooled(&(0..records).flat_map(row).collect::<Vec<_>>()), &weights)
+        .unwrap()
+        .mean_annual_frequency(truth_m)
+        .unwrap();
+    let units: Vec<Vec<usize>> = (0..20).map(|record| vec![record]).collect();
+    let plan = ResamplingPlan::draw(records, &[20], 600, 4).unwrap();
+    let holds = |sample: &&RecordSample| {
+        let times = sample.multiplicities().iter().enumerate();
+        let drawn = times.flat_map(|(record, &times)| (0..times).flat_map(move |_| row(record)));
+        let demand = pooled(&drawn.collect::<Vec<_>>());
+        let [lower_m, upper_m] =
+            inferred_limits(&demand, &weights, &units, &[target], (&[20], 0.9)).unwrap()[0].truth_m;
+        lower_m <= truth_m && truth_m <= upper_m
+    };
+    let held = plan.samples().iter().filter(holds).count();
+    assert!((522..=558).contains(&held), "{held} of 600 hold the truth");
+}
+
 proptest! {
+    #[test]
+    fn limits_of_a_rate_hold_it(edp_m in demands(), threshold_m in 0.0..3.0) {
+        let units: Vec<Vec<usize>> = (0..edp_m.len() / LEVELS.len()).map(|record| vec![record]).collect();
+        let demand = pooled(&edp_m);
+        let rate = RiskCurve::new(&demand, &weights()).unwrap().mean_annual_frequency(threshold_m).unwrap();
+        let [lower, upper] = inferred_rate(&demand, &weights(), &units, (threshold_m, 0.9)).unwrap();
+        prop_assert!(lower <= rate * (1.0 + 1e-12) && rate <= upper * (1.0 + 1e-12), "{lower} {rate} {upper}");
+    }
+
+    #[test]
+    fn one_curve_given_twice_has_the_band_of_one(edp_m in demands(), target in 0.002..0.3_f64, share in 0.1..0.9) {
+        let units: Vec<Vec<usize>> = (0..edp_m.len() / LEVELS.len()).map(|record| vec![record]).collect();
+        let demand = pooled(&edp_m);
+        let twice = [(share, weights()), (1.0 - share, weights())];
+        let found = inferred_limits_over_curves(&demand, &twice, &units, (target, 0.9)).unwrap();
+        prop_assert_eq!(found, truth_limits(&demand, &weights(), &units, &[target], 0.9).unwrap()[0]);
+    }
+
     #[test]
     fn shares_that_are_alike_change_nothing(edp_m in demands(), target in 0.002..0.2) {
         let count = edp_m.len() / LEVELS.len();

@@ -105,6 +105,14 @@ pub const USUAL_DESIGN_ACCELERATION: Range = usual(0.01, 1.2, "g", "0.16 in Athe
 pub const USUAL_TOP_PGA: Range =
     usual(0.05, 10.0, "g", "4 is the most that was recorded; was the level meant in m/s2 or cm/s2?");
 
+/// The largest acceleration of a record that shakes one system, scaled.
+pub const USUAL_RECORD_PGA: Range =
+    usual(1e-4, 10.0, "g", "4 is the most that was recorded; is the unit of the record right, and its scale?");
+
+/// The largest velocity of a record that shakes one system, scaled.
+pub const USUAL_RECORD_PGV: Range =
+    usual(1e-3, 1000.0, "cm/s", "300 is the most that was recorded; are time step and unit of the record right?");
+
 /// Years that a probability refers to.
 pub const USUAL_YEARS: Range = usual(1.0, 10_000.0, "yr", "50 years are usual");
 
@@ -133,6 +141,8 @@ mod tests {
             (USUAL_TOP_PGA, PGA_LEVEL),
             (USUAL_VARIATION, VARIATION),
             (USUAL_YEARS, YEARS),
+            (USUAL_RECORD_PGA, PGA_LEVEL),
+            (USUAL_RECORD_PGV, PGV_LEVEL),
         ] {
             assert!(plausible.contains(usual.least) && plausible.contains(usual.most), "{usual}");
             assert_eq!(usual.unit, plausible.unit);

@@ -31,14 +31,21 @@ pub struct PooledDemand {
     level_count: u16,
     /// `[level, record]`; none where all records count alike.
     shares: Option<Vec<f64>>,
-    stretches: WhenAsked,
+    stretches: WhenAsked<Stretches>,
+    ln_deviation: WhenAsked<f64>,
 }
 
 /// What follows from the runs, made where it is first asked for.
-#[derive(Debug, Clone, Default)]
-struct WhenAsked(OnceLock<Stretches>);
+#[derive(Debug, Clone)]
+struct WhenAsked<T>(OnceLock<T>);
 
-impl PartialEq for WhenAsked {
+impl<T> Default for WhenAsked<T> {
+    fn default() -> Self {
+        Self(OnceLock::new())
+    }
+}
+
+impl<T> PartialEq for WhenAsked<T> {
     fn eq(&self, _: &Self) -> bool {
         true
     }
@@ -78,6 +85,7 @@ impl PooledDemand {
             level_count,
             shares: stripes.shares().map(<[f64]>::to_vec),
             stretches: WhenAsked::default(),
+            ln_deviation: WhenAsked::default(),
         })
     }
 
@@ -117,6 +125,34 @@ impl PooledDemand {
     pub fn falling_runs(&self) -> impl Iterator<Item = (f64, usize, usize)> {
         let runs = self.edp_m.iter().zip(&self.runs);
         runs.map(|(&edp_m, run)| (edp_m, usize::from(run.record), usize::from(run.level)))
+    }
+
+    /// Record and level, by their positions, of the run at `position` among the falling ones.
+    ///
+    /// # Panics
+    /// If there are not so many, which is a bug of the caller.
+    pub fn run(&self, position: usize) -> (usize, usize) {
+        let run = self.runs[position];
+        (usize::from(run.record), usize::from(run.level))
+    }
+
+    /// How much ln(demand) deviates about its mean at a level, over all levels, of the demands that are finite; 0 where
+    /// there are none.
+    pub fn ln_deviation(&self) -> f64 {
+        let deviation = || {
+            // number, mean and sum of squares about it, of each level (Welford)
+            let mut levels = vec![(0.0, 0.0, 0.0); self.level_count()];
+            for (edp_m, _, level) in self.falling_runs().filter(|run| run.0.is_finite()) {
+                let (count, mean, squares) = &mut levels[level];
+                let deviation = edp_m.ln() - *mean;
+                *count += 1.0;
+                *mean += deviation / *count;
+                *squares += deviation * (edp_m.ln() - *mean);
+            }
+            let [count, squares] = levels.iter().fold([0.0_f64, 0.0], |sums, of| [sums[0] + of.0, sums[1] + of.2]);
+            (squares / count.max(1.0)).sqrt()
+        };
+        *self.ln_deviation.0.get_or_init(deviation)
     }
 
     /// The runs in the order of [`PooledDemand::edp_m`].
@@ -177,6 +213,18 @@ mod tests {
         assert_eq!(pool.records_at_last_level(4).collect::<Vec<_>>(), [0, 1]);
         assert_eq!(pool.records_at_first_level(3).count(), 0);
         assert_eq!(pool.records_at_first_level(4).collect::<Vec<_>>(), [1]);
+    }
+
+    // ln 2 and ln 8 at one level, ln 4 twice at another: √(2 (ln 2)²/4)
+    #[test]
+    fn demands_deviate_about_the_mean_of_their_level() {
+        let levels = [1.0, 2.0, 3.0];
+        let edp = [2.0, 4.0, 0.0, 8.0, 4.0, f64::INFINITY];
+        let demand = PooledDemand::new(&Stripes::new(&levels, &edp).unwrap()).unwrap();
+        let expected = std::f64::consts::LN_2 * 0.5_f64.sqrt();
+        assert!((demand.ln_deviation() - expected).abs() < 1e-15, "{}", demand.ln_deviation());
+        let alone = PooledDemand::new(&Stripes::new(&levels[..1], &[0.3]).unwrap()).unwrap();
+        assert_eq!(alone.ln_deviation(), 0.0);
     }
 
     #[test]

@@ -169,8 +169,10 @@ fn oscillator_response(strength: f64, options: &ResponseOptions) -> Result<Respo
             displacement_m: result.peak_displacement_m,
         }));
     }
+    let shaken_by = options.told(record, &motion);
     let report = ResponseReport {
-        shaken_by: options.told(record, &motion),
+        alarms: [alarms, shaken_by.alarms()].concat(),
+        shaken_by,
         strength,
         uplift_displacement_m: options.uplift_displacement_m,
         capacity_m: options.capacity_m,
@@ -183,7 +185,6 @@ fn oscillator_response(strength: f64, options: &ResponseOptions) -> Result<Respo
         overturned: result.overturned,
         end_displacement_m: result.end_displacement_m,
         end_velocity_m_s: result.end_velocity_m_s,
-        alarms,
         time_of_overturning_s: result.overturned.then_some(result.time_of_peak_s),
         history,
         history_file: options.history_file.clone(),

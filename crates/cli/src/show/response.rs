@@ -15,10 +15,10 @@ pub(crate) fn print_response(
     figure: Option<&Path>,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
-    let ResponseReport { strength, uplift_displacement_m, .. } = report;
+    let ResponseReport { strength, uplift_displacement_m, restitution, .. } = report;
     print_record(&report.shaken_by)?;
     let mut out = output();
-    writeln!(out, "system    strength {strength}, uplift at {uplift_displacement_m} m")?;
+    writeln!(out, "system    strength {strength}, uplift at {uplift_displacement_m} m, restitution {restitution}")?;
     if let Some(time_s) = report.time_of_overturning_s {
         writeln!(out, "response  overturned, after {time_s:.3} s and {} impacts", report.impacts)?;
     } else {

@@ -52,7 +52,7 @@ impl Wanted {
             Some(self.refuse("a zip archive", "`uplift records import` takes one of records"))
         } else if begins(&[b"\xff\xfe", b"\xfe\xff"]) {
             Some(Unreadable::Utf16)
-        } else if ends("at2") || has_head_of_at2(bytes) {
+        } else if ends("at2") || has_head_of_at2(bytes) || begins_with_numbers(bytes) {
             let advice = "`uplift response` shakes a system with it, `uplift records import` makes a manifest of a \
                           folder of records, and a study names that: [records] manifest = \"…\"";
             Some(self.refuse("a record", advice))
@@ -102,6 +102,13 @@ fn result_of(path: &Path) -> Option<PathBuf> {
     // the program's own tables have two endings
     let shorter = path.with_extension("");
     shorter.extension().map(|_| shorter.with_extension("h5")).filter(|result| result.is_file())
+}
+
+/// Whether the first line has nothing but numbers, as columns of samples have, and no TOML.
+fn begins_with_numbers(bytes: &[u8]) -> bool {
+    let line = bytes.split(|&byte| byte == b'\n').next().and_then(|line| std::str::from_utf8(line).ok()).unwrap_or("");
+    let mut words = line.split([' ', '\t', ',', ';', '\r']).filter(|word| !word.is_empty()).peekable();
+    words.peek().is_some() && words.all(|word| word.parse::<f64>().is_ok())
 }
 
 /// Whether the first lines have the number of points of an AT2 file, and not in a comment of TOML.

@@ -221,12 +221,13 @@ fn study_files_that_cannot_be_read() {
 fn files_of_another_kind_are_named() {
     let folder = Folder::new("");
     let utf_16: Vec<u8> = "\u{feff}[pgv]".encode_utf16().flat_map(u16::to_le_bytes).collect();
-    let files: [(&str, &[u8]); 8] = [
+    let files: [(&str, &[u8]); 9] = [
         ("library.toml", b"[block]\nsize_m = [1]\n"),
         ("r.h5", b"\x89HDF\r\n\x1a\n\0\0\xff"),
         ("named.toml", b"\x89HDF\r\n\x1a\n\0\0\xff"),
         ("z.zip", b"PK\x03\x04\xff"),
         ("a.AT2", b"A DATABASE\nsome event\nUNITS OF G\nNPTS= 4, DT= .01 SEC\n"),
+        ("samples.txt", b"0.00 1.5e-3\r\n0.01 -2e-3\r\n"),
         ("t.csv", b"iml,maf\n1,2\n"),
         ("pier.toml", b"kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 8000\n"),
         ("wide.toml", &utf_16),
@@ -239,6 +240,7 @@ fn files_of_another_kind_are_named() {
         ("named.toml", "it is a result, not a study"),
         ("z.zip", "it is a zip archive, not a study: `uplift records import`"),
         ("a.AT2", "it is a record, not a study: `uplift response`"),
+        ("samples.txt", "it is a record, not a study: `uplift response`"),
         ("t.csv", "it is a table, not a study"),
         ("pier.toml", "it is a structure, not a study: `uplift design`"),
         ("library.toml", "it is a library, not a study: `uplift library`"),

@@ -45,7 +45,7 @@ const STRENGTHS: Key<GridRule> = grid("strengths", strengths::RULE)
     .note("each one of `strengths.values`");
 const BANDS: Key<Boolean> = boolean("bands")
     .with_default(false)
-    .meaning("whether each ordinate that is written has its 90 % band; at 20 strengths some twelve times the time");
+    .meaning("whether each ordinate that is written has its 90 % band; at 20 strengths some nine times the time");
 const SLICE: Key<Text> = text("slice")
     .without_default("the whole table")
     .meaning("one part of the table: `3/1000` is the third of a thousand; `uplift run --sites 3/1000` sets it");

@@ -139,8 +139,10 @@ pub(super) fn block_response(options: &ResponseOptions) -> Result<BlockResponseR
         (respond(&block, &ground, free)?, None)
     };
     let overturned = result.overturning != Overturning::None;
+    let shaken_by = options.told(record, &motion);
     let report = BlockResponseReport {
-        shaken_by: options.told(record, &motion),
+        alarms: [options.block_alarms(), shaken_by.alarms()].concat(),
+        shaken_by,
         width_m: 2.0 * block.half_width_m(),
         height_m: 2.0 * block.half_height_m(),
         size_m: block.size_m(),
@@ -154,7 +156,6 @@ pub(super) fn block_response(options: &ResponseOptions) -> Result<BlockResponseR
         time_of_peak_s: (!overturned && result.uplift_s.is_some()).then_some(result.time_s),
         time_of_uplift_s: result.uplift_s,
         impacts: result.impacts,
-        alarms: options.block_alarms(),
         overturned,
         time_of_overturning_s: overturned.then_some(result.time_s),
         chatter_was_cut: result.chatter_was_cut,

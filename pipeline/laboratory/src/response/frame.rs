@@ -147,13 +147,15 @@ pub(super) fn frame_response(file: &Path, options: &ResponseOptions) -> Result<F
     }
     options.check_history(FrameHistory::COLUMN)?;
     options.check(&[(RESTITUTION, "restitution", options.restitution)])?;
-    let alarms = options.alarms(&[(USUAL_RESTITUTION, "--restitution", options.restitution)]);
+    let mut alarms = options.alarms(&[(USUAL_RESTITUTION, "--restitution", options.restitution)]);
     let (mut components, mut motions, mut formats) = (Vec::new(), [None, None, None], Vec::new());
     for (component, record, channel) in options.components() {
         let (motion, format) =
             options.read_told(record, channel).map_err(|error| uplift_job::in_file(error, record))?;
         formats.push((record, format));
-        components.push(ShakenComponent { component, shaken_by: options.told(record, &motion) });
+        let shaken_by = options.told(record, &motion);
+        alarms.extend(shaken_by.alarms());
+        components.push(ShakenComponent { component, shaken_by });
         let place = ["h1", "h2", "v"].iter().position(|name| *name == component).unwrap_or_default();
         motions[place] = Some(motion.scaled(options.scale)?);
     }

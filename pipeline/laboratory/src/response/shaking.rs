@@ -8,7 +8,9 @@ use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_motion::{Accelerogram, ReadOptions, RecordFormat, read_record_file};
-use uplift_plausible::{FREE_VIBRATION, GRAVITY, Range, SCALE, TIME_STEP, USUAL_GRAVITY};
+use uplift_plausible::{
+    FREE_VIBRATION, GRAVITY, Range, SCALE, TIME_STEP, USUAL_GRAVITY, USUAL_RECORD_PGA, USUAL_RECORD_PGV,
+};
 
 use super::ResponseOptions;
 use crate::error::LaboratoryError;
@@ -132,6 +134,16 @@ pub struct ShakingRecord {
 }
 
 impl ShakingRecord {
+    /// What is unlikely of it: a mistake of unit or scale mostly.
+    pub(super) fn alarms(&self) -> Vec<Alarm> {
+        let rounded = |value: f64| format!("{value:.3e}").parse().ok();
+        let peaks = [
+            (USUAL_RECORD_PGA, "PGA of the record", rounded(self.pga_g)),
+            (USUAL_RECORD_PGV, "PGV of the record", rounded(self.pgv_cm_s)),
+        ];
+        number_alarms("response", &peaks)
+    }
+
     /// What stands beside the table of a history of `system`.
     pub(super) fn line(&self, system: &str) -> String {
         format!("{}; record {}, scale {}, {system}", outputs::mark(), self.record.display(), self.scale)

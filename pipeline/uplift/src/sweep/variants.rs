@@ -34,12 +34,15 @@ impl Variant {
         self.changes.iter().map(|(key, value)| format!("{key}={value}"))
     }
 
-    /// A mistake in one of its values in the words of whoever wrote it: by row and column of a table of cases.
+    /// A mistake in one of its values in the words of whoever wrote it: by row and column of a table of cases, or by
+    /// `--over`.
     pub(super) fn mistake(&self, said: String) -> String {
-        let Some(place) = &self.place else { return said };
         let of_change = |(key, value): &(String, String)| {
             let reason = said.strip_prefix(&format!("--set {key}={value}: "))?;
-            Some(format!("{place}, column {key}: {reason}"))
+            Some(match &self.place {
+                Some(place) => format!("{place}, column {key}: {reason}"),
+                None => format!("--over {key}={value}: {reason}"),
+            })
         };
         self.changes.iter().find_map(of_change).unwrap_or(said)
     }
@@ -157,6 +160,9 @@ pub(super) fn product(over: &[String]) -> Result<Vec<Variant>, UpliftError> {
 pub(super) fn cases(path: &Path) -> Result<Vec<Variant>, UpliftError> {
     let fail = |reason: String| JobError::input(format!("{}: {reason}", path.display()));
     let table = text_table::parse(&read_file(path, MOST_BYTES)?, &[NAME]).map_err(&fail)?;
+    if table.height() == 0 {
+        return Err(fail("no case below the header".to_owned()).into());
+    }
     let mut variants = vec![Variant::default(); table.height()];
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     for (row, variant) in variants.iter_mut().enumerate() {

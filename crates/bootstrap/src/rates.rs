@@ -1,0 +1,102 @@
+//! The rate at which a displacement is exceeded by the runs of a set, with the scatter of its units.
+
+use uplift_risk::{PooledDemand, RunWeights};
+
+use crate::SkewedMean;
+use crate::shared_rates::SharedRates;
+use crate::unit_rates::UnitRates;
+use crate::walk::Run;
+
+/// The rate of the runs that are exceeded, by one hazard curve.
+#[derive(Debug, Clone)]
+pub(crate) struct Rates {
+    of_units: OfUnits,
+    /// What each level weighs, 1/yr.
+    per_year: Vec<f64>,
+}
+
+#[derive(Debug, Clone)]
+enum OfUnits {
+    /// Of records that are all run at every level.
+    Alike(UnitRates),
+    /// Of levels with records of their own, of units that are not of equally many records, and of weights.
+    Shared(SharedRates),
+}
+
+impl Rates {
+    /// Of units of records that count alike, or as the `demand` says, where levels weigh `per_year`, 1/yr.
+    pub(crate) fn from_demand(demand: &PooledDemand, units: &[Vec<usize>], per_year: Vec<f64>) -> Self {
+        let is_alike = units.windows(2).all(|two| two[0].len() == two[1].len());
+        let of_units = match demand.shares() {
+            None if is_alike => OfUnits::Alike(UnitRates::new(units)),
+            Some(shares) if is_alike => OfUnits::Shared(SharedRates::new(units, shares)),
+            Some(shares) => OfUnits::Shared(SharedRates::new(units, shares).with_leverage()),
+            None => {
+                let runs = demand.record_count() * demand.level_count();
+                let shares = vec![1.0 / demand.record_count() as f64; runs];
+                OfUnits::Shared(SharedRates::new(units, &shares).with_leverage())
+            }
+        };
+        Self { of_units, per_year }
+    }
+
+    /// Of units of records that count as `weights` say.
+    pub(crate) fn weighted(weights: &RunWeights, units: &[Vec<usize>]) -> Self {
+        let of_units = OfUnits::Shared(SharedRates::new(units, weights.shares()).with_effective_units());
+        Self { of_units, per_year: weights.stripes().per_year() }
+    }
+
+    /// What a run adds to the rate, 1/yr.
+    pub(crate) fn of_run(&self, record: usize, level: usize) -> f64 {
+        let share = match &self.of_units {
+            OfUnits::Alike(rates) => rates.share(),
+            OfUnits::Shared(rates) => rates.share(record, level),
+        };
+        share * self.per_year[level]
+    }
+
+    /// Just these runs are exceeded.
+    pub(crate) fn start(&mut self, runs: impl Iterator<Item = Run>) {
+        let Self { of_units, per_year } = self;
+        match of_units {
+            OfUnits::Alike(rates) => rates.start(runs.map(|run| (run.record, run.share * per_year[run.level]))),
+            OfUnits::Shared(rates) => {
+                rates.start(runs.map(|run| (run.record, run.level, run.share * per_year[run.level])));
+            }
+        }
+    }
+
+    /// This run is exceeded too.
+    pub(crate) fn add(&mut self, run: Run) {
+        self.change(run, run.share);
+    }
+
+    /// This run is exceeded no more.
+    pub(crate) fn take_away(&mut self, run: Run) {
+        self.change(run, -run.share);
+    }
+
+    fn change(&mut self, Run { record, level, .. }: Run, share: f64) {
+        let per_year = share * self.per_year[level];
+        match &mut self.of_units {
+            OfUnits::Alike(rates) => rates.add(record, per_year),
+            OfUnits::Shared(rates) => rates.add(record, level, per_year),
+        }
+    }
+
+    /// The rate of all records, 1/yr, with the scatter of the units.
+    pub(crate) fn mean(&self) -> SkewedMean {
+        match &self.of_units {
+            OfUnits::Alike(rates) => rates.mean(),
+            OfUnits::Shared(rates) => rates.mean(),
+        }
+    }
+
+    /// To how many units that count alike they amount, all levels together.
+    pub(crate) fn equivalent_units(&self) -> f64 {
+        match &self.of_units {
+            OfUnits::Alike(rates) => rates.units() as f64,
+            OfUnits::Shared(rates) => rates.equivalent_units(),
+        }
+    }
+}
