@@ -143,6 +143,14 @@ fn a_design_has_the_frame_beside_its_proxy() {
     let sheet = std::fs::read_to_string(study.path().join("s.html")).unwrap();
     assert!(sheet.contains("The wobbling frame itself") && sheet.contains("required capacity, m"), "{sheet}");
 
+    // a factor that just the best estimate of the demand meets
+    let factor = 0.99 * number(&design["structure"]["capacity_m"]) / number(&models[0]["demand_m"]);
+    let just = ["design", "free.toml", "--urs", "r.h5", "--report", "s.html", "--safety-factor", &factor.to_string()];
+    let said = study.uplift(&[&just[..], &ask[..]].concat()).ok().stdout;
+    assert!(said.contains("wobbling frame not satisfied at the upper limit of the demand's band, "), "{said}");
+    let sheet = std::fs::read_to_string(study.path().join("s.html")).unwrap();
+    assert!(sheet.contains("The wobbling frame is not satisfied at the upper limit"), "{sheet}");
+
     let alone = study.uplift(&[&["design", "free.toml", "--urs", "r.h5", "--proxy"], &ask[..]].concat()).ok();
     assert!(alone.stdout.contains("by its proxy alone") && !alone.stdout.contains("wobbling"), "{}", alone.stdout);
     assert!(json(&study, &[&["design", "free.toml", "--proxy"], &ask[..]].concat())["frame"].is_null());

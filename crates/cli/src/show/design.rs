@@ -59,6 +59,9 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
         }
         _ => writeln!(out, "Verdict   {name}: no capacity, the force does not fall; {how_far}")?,
     }
+    for (whose, verdict) in report.unsafe_upper_limits() {
+        writeln!(out, "          {whose} {verdict}")?;
+    }
     for verdict in report.verdicts_by_other_measures() {
         writeln!(out, "          proxy {verdict}")?;
     }
@@ -139,7 +142,8 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     if let Some(why) = &report.unread {
         writeln!(out, "          {why}")?;
     }
-    for verdict in report.unsafe_upper_limit().into_iter().chain(report.verdicts_by_other_measures()) {
+    let unsafe_upper_limits = report.unsafe_upper_limits().into_iter().map(|(_, verdict)| verdict);
+    for verdict in unsafe_upper_limits.chain(report.verdicts_by_other_measures()) {
         writeln!(out, "          {verdict}")?;
     }
     // the notes begin with what the structure and the spectrum do not have in common

@@ -72,8 +72,9 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         let words = own.in_words(report.required_safety_factor);
         say(format!("By {words}: {}.", verdict_word(own.satisfied)), Some(class));
     }
-    if let Some(words) = report.unsafe_upper_limit().filter(|_| !is_of_proxy) {
-        say(format!("Its own demand is {words}."), Some("no"));
+    for (whose, words) in report.unsafe_upper_limits() {
+        let whose = if is_of_proxy { "The" } else { "Its" }.to_owned() + " " + whose;
+        say(format!("{whose} is {words}."), Some("no"));
     }
     for verdict in report.verdicts_by_other_measures() {
         let class = if verdict.contains("NOT") { "no" } else { "yes" };

@@ -3,7 +3,8 @@
 use uplift_job::text::{spectrum_words, two_digits};
 
 use super::DesignReport;
-use crate::rules::{RuleOutcome, verdict_word, verdicts_in_words};
+use crate::certainty::DemandBands;
+use crate::rules::{OwnCheck, RuleOutcome, verdict_word, verdicts_in_words};
 
 impl DesignReport {
     /// How many times as far as its proxy, the equivalent oscillator, the wobbling frame goes; none without a frame, or
@@ -69,13 +70,21 @@ impl DesignReport {
         told.collect()
     }
 
-    /// Where the structure's own demand is satisfied, and is not at the upper limit of its band: `not satisfied at the
-    /// upper limit of the demand's band, 0.50 m (requires 1.25 m)`.
-    pub fn unsafe_upper_limit(&self) -> Option<String> {
-        let capacity_m = self.structure.capacity_m?;
-        let [_, upper_m] = self.exact.as_ref()?.bands.as_ref()?.demand_m.quoted();
+    /// Whose demand is satisfied, and is not at the upper limit of its band, with `not satisfied at the upper limit of
+    /// the demand's band, 0.50 m (requires 1.25 m)`.
+    pub fn unsafe_upper_limits(&self) -> Vec<(&'static str, String)> {
+        let oscillator = if self.frame.is_some() { "proxy" } else { "own demand" };
+        let of_frame = self.frame.iter().flat_map(|frame| &frame.models);
+        let all = of_frame
+            .map(|of| (of.model, of.check, of.bands.as_ref()))
+            .chain(self.exact.iter().map(|exact| (oscillator, self.own_check, exact.bands.as_ref())));
+        all.filter_map(|(whose, check, bands)| Some((whose, self.unsafe_upper_limit(check?, bands?)?))).collect()
+    }
+
+    fn unsafe_upper_limit(&self, check: OwnCheck, bands: &DemandBands) -> Option<String> {
+        let [_, upper_m] = bands.demand_m.quoted();
         let required_m = self.required_safety_factor * upper_m;
-        (self.own_check.is_some_and(|own| own.satisfied) && required_m > capacity_m).then(|| {
+        (check.satisfied && required_m > self.structure.capacity_m?).then(|| {
             if required_m.is_finite() {
                 let upper = two_digits(upper_m);
                 format!("not satisfied at the upper limit of the demand's band, {upper} m (requires {required_m:.2} m)")
