@@ -21,7 +21,10 @@ fn the_widest_band_is_of_the_table_above() {
         let set: Vec<&str> = capacity.iter().flat_map(|set| ["--set", set]).collect();
         study.uplift(&[&["run", "study.toml", "-o", "r.h5", "-q", "--force"], &set[..]].concat()).ok();
         let said = study.uplift(&["bootstrap", "r.h5", "--sizes", "2,4", "--replicates", "60"]).ok().stdout;
-        let told = said.lines().find_map(|line| line.strip_prefix("Widest band: ")).unwrap_or_else(|| panic!("{said}"));
+        let told = said
+            .lines()
+            .find_map(|line| line.strip_prefix("Widest of these bands: "))
+            .unwrap_or_else(|| panic!("{said}"));
         let (site, strength) = told.split_once(';').unwrap().0.split_once(", strength ").unwrap();
         let of_all = said.lines().find_map(|line| line.strip_prefix("  4 records: ")).unwrap();
         let heading = said.lines().find(|line| line.starts_with("site ")).unwrap();
@@ -534,7 +537,7 @@ fn trends_of_table_4_1_appear_with_real_records() {
     println!("{text}");
     assert!(
         text.split_whitespace().collect::<Vec<_>>().join(" ").contains("| 3.9 63")
-            && text.contains("\nWidest band: ")
+            && text.contains("\nWidest of these bands: ")
             && !text.contains("Rocking initiation"),
         "the reference stands beside ours"
     );

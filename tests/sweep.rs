@@ -144,6 +144,8 @@ fn all_mistakes_of_all_variants_are_reported_before_anything_is_computed() {
     let left = std::fs::read_dir(study.path().join("s")).map_or(0, Iterator::count);
     assert_eq!(left, 0, "results before all inputs were looked at");
     study.uplift(&["sweep", "study.toml", "--over", "risk.years"]).fails(2, &["write KEY=VALUE"]);
+    let both = ["sweep", "study.toml", "--over", "risk.years=40,60", "--set", "risk.years=50"];
+    study.uplift(&both).fails(2, &["--over risk.years: --set gives it one value for all variants"]);
     study.uplift(&["sweep", "study.toml"]).fails(2, &["--over"]);
 }
 

@@ -40,6 +40,7 @@ fn plain_limits(edp_m: &[f64], units: &[Vec<usize>], target: f64, asked: (usize,
         let too_large = (0..ordinate).rev().find(|&at| deviates(&as_they_are, all[at])[which] > 1.0);
         let of_one = of_one * units.len() as f64 / asked.0 as f64;
         let factor = (3.0_f64.sqrt() * pooled(edp_m).ln_deviation() * (of_one / 2.0).cbrt()).exp();
+        let factor = (factor * 2.0_f64.powi(30)).round() / 2.0_f64.powi(30);
         let spread = [(factor, 1.0 / 6.0), (1.0, 2.0 / 3.0), (1.0 / factor, 1.0 / 6.0)];
         let upper_m = too_small(&spread, too_small(&as_they_are, all[ordinate], which), which);
         [all[too_large.map_or(0, |at| at + 1)], upper_m]

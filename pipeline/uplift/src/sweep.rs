@@ -226,6 +226,11 @@ fn ready(options: &SweepOptions, variants: &[Variant], folder: &Path) -> Result<
     let names = variants::names(variants);
     let (mut ready, mut mistakes): (Vec<Ready>, Vec<String>) = (Vec::new(), Vec::new());
     let keys = variants::keys(variants);
+    let is_set = |key: &&String| options.overrides.iter().any(|set| set.split('=').next().map(str::trim) == Some(*key));
+    // an empty cell of a table leaves what is set
+    if let Some(key) = keys.iter().find(is_set).filter(|_| options.cases.is_none()) {
+        mistakes.push(format!("--over {key}: --set gives it one value for all variants: leave one of them out"));
+    }
     if keys.iter().any(|key| key == "output.file") {
         mistakes.push(
             "output.file: the results of a sweep lie in its folder (-o) and are named after their variants: leave the \

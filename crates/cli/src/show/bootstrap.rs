@@ -188,7 +188,8 @@ fn print_sizes(out: &mut impl Write, report: &BootstrapReport, shown: &Displacem
     let (site_name, at) = (&widest.site, widest.strength);
     writeln!(
         out,
-        "\nWidest band: {site_name}, strength {at}; limits in per cent of the displacement, by the number of records"
+        "\nWidest of these bands: {site_name}, strength {at}; limits in per cent of the displacement, by the number of \
+         records"
     )?;
     for (size, count) in report.sizes.iter().enumerate() {
         let [lower, upper] = inferred.truth_m.each_ref().map(|limits| limits.block([site, poe, size])[strength]);

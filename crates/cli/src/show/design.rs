@@ -59,9 +59,6 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
         }
         _ => writeln!(out, "Verdict   {name}: no capacity, the force does not fall; {how_far}")?,
     }
-    for (whose, verdict) in report.unsafe_upper_limits() {
-        writeln!(out, "          {whose} {verdict}")?;
-    }
     for verdict in report.verdicts_by_other_measures() {
         writeln!(out, "          proxy {verdict}")?;
     }
@@ -70,6 +67,12 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
         writeln!(out, "Capacity  {capacity_m:.2} m, with a safety factor of {factor} (Eq. 3.15)")?;
     }
     let dash = || "-".to_owned();
+    let unsafe_upper_limits = report.unsafe_upper_limits();
+    let verdict = |whose: &str, is_satisfied: bool| {
+        let word = verdict_word(is_satisfied);
+        let is_unsafe = unsafe_upper_limits.iter().any(|(of, _)| *of == whose);
+        if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
+    };
     let risk = |risk: &EventRisk, band: Option<Bands>| {
         if risk.per_year > 0.0 { text::rate(risk.per_year) + &band_in_cell(band) } else { risk_cells(risk)[0].clone() }
     };
@@ -87,7 +90,7 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
             of.model.to_owned(),
             demand(of.demand_m, bands),
             of.check.map_or_else(dash, |check| required(check.required_capacity_m)),
-            of.check.map_or_else(dash, |check| verdict_word(check.satisfied).to_owned()),
+            of.check.map_or_else(dash, |check| verdict(of.model, check.satisfied)),
             risk(&of.overturning, bands.and_then(|bands| bands.overturning_per_year)),
         ]);
     }
@@ -98,7 +101,7 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
             "proxy, oscillator".to_owned(),
             demand(exact.demand_m, bands),
             report.own_check.map_or_else(dash, |check| required(check.required_capacity_m)),
-            report.own_check.map_or_else(dash, |check| verdict_word(check.satisfied).to_owned()),
+            report.own_check.map_or_else(dash, |check| verdict("proxy", check.satisfied)),
             risk(&exact.overturning, overturning),
         ]);
     }
