@@ -524,7 +524,7 @@ fn numbers_in_other_units_are_accepted_and_reported() {
         assert!(mistake.starts_with(start), "{mistake}");
     }
     let shown = study.uplift(&[&pier[..], &["--details"]].concat()).ok().stdout;
-    assert!(shown.contains("\nThese verdicts hold only if the inputs marked mistake? below are right.\n"), "{shown}");
+    assert!(shown.contains("\nThese verdicts hold only if the inputs marked mistake? below are correct.\n"), "{shown}");
 }
 
 #[test]

@@ -169,7 +169,7 @@ fn mistakes_in_the_section_are_named() {
     let study = study(BOTH, "pgv pga", more);
     study.uplift(&["check", "study.toml"]).fails(
         3,
-        &["4 mistakes", "did you mean `weights`", "0.001 to 10", "these are no two factors, the smaller first"],
+        &["4 mistakes", "did you mean `weights`", "0.001 to 10", "two factors are needed, the smaller first"],
     );
 }
 

@@ -154,6 +154,6 @@ fn a_body_wider_than_tall_is_doubted_on_the_first_line() {
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     study.write("pier.toml", "kind = \"block\"\nwidth_m = 18\nheight_m = 2.5\nmass_kg = 400e3\n");
     let said = study.uplift(&["design", "pier.toml", "--urs", "r.h5", "--site", "There"]).ok().stdout;
-    assert!(said.lines().next().unwrap().contains("if its numbers are right (mistake? below)"), "{said}");
+    assert!(said.lines().next().unwrap().contains("subject to the mistake? below, "), "{said}");
     assert!(said.contains("mistake? pier: wider than tall"), "{said}");
 }

@@ -71,7 +71,7 @@ fn numbers_of_displacement_spectra() {
     );
     study.uplift(&["check", "study.toml"]).ok();
     for (setting, words) in [
-        ("scaling.to=\"1e300 PGA\"", &["no scaling", "1e-4 to 10000"][..]),
+        ("scaling.to=\"1e300 PGA\"", &["is not a scaling", "1e-4 to 10000"][..]),
         ("oscillator.uplift_displacement_m=1e6", &["from 1e-6 to 10 m"]),
         ("oscillator.capacity_m=[0.000500000001]", &["stiffness after uplift"]),
         ("design.safety_factor=1e300", &["from 1 to 1000", "not a percentage"]),
@@ -104,7 +104,7 @@ fn arguments_that_nobody_means() {
     }
     response(&["--strength", "1e10"]).fails(2, &["strength is 1e10", "from 0 to 100"]);
     // all at once
-    response(&["--strength", "1e10", "--scale", "1e308"]).fails(2, &["2 things to mend", "strength", "scale"]);
+    response(&["--strength", "1e10", "--scale", "1e308"]).fails(2, &["2 problems", "strength", "scale"]);
     response(&[&strength[..], &["--capacity-m", "0.000500000001"]].concat()).fails(2, &["stiffness after uplift"]);
     let stiff = ["--uplift-displacement-m", "1e-6", "--free-vibration-s", "3600", "--gravity-m-s2", "900"];
     response(&[&["--strength", "10"], &stiff[..]].concat()).fails(2, &["1e7 are computed at most"]);

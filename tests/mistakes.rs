@@ -138,7 +138,7 @@ fn records_entered_twice() {
             4,
             &["record B is record A again", "copy.AT2", "record C has a motion of record A", "records.duplicates"],
         );
-        assert!(failed.stderr.contains("2 things to mend"), "{}", failed.stderr);
+        assert!(failed.stderr.contains("2 problems"), "{}", failed.stderr);
     }
     let keep = ["--set", "records.duplicates=keep"];
     let checked = study.uplift(&[&["check", "study.toml"], &keep[..]].concat()).ok();
@@ -361,7 +361,7 @@ fn names_of_other_outputs() {
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     study
         .uplift(&["run", "study.toml", "--shard", "1/2", "-o", "x.h5"])
-        .fails(2, &["x.h5: a shard is no result yet", "write -o x.shard-1-of-2", "`uplift merge`"]);
+        .fails(2, &["x.h5: a shard is not yet a result", "write -o x.shard-1-of-2", "`uplift merge`"]);
     for (arguments, words) in [
         (&["plot", "r.h5", "-o", "figures.h5"][..], "write -o figures"),
         (&["plot", "r.h5", "-o", "r.h5"], "write -o r"),

@@ -380,7 +380,7 @@ fn a_table_is_overwritten_only_by_the_same_table() {
     study.uplift(&["influence", "r.h5"]).ok();
     study.uplift(&["bootstrap", "r.h5", "--replicates", "20", "--sizes", "2"]).ok();
     for table in ["r.urs.csv", "r.regression.csv", "r.influence.csv", "r.bands.csv", "r.table-4-1.csv"] {
-        refused(&study, &["export", "r.h5", "--csv", "-o", table], table, "is there already");
+        refused(&study, &["export", "r.h5", "--csv", "-o", table], table, "already exists");
     }
 }
 

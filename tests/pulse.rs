@@ -186,12 +186,12 @@ fn mistakes_are_reported_before_the_work() {
         (&["--frequencies", "3"], &["at least two values"]),
         (&["--accelerations", "1:0.3:2"], &["--accelerations", "misses its stop", "whole number of steps"]),
         (&["--half-widths", "2,1"], &["1 follows 2", "must increase"]),
-        (&["--sizes-m", "x"], &["--sizes-m", "\"x\" is no number"]),
+        (&["--sizes-m", "x"], &["--sizes-m", "\"x\" is not a number"]),
         (&["--frequency-lines", "1:1:20"], &["20 lines", "at most 7"]),
         (&["--frequencies", "0.001:0.001:10", "--accelerations", "0.001:0.001:10"], &["100,000,000 points"]),
         (&["--slenderness", "1.2"], &["slenderness alpha is 1.2 rad"]),
         (&["--restitution", "-1"], &["restitution r is -1"]),
-        (&["--amplitude-g", "nan", "--period-s", "0"], &["2 things to mend", "amplitude is NaN g", "period is 0 s"]),
+        (&["--amplitude-g", "nan", "--period-s", "0"], &["2 problems", "amplitude is NaN g", "period is 0 s"]),
         (&["--period-s", "0"], &["period is 0 s", "from 1e-4 to 10000 s"]),
     ] {
         uplift(folder.path(), &[&["pulse"], arguments].concat()).fails(2, words);

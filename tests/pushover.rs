@@ -139,8 +139,8 @@ fn tables_and_figures() {
     assert!(!drawn("alone.svg").contains("force over weight"));
     study.uplift(&["plot", &frame, "-o", "figures", "--only", "nothing"]).fails(2, &["tendon-path", "elevation"]);
     study.write("mine.csv", "a,b\n1,2\n");
-    study.uplift(&["pushover", &frame, "-o", "mine.csv"]).fails(2, &["mine.csv is there already"]);
-    study.uplift(&["protocol", "-o", "mine.csv"]).fails(2, &["mine.csv is there already"]);
+    study.uplift(&["pushover", &frame, "-o", "mine.csv"]).fails(2, &["mine.csv already exists"]);
+    study.uplift(&["protocol", "-o", "mine.csv"]).fails(2, &["mine.csv already exists"]);
     study.uplift(&["pushover", &frame, "-o", &frame]).fails(2, &["give a name that ends in .csv"]);
 }
 
@@ -166,7 +166,7 @@ fn tables_give_way_to_their_own_kind() {
     for (file, _) in &kinds {
         let before = std::fs::read(study.path().join(file)).unwrap();
         for (other, arguments) in kinds.iter().filter(|(other, _)| other != file) {
-            into(arguments, file).fails(2, &[&format!("{file} is there already")]);
+            into(arguments, file).fails(2, &[&format!("{file} already exists")]);
             assert_eq!(std::fs::read(study.path().join(file)).unwrap(), before, "{other} over {file}");
         }
     }

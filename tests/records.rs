@@ -181,14 +181,14 @@ fn synthetic_records_are_made_listed_shown_and_chosen() {
     let made = ["records", "synthesize", "-o", "set", "--count", "6", "--seed", "3", "--magnitude", "6.5:7.5"];
     let done = uplift(at, &made).ok();
     assert!(done.stdout.contains("6 synthetic pairs") && done.stderr.contains("not for design"), "{}", done.stderr);
-    uplift(at, &made).fails(2, &["manifest.csv is there already"]);
+    uplift(at, &made).fails(2, &["manifest.csv already exists"]);
     uplift(at, &["records", "synthesize", "-o", "x", "--magnitude", "5"]).fails(2, &["magnitude is 5", "6 to 8"]);
     uplift(at, &["records", "synthesize", "-o", "x", "--vs30", "500:"]).fails(2, &["both ends"]);
     assert!(!at.join("x").exists());
 
     // what is synthetic stays so, whichever way it comes back
     uplift(at, &["records", "import", "set", "-o", "imported.csv"]).ok();
-    uplift(at, &["records", "import", "set", "-o", "imported.csv"]).fails(2, &["imported.csv is there already"]);
+    uplift(at, &["records", "import", "set", "-o", "imported.csv"]).fails(2, &["imported.csv already exists"]);
     let study = SmallStudy::new();
     for manifest in ["set/manifest.csv", "imported.csv"] {
         let set = format!("records.manifest={}", at.join(manifest).display());

@@ -100,7 +100,7 @@ fn what_hangs_on_rounding_is_marked_wherever_it_is_shown() {
         .collect();
     assert!(cells.iter().any(|cell| cell.contains('*')), "{cells:?}");
     assert!(cells.iter().all(|cell| row.contains(cell)), "{cells:?}\n{row}");
-    assert!(printed.contains("*: rounding decides it"), "{printed}");
+    assert!(printed.contains("*: the last digits are not significant (rounding"), "{printed}");
 
     // designs: in the table with the range below it, and as JSON says
     let table = study.uplift(&["table", "r.h5", "--json"]).json();

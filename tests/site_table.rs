@@ -380,7 +380,7 @@ fn arrays_hold_what_the_tables_hold() {
     assert_eq!(cube(study.path(), "alone").array_f64("/urs/u_m").unwrap().values.len(), u_m.values.len());
     // and another file of that name is nobody's to replace
     study.write("mine.sites.h5", "mine");
-    study.uplift(&["run", "study.toml", "-o", "mine.h5"]).fails(2, &["mine.sites.h5", "is there already"]);
+    study.uplift(&["run", "study.toml", "-o", "mine.h5"]).fails(2, &["mine.sites.h5", "already exists"]);
 }
 
 #[test]
@@ -439,7 +439,7 @@ fn slices_that_do_not_make_the_table_are_refused() {
     let other = ["merge", "study.toml", &one, &two, &three, "-o", "joined.h5", "--set", "risk.years=10"];
     study.uplift(&other).fails(4, &["slice-1-of-3.h5: is a slice of another study"]);
     study.uplift(&["run", "study.toml", "-o", "whole.h5", "-q"]).ok();
-    merge(&["whole.h5", &two]).fails(4, &["whole.h5: is no slice of a table"]);
+    merge(&["whole.h5", &two]).fails(4, &["whole.h5: is not a slice of a table"]);
     for ask in ["table", "spectrum"] {
         study.uplift(&[ask, "whole.h5"]).fails(4, &["not in the result, but in whole.sites.h5 and whole.sites.csv"]);
     }
@@ -456,7 +456,7 @@ fn slices_that_do_not_make_the_table_are_refused() {
     study.uplift(&["run", "study.toml", "--sites", "8/8"]).fails(4, &["has 7 sites: at most 7 slices"]);
     study.uplift(&["status", "whole.sites.h5"]).fails(4, &["the sites of a result as arrays"]);
     let plain = SmallStudy::new();
-    plain.uplift(&["run", "study.toml", "--sites", "1/4"]).fails(3, &["there is no table of sites"]);
+    plain.uplift(&["run", "study.toml", "--sites", "1/4"]).fails(3, &["the study has no table of sites"]);
     plain.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     plain
         .uplift(&["merge", "study.toml", "r.h5", "-o", "m.h5"])
@@ -477,7 +477,7 @@ fn mistakes_in_the_study() {
         ("site_table.within=3", &["unknown key `within`", "within_km"]),
         ("site_table=3", &["a section"]),
         ("site_table.bands=3", &["bands", "true or false"]),
-        ("site_table.slice=\"9/3\"", &["\"9/3\" is no slice", "write 3/1000"]),
+        ("site_table.slice=\"9/3\"", &["\"9/3\" is not a slice", "write 3/1000"]),
     ] {
         study.uplift(&["check", "study.toml", "--set", set]).fails(3, words);
     }

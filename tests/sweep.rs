@@ -130,7 +130,7 @@ fn all_mistakes_of_all_variants_are_reported_before_anything_is_computed() {
     study.uplift(&[&["sweep", "study.toml", "-o", "s"][..], &over].concat()).fails(
         2,
         &[
-            "to mend in the variants",
+            "in the variants",
             "- --over oscillator.restitution=1.5: ",
             "- --over oscillator.restitution=95: ",
             "- --over records.frist=3: ",
@@ -197,7 +197,7 @@ fn nothing_of_others_is_replaced() {
     let ask = ["sweep", "study.toml", "-o", "s", "--over", "oscillator.restitution=0.85,0.95", "-q"];
     std::fs::create_dir(study.path().join("s")).unwrap();
     study.write("s/comparison.csv", "a,b\n1,2\n");
-    study.uplift(&ask).fails(2, &["comparison.csv is there already"]);
+    study.uplift(&ask).fails(2, &["comparison.csv already exists"]);
     std::fs::remove_file(study.path().join("s/comparison.csv")).unwrap();
     study.write("s/restitution-0.95.h5", "mine");
     study.uplift(&ask).fails(4, &["restitution-0.95", "is not an HDF5 file"]);

@@ -203,7 +203,7 @@ fn an_unreachable_target_is_reported() {
     let period = ["--overturning", "20000", "--vary", "width"];
     ask(&period).fails(2, &["a rate per year: 5e-5 is once in 20,000 years"]);
     ask(&["--overturning", "1/20000", "--vary", "width"]).fails(2, &["write a number, 5e-5"]);
-    ask(&["--overturning", "-1", "--vary", "width", "--tolerance", "7"]).fails(2, &["2 things to mend", "--tolerance"]);
+    ask(&["--overturning", "-1", "--vary", "width", "--tolerance", "7"]).fails(2, &["2 problems", "--tolerance"]);
     ask(&["--per-year", "1e-3", "--exceed", "x", "--vary", "width"]).fails(2, &["'x' for '--exceed", "or `capacity`"]);
     ask(&["--overturning", "2e-3", "--vary", "width", "--site", "Nowhere"])
         .fails(2, &["the result has no site Nowhere: it has Here"]);
@@ -237,7 +237,7 @@ fn stripes_are_kept_until_the_answer_is_there() {
     std::fs::remove_dir(&checkpoint).unwrap();
     // the table has a row for every value tried, and replaces nothing of another kind
     study.write("mine.csv", "a,b\n1,2\n");
-    study.uplift(&[&ask[..], &["-o", "mine.csv"]].concat()).fails(2, &["mine.csv is there already"]);
+    study.uplift(&[&ask[..], &["-o", "mine.csv"]].concat()).fails(2, &["mine.csv already exists"]);
     study.uplift(&[&ask[..], &["-o", "tried.csv", "-q"]].concat()).ok();
     let table = std::fs::read_to_string(study.path().join("tried.csv")).unwrap();
     let found: Value = serde_json::from_str(&whole).unwrap();

@@ -180,7 +180,7 @@ fn samples_tables_and_figures() {
         .ok();
     assert!(std::fs::read(study.path().join("pairs.png")).unwrap().starts_with(b"\x89PNG"));
     // nobody else's table is overwritten
-    study.uplift(&[&arguments[..], &["-o", "measured.csv"]].concat()).fails(2, &["measured.csv is there already"]);
+    study.uplift(&[&arguments[..], &["-o", "measured.csv"]].concat()).fails(2, &["measured.csv already exists"]);
     study
         .uplift(&["validate", "measured.csv", "computed.csv", "--by", "level", "-o", "computed.csv", "--force"])
         .fails(2, &["would overwrite an input"]);
@@ -195,13 +195,7 @@ fn mistakes() {
     let run = |arguments: &[&str]| study.uplift(&[&["validate"], arguments].concat());
     run(&["bad.csv", "good.csv", "--by", "level"]).fails(
         4,
-        &[
-            "4 things to mend",
-            "row 2, level: blank",
-            "row 3, u_m: \"fell over\"",
-            "row 4, u_m: -0.1 is below 0",
-            "row 5",
-        ],
+        &["4 problems", "row 2, level: blank", "row 3, u_m: \"fell over\"", "row 4, u_m: -0.1 is below 0", "row 5"],
     );
     run(&["good.csv", "good.csv", "--value", "drift"]).fails(4, &["drift, drift_percent", "u_m, exc_id, class, level"]);
     study.write("two.csv", "u_m,u_mm\n1,1000\n");

@@ -80,14 +80,14 @@ impl AtomicFile {
             .write(true)
             .open(&self.partial)
             .and_then(|file| file.sync_all())
-            .map_err(io_error(&self.target, "bring the file to the disk"))?;
+            .map_err(io_error(&self.target, "write the file to disk"))?;
         if let Some(permissions) = &self.permissions {
             set_permissions(&self.partial, permissions)?;
         }
         fs::rename(&self.partial, &self.target).map_err(io_error(&self.target, "put the finished file in place"))?;
         self.replaced = true;
         let _ = self.lock.unlock();
-        sync_folder(folder_of(&self.target)).map_err(io_error(&self.target, "bring the folder to the disk"))
+        sync_folder(folder_of(&self.target)).map_err(io_error(&self.target, "write the folder to disk"))
     }
 }
 

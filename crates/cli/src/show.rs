@@ -88,8 +88,7 @@ fn print_more(out: &mut impl Write, terminal: &Terminal) -> Result<(), CommandEr
 }
 
 /// What an asterisk says of a number of displacement spectra and their designs.
-const ROUNDING_DECIDES: &str = "*: rounding decides it: with scale factors some 1e-15 smaller or larger it has other \
-                                digits (docs/method.md, section 1.5)";
+const ROUNDING_DECIDES: &str = "*: the last digits are not significant (rounding, docs/method.md, section 1.5)";
 
 /// A path as short as the user would type it.
 pub(crate) fn shown_path(path: &Path) -> &Path {

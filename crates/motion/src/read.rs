@@ -191,7 +191,7 @@ pub(crate) fn bytes_of(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, MotionE
     let unreadable = |reason| MotionError::Unreadable { path: path.to_owned(), reason };
     // a pipe would be waited for, and a device read for ever
     if !std::fs::metadata(path).map_err(unreadable)?.is_file() {
-        return Err(unreadable(io::Error::other("it is no file, but a folder, a device or a pipe")));
+        return Err(unreadable(io::Error::other("it is a folder, a device or a pipe, not a file")));
     }
     let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(limit_bytes + 1).read_to_end(&mut bytes)).map_err(unreadable)?;

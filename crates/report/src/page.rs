@@ -182,7 +182,7 @@ pub(crate) fn render(template: &'static str, context: Value) -> Result<String, U
         .and_then(|template| template.render(context))
         // what is no letter may be hidden in a text of the results, and is of no page
         .map(|page| visible(&page).into_owned())
-        .map_err(|error| JobError::input(format!("the page cannot be made: {error}")))?)
+        .map_err(|error| JobError::input(format!("cannot create the page: {error}")))?)
 }
 
 impl TitledTable {

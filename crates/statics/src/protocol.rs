@@ -72,7 +72,13 @@ impl LoadingProtocol {
         require(sets >= 1, "sets", f64::from(sets), "", "at least 1")?;
         require(cycles >= 1, "cycles", f64::from(cycles), "", "at least 1")?;
         let turns = u64::from(sets) * u64::from(cycles) * 4;
-        require(turns <= MOST_POINTS, "cycles", f64::from(cycles), "", "fewer: a million turns are no protocol")?;
+        require(
+            turns <= MOST_POINTS,
+            "cycles",
+            f64::from(cycles),
+            "",
+            "fewer cycles: the protocol would have a million turns",
+        )?;
         let protocol = Self { first_drift, ratio, sets, cycles, rate_per_s };
         // a ratio of 1 is a column that lies at 45 degrees
         let last = protocol.amplitude(sets);

@@ -89,7 +89,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Vec<Alarm> {
             meaningless.push(case(
                 Severity::Note,
                 1.0,
-                "the spectrum is no decaying exponential, so single coefficients mean nothing".to_owned(),
+                "the spectrum is not a decaying exponential, so single coefficients mean nothing".to_owned(),
                 "Use the ordinates",
             ));
         }

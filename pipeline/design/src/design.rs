@@ -147,9 +147,9 @@ pub fn design(
                 let analysed = (options, records);
                 own = Some(OwnAnalysis::from_structure(structure, (&file, &source), &question, analysed, events)?);
             }
-            Err(reason) => notes.push(format!(
-                "the structure itself is not analysed, and what follows is what the spectrum alone says: {reason}"
-            )),
+            Err(reason) => {
+                notes.push(format!("the structure itself is not analysed; all below is from the spectrum: {reason}"));
+            }
         }
     }
     let (exact, uncertainty, frame, checkpoint) = match own {

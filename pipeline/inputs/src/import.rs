@@ -130,7 +130,7 @@ pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportRepo
     let remarks = Remarks::from_import(&imported);
     let remarks_file = (!remarks.is_empty()).then(|| manifest.with_extension("remarks.txt"));
     if let Some(file) = &remarks_file {
-        let mut text = format!("# {}: records import, what deserves a look\n", outputs::mark());
+        let mut text = format!("# {}: remarks of records import\n", outputs::mark());
         text.extend(remarks.iter().map(ToString::to_string));
         write_atomically(file, text.as_bytes())?;
     }

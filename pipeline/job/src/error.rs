@@ -40,7 +40,7 @@ pub enum JobError {
     /// A job cannot fit on this machine; why.
     #[error(
         "{}\n(the need is an estimate: UPLIFT_LIMITS=warn in the environment continues)",
-        list(" before it fits on this machine", .0)
+        list(" with memory or disk", .0)
     )]
     Room(Vec<String>),
     /// A file cannot be opened or written.
@@ -113,7 +113,7 @@ pub fn list(place: &str, mistakes: &[impl ToString]) -> String {
         many => {
             let lines: Vec<String> =
                 many.iter().map(|mistake| format!("  - {}", one_line(&mistake.to_string()))).collect();
-            format!("{} things to mend{place}:\n{}", many.len(), lines.join("\n"))
+            format!("{} problems{place}:\n{}", many.len(), lines.join("\n"))
         }
     }
 }

@@ -136,7 +136,7 @@ impl Output {
                 OutputKind::Record => ", and studies may use it",
                 _ => ", and is not the same kind of file from this program",
             };
-            return Some(format!("{name} is there already{why}: give another name, or --force to replace it"));
+            return Some(format!("{name} already exists{why}: give another name, or --force to replace it"));
         }
         let words = told.unwrap_or(head);
         let other = self.result.as_ref().filter(|result| !names_result(&words, result));

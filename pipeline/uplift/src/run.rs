@@ -141,7 +141,7 @@ pub fn run_with(
     if report.as_ref().is_err_and(is_of_disk) && checkpoint.is_file() {
         let name = checkpoint.display();
         events.note(&format!(
-            "the finished analyses are in {name}: mend what it says, and run the same command to resume"
+            "the finished analyses are in {name}: solve the problem, and run the same command to resume"
         ));
     }
     report

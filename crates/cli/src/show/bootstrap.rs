@@ -67,7 +67,7 @@ fn print_figures(
         "\nAccuracy of the spectra, {}: error of the median e and width r of the {} interval, per cent{}",
         risk_in_words(report.stored.poes[poe], report.stored.years),
         per_cent(report.confidence),
-        if reference.is_some() { "; right of the bars the reference" } else { "" }
+        if reference.is_some() { "; reference to the right of each bar" } else { "" }
     )?;
     let places = report.stored.sites.iter().enumerate();
     let places = places.flat_map(|site| report.sizes.iter().enumerate().map(move |size| (site, size)));

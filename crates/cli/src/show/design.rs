@@ -137,7 +137,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     // of a frame that can wobble it is the proxy that is judged
     let whose = if report.wobbles { ", by its proxy alone" } else { "" };
     let is_doubted = report.alarms.iter().any(|alarm| alarm.severity == Severity::Mistake);
-    let doubt = if is_doubted { "if its numbers are right (mistake? below), " } else { "" };
+    let doubt = if is_doubted { "subject to the mistake? below, " } else { "" };
     writeln!(out, "Verdict   {name}{whose}, {has}: {doubt}{}", report.verdict())?;
     if let Some(verdicts) = report.verdicts() {
         writeln!(out, "          {verdicts}")?;
@@ -340,7 +340,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         Table::new(header, rows)
     )?;
     if report.alarms.iter().any(|alarm| alarm.severity == Severity::Mistake) {
-        writeln!(out, "These verdicts hold only if the inputs marked mistake? below are right.")?;
+        writeln!(out, "These verdicts hold only if the inputs marked mistake? below are correct.")?;
     }
     let tendons = report.rules.iter().filter_map(|outcome| {
         let stiffness_n_m = outcome.check()?.required_tendon_stiffness_n_m?;

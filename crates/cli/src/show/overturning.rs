@@ -248,8 +248,8 @@ fn print_rounding(out: &mut impl Write, report: &OverturningReport) -> Result<()
     if !moved.is_empty() {
         writeln!(
             out,
-            "*: rounding decides it, and what follows from it: with all scale factors some 1e-15 smaller and larger it \
-             is, lowest to highest\n(docs/method.md, section 1.5)\n{}",
+            "*: the last digits are not significant (rounding, docs/method.md, section 1.5). Range over scale factors \
+             some 1e-15 lower and higher:\n{}",
             moved.join("\n")
         )?;
     }

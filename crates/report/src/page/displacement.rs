@@ -100,7 +100,7 @@ fn rounding(rows: &[DesignRow]) -> String {
         return String::new();
     }
     format!(
-        " *: rounding decides it; with scale factors some 1e-15 smaller and larger it is, lowest to highest: {}.",
+        " *: the last digits are not significant (rounding). Range over scale factors some 1e-15 lower and higher: {}.",
         moved.join("; ")
     )
 }

@@ -126,7 +126,7 @@ fn target(item: &Field<'_>) -> Option<ScaledTo> {
     };
     let target = ScaledTo::parse(text);
     if target.is_none() {
-        item.mistake(format!("{} is no scaling", item.node.describe()), HELP);
+        item.mistake(format!("{} is not a scaling", item.node.describe()), HELP);
     }
     target
 }

@@ -30,7 +30,7 @@ pub(crate) fn values(text: &str) -> Result<Vec<f64>, GridError> {
             Ok(vec![value.numerator as f64 / value.denominator as f64])
         }
         [start, step, stop] => range(start, step, stop),
-        _ => refuse(format!("\"{text}\" is no grid"), "write a number, or \"start:step:stop\" as in \"0:1/300:1\""),
+        _ => refuse(format!("\"{text}\" is not a grid"), "write a number, or \"start:step:stop\" as in \"0:1/300:1\""),
     }
 }
 
@@ -89,7 +89,7 @@ fn range(start: &str, step: &str, stop: &str) -> Result<Vec<f64>, GridError> {
 fn not_a_number<T>(text: &str) -> Result<T, GridError> {
     let help = commas(text)
         .unwrap_or_else(|| "write a decimal such as 0.025 or 2.5e-2, or a fraction such as 1/300".to_owned());
-    refuse(format!("\"{text}\" is no number"), help)
+    refuse(format!("\"{text}\" is not a number"), help)
 }
 
 fn too_many_digits<T>(text: &str) -> Result<T, GridError> {

@@ -32,7 +32,7 @@ pub(crate) fn apply(root: &mut Table, index: usize, text: &str) -> Result<(), Fi
     let Some(parts) = split(path.trim()) else {
         return Err(refuse(
             "",
-            format!("\"{path}\" is no key"),
+            format!("\"{path}\" is not a key"),
             "write a dotted key, e.g. risk.years, sites.Athens.pgv or sites.\"Sion 2.1\".pgv".to_owned(),
         ));
     };

@@ -97,7 +97,7 @@ impl Paths {
             );
         } else if path.extension().is_none_or(|extension| extension != "h5") {
             field.mistake(
-                format!("the result is an HDF5 file, and this is none by its name: {}", path.display()),
+                format!("the result is an HDF5 file, but this name says otherwise: {}", path.display()),
                 "give it a name that ends in .h5, e.g. results/study.h5",
             );
         }

@@ -231,7 +231,7 @@ fn one_by_one() {
         ),
         (
             "kind = \"displacement spectra\"\n[oscillator]\n[output]\nfile = \"notes.txt\"",
-            "output.file: the result is an HDF5 file, and this is none by its name",
+            "output.file: the result is an HDF5 file, but this name says otherwise",
         ),
     ] {
         let folder = Folder::new(study);

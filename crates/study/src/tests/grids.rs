@@ -65,13 +65,13 @@ fn forms_of_a_grid_agree() {
 #[test]
 fn refused() {
     for (text, reason) in [
-        ("", "no number"),
-        ("abc", "no number"),
-        ("inf", "no number"),
-        ("nan", "no number"),
-        ("1e400", "no number"),
-        ("0:1", "no grid"),
-        ("0:1:2:3", "no grid"),
+        ("", "not a number"),
+        ("abc", "not a number"),
+        ("inf", "not a number"),
+        ("nan", "not a number"),
+        ("1e400", "not a number"),
+        ("0:1", "not a grid"),
+        ("0:1:2:3", "not a grid"),
         ("0:0:1", "the step 0"),
         ("0:-1:1", "the step -1"),
         ("1:0.1:0", "stops below"),
@@ -80,14 +80,14 @@ fn refused() {
         ("0:1e-12:1", "1000000000001 values"),
         ("0:1e-5:1", "100001 values"),
         ("0:1e-30:1", "too many digits"),
-        ("0:1e-99999999999:1", "no number"),
+        ("0:1e-99999999999:1", "not a number"),
         ("0:1e-2147483648:1", "too many digits"),
         ("0:1:1e2147483647", "too many digits"),
         ("0:123456789012345678901234567890123456789012345:1", "too many digits"),
-        ("0:.:1", "no number"),
-        ("0:1_0:20", "no number"),
-        ("0:+-1:2", "no number"),
-        ("0:١:2", "no number"),
+        ("0:.:1", "not a number"),
+        ("0:1_0:20", "not a number"),
+        ("0:+-1:2", "not a number"),
+        ("0:١:2", "not a number"),
     ] {
         let fault = notation::values(text).unwrap_err();
         assert!(fault.message.contains(reason), "{text}: {}", fault.message);
@@ -182,6 +182,6 @@ fn grids_on_the_command_line() {
     assert_eq!(parse("0.5, 1:1/4:1.5 ,3").as_deref(), Ok(&[0.5, 1.0, 1.25, 1.5, 3.0][..]));
     let told = |text: &str| parse(text).map_err(|error: GridError| error.to_string()).unwrap_err();
     assert!(told("1,2,2").contains("2 follows 2, but a grid must increase: sort the values"));
-    assert!(told("1,,2").contains("\"\" is no number") && told("").contains("is no number"));
+    assert!(told("1,,2").contains("\"\" is not a number") && told("").contains("is not a number"));
     assert!(told("0:1e-9:1").contains("at most 100000 values"));
 }

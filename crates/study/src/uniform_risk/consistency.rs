@@ -163,7 +163,7 @@ fn scale_factors(field: &Field<'_>) -> Option<[f64; 2]> {
     match numbers[..] {
         [least, largest] if least < largest => Some([least, largest]),
         _ => {
-            field.mistake("these are no two factors, the smaller first", "write e.g. scale_factors = [0.2, 5]");
+            field.mistake("two factors are needed, the smaller first", "write e.g. scale_factors = [0.2, 5]");
             None
         }
     }

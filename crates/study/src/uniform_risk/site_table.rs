@@ -208,7 +208,7 @@ fn section(
     }
     let has_exports = exports.as_ref().is_none_or(|exports| !exports.is_empty());
     if let Some(slice) = section.given(&SLICE).filter(|_| !has_exports && !of_the_study) {
-        slice.mistake("there is no table of sites to take a part of", "add [site_table], or leave --sites out");
+        slice.mistake("the study has no table of sites to slice", "add [site_table], or leave --sites out");
         exports = None;
     } else if !of_the_study && !studied.is_empty() {
         let keys: Vec<&str> = studied.iter().map(|measure| measure.key()).collect();
@@ -268,7 +268,7 @@ fn export(
 
 fn slice_of(field: &Field<'_>) -> Option<SiteSlice> {
     let text = SLICE.read(field)?;
-    text.parse().map_err(|help: String| field.mistake(format!("{text:?} is no slice of a table"), help)).ok()
+    text.parse().map_err(|help: String| field.mistake(format!("{text:?} is not a slice of a table"), help)).ok()
 }
 
 /// A grid of strengths that are all `known`; where the study's own are wrong, only the notation is checked.

@@ -38,7 +38,7 @@ pub enum CheckpointError {
     },
     /// It is a shard of other work, which must not be lost.
     #[error(
-        "{}: is there already, as shard {shard} of {shards} of other work{}: remove it, or give another name (-o)",
+        "{}: already exists, as shard {shard} of {shards} of other work{}: remove it, or give another name (-o)",
         path.display(),
         in_brackets(title)
     )]

@@ -61,7 +61,7 @@ pub(super) fn pairs(components: Vec<Component>, search: &SearchResults, warnings
             2 if !may_be_a_pair(&horizontal) => warnings.push(Warning {
                 kind: "same direction",
                 text: format!(
-                    "{}: these point in nearly the same direction, so they are no two components of one motion; left \
+                    "{}: these point in nearly the same direction, so they are not two components of one motion; left \
                      out: if they are, add a row of the manifest by hand",
                     names()
                 ),

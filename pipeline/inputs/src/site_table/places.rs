@@ -118,7 +118,7 @@ impl<'a> Columns<'a> {
         if !(-90.0..=90.0).contains(&latitude_deg) || !(-180.0..=360.0).contains(&longitude_deg) {
             let swapped = if longitude_deg.abs() <= 90.0 { "; are they swapped?" } else { "" };
             return Err(format!(
-                "longitude {longitude_deg}, latitude {latitude_deg} is no place on earth: give degrees{swapped}"
+                "longitude {longitude_deg}, latitude {latitude_deg} is not a place on Earth: give degrees{swapped}"
             ));
         }
         let name = self.name.map(|column| cell(column, row)).filter(|name| !name.is_empty());

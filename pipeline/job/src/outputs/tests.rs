@@ -69,13 +69,13 @@ fn a_table_is_recognised_by_the_metadata_beside_it() {
     assert!(refused(&path, kind, &[&beside], true).unwrap().contains("an input"));
     // another table in its place, or another file beside it
     write("site,iml", &ours);
-    assert!(refused(&path, kind, &[], false).unwrap().contains("a.csv is there already"));
+    assert!(refused(&path, kind, &[], false).unwrap().contains("a.csv already exists"));
     write("site,u_m", "{\"dc:title\": \"mine\"}");
     assert!(refused(&path, kind, &[], false).unwrap().contains("a.csv-metadata.json exists and is not"));
     assert_eq!(refused(&path, kind, &[], true), None);
     // a table that nothing is said of
     std::fs::remove_file(&beside).unwrap();
-    assert!(refused(&path, kind, &[], false).unwrap().contains("a.csv is there already"));
+    assert!(refused(&path, kind, &[], false).unwrap().contains("a.csv already exists"));
 }
 
 #[test]

@@ -253,7 +253,7 @@ impl Tally {
             "have ordinates that are censored: overturned runs, or the last threshold, exceed the target risk",
             "have ordinates that take more than 1 % of their risk from outside the levels: add lower or higher levels",
             "have no fit: the column `problem` says why",
-            "have a spectrum that is no decaying exponential: its coefficients mean nothing one by one",
+            "have a spectrum that is not a decaying exponential: its coefficients mean nothing one by one",
         ];
         let all = thousands(list.range.len() as u64);
         let mut warnings = Vec::new();

@@ -49,8 +49,8 @@ pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), C
         let path = arguments.output.clone().unwrap_or_else(|| shard_path(&study.output().file, shard));
         if path.extension().is_some_and(|ending| ending == "h5") {
             return Err(CommandError::Usage(format!(
-                "{}: a shard is no result yet, and is not called .h5: write -o {}, and join the shards by `uplift \
-                 merge`",
+                "{}: a shard is not yet a result, so its name must not end in .h5: write -o {}, and join the \
+                 shards by `uplift merge`",
                 path.display(),
                 shard_path(&path, shard).display()
             )));

@@ -289,7 +289,7 @@ impl SiteTableLayout {
     }
 }
 
-const NO_EXPONENTIAL: &str = "the spectrum is no decaying exponential: its coefficients mean nothing one by one";
+const NO_EXPONENTIAL: &str = "the spectrum is not a decaying exponential: its coefficients mean nothing one by one";
 
 /// What is wrong with the spectrum of a probability or its fit; empty where nothing is.
 pub(super) fn problem(spectra: &Result<SiteSpectra, String>, poe: usize) -> String {

@@ -68,7 +68,7 @@ pub fn sorted_slices(study: &UniformRiskStudy, paths: &[PathBuf]) -> Result<Vec<
             )),
             Some((_, None)) | None => {
                 mistakes.push(format!(
-                    "{name}: is no slice of a table of sites; `uplift run STUDY --sites 1/8` writes one"
+                    "{name}: is not a slice of a table of sites; `uplift run STUDY --sites 1/8` writes one"
                 ));
             }
             Some((table, _)) if Some(&table) != own.as_ref() => {
