@@ -115,6 +115,8 @@ fn a_table_of_cases_names_its_results() {
             2,
             &["bad.csv, row 1, column records.frist", "bad.csv, row 2, column oscillator.restitution"],
         ),
+        ("records.first,seed\n2,1\n\n3\n", 4, &["bad.csv: line 4: column seed is missing"]),
+        ("records.first,seed\n,\n", 4, &["bad.csv: no case below the header"]),
         ("records.first,seed\n2,\n3,\n,\n2,\n", 2, &["first-2", "are the same study: leave one of them out"]),
     ] {
         study.write("bad.csv", table);

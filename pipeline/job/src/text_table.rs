@@ -22,11 +22,19 @@ const UTF_16: [&[u8]; 2] = [b"\xff\xfe", b"\xfe\xff"];
 /// # Errors
 /// What the file is instead of such a table; numbers that can be read in two ways.
 pub fn parse(bytes: &[u8], texts: &[&str]) -> Result<DataFrame, String> {
+    parse_with_short_row(bytes, texts).map(|(table, _)| table)
+}
+
+/// The same with the line and the cells of the first row that is shorter than the header.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_with_short_row(bytes: &[u8], texts: &[&str]) -> Result<(DataFrame, Option<(usize, usize)>), String> {
     refuse_what_is_no_text(bytes)?;
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let header = bytes.split(|&byte| byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
     let separator = separator(header);
-    shape::check(bytes, separator)?;
+    let short = shape::check(bytes, separator)?;
     let options = CsvParseOptions::default().with_comment_prefix(Some("#")).with_separator(separator);
     let table = CsvReadOptions::default()
         .with_has_header(true)
@@ -35,7 +43,8 @@ pub fn parse(bytes: &[u8], texts: &[&str]) -> Result<DataFrame, String> {
         .into_reader_with_file_handle(Cursor::new(bytes))
         .finish()
         .map_err(|error| error.to_string())?;
-    if separator == b',' { Ok(table) } else { with_points(table, texts) }
+    let table = if separator == b',' { table } else { with_points(table, texts)? };
+    Ok((table, short))
 }
 
 /// Refuses what is no text of one byte a letter.

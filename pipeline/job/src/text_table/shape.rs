@@ -3,12 +3,12 @@
 /// What is wrong with the rows of a table whose cells are parted by `separator`, by its first such line.
 ///
 /// Cells may stand in double quotes, with separators and line ends in them. Lines that begin with `#` are comments.
-/// Rows may be shorter than the header.
+/// Rows may be shorter than the header: the line and the cells of the first that is, and not blank.
 ///
 /// # Errors
 /// No header; a quote that is not closed; a row with more cells than the header.
-pub(super) fn check(bytes: &[u8], separator: u8) -> Result<(), String> {
-    let mut header = None;
+pub(super) fn check(bytes: &[u8], separator: u8) -> Result<Option<(usize, usize)>, String> {
+    let (mut header, mut short) = (None, None);
     let (mut line, mut rest) = (1, bytes);
     while !rest.is_empty() {
         let first = line;
@@ -18,6 +18,7 @@ pub(super) fn check(bytes: &[u8], separator: u8) -> Result<(), String> {
             continue;
         }
         let row = Row::read(rest, separator);
+        let is_blank = rest[..row.bytes].trim_ascii().is_empty();
         line += row.lines;
         rest = &rest[row.bytes..];
         if !row.is_closed {
@@ -34,8 +35,11 @@ pub(super) fn check(bytes: &[u8], separator: u8) -> Result<(), String> {
                  in them into double quotes, or name the columns that are missing"
             ));
         }
+        if row.cells < columns && !is_blank {
+            short = short.or(Some((first, row.cells)));
+        }
     }
-    header.map(drop).ok_or_else(|| "it is empty: a header row is needed, and rows below".to_owned())
+    header.map(|_| short).ok_or_else(|| "it is empty: a header row is needed, and rows below".to_owned())
 }
 
 /// One row, which may go over several lines.
@@ -72,10 +76,14 @@ mod tests {
 
     #[test]
     fn long_rows_and_open_quotes_are_reported_by_their_line() {
-        for table in
-            ["a,b\n1,2\n", "a,b\r\n\r\n1\r\n", "# c,d,e\na,b\n\"1,5\",2\n", "a,b\n\"x\n\"\"y,\"\"\",2\n5\" pipe,1"]
-        {
-            assert_eq!(check(table.as_bytes(), b','), Ok(()), "{table:?}");
+        for (table, short) in [
+            ("a,b\n1,2\n", None),
+            ("a,b\r\n\r\n1\r\n", Some((3, 1))),
+            ("a,b\n1,2\n  \n", None),
+            ("# c,d,e\na,b\n\"1,5\",2\n", None),
+            ("a,b\n\"x\n\"\"y,\"\"\",2\n5\" pipe,1", None),
+        ] {
+            assert_eq!(check(table.as_bytes(), b','), Ok(short), "{table:?}");
         }
         for (table, words) in [
             ("", "it is empty"),

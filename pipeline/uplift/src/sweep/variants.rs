@@ -153,15 +153,25 @@ pub(super) fn product(over: &[String]) -> Result<Vec<Variant>, UpliftError> {
 }
 
 /// The rows of the table at `path` as variants: a column a key, and one called `name` if they are to have names; an
-/// empty cell leaves the study as it is.
+/// empty cell leaves the study as it is. Blank rows are skipped.
 ///
 /// # Errors
 /// A file that is no such table; names that are none of a file, or come twice.
 pub(super) fn cases(path: &Path) -> Result<Vec<Variant>, UpliftError> {
     let fail = |reason: String| JobError::input(format!("{}: {reason}", path.display()));
-    let table = text_table::parse(&read_file(path, MOST_BYTES)?, &[NAME]).map_err(&fail)?;
-    if table.height() == 0 {
-        return Err(fail("no case below the header".to_owned()).into());
+    let (table, short) = text_table::parse_with_short_row(&read_file(path, MOST_BYTES)?, &[NAME]).map_err(&fail)?;
+    if table.get_column_index("record_id").is_some() {
+        return Err(fail(
+            "it is a manifest of records: a table of cases has a column for each key of the study".to_owned(),
+        )
+        .into());
+    }
+    if let Some((line, cells)) = short {
+        let missing = table.columns()[cells].name();
+        return Err(fail(format!(
+            "line {line}: column {missing} is missing: end the row with a separator to keep the study's value"
+        ))
+        .into());
     }
     let mut variants = vec![Variant::default(); table.height()];
     let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -199,6 +209,11 @@ pub(super) fn cases(path: &Path) -> Result<Vec<Variant>, UpliftError> {
             mistakes
                 .push(format!("row {}: name {name:?} is given twice (upper and lower case are the same)", place + 1));
         }
+    }
+    // blank rows
+    variants.retain(|variant| variant.name.is_some() || !variant.changes.is_empty());
+    if variants.is_empty() {
+        mistakes.push("no case below the header".to_owned());
     }
     if mistakes.is_empty() { Ok(variants) } else { Err(fail(mistakes.join("; ")).into()) }
 }
