@@ -271,6 +271,7 @@ fn files_in_the_wrong_place() {
     let study = SmallStudy::new();
     std::fs::copy(repository().join("configs/structures/block.toml"), study.path().join("block.toml")).unwrap();
     study.write("a.AT2", &at2(&[0.0, 0.1, 0.2], 3));
+    study.write("manifest.csv", "record_id,file_h1,file_h2\na,a.AT2,a.AT2\n");
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     std::fs::create_dir(study.path().join("results")).unwrap();
     for (arguments, code, words) in [
@@ -291,6 +292,15 @@ fn files_in_the_wrong_place() {
             4,
             &["study.toml: is a study, not a result: run `uplift run study.toml` first, and give results/study.h5"],
         ),
+        (&["response", "r.h5", "--strength", "0.1"], 4, &["r.h5: is an HDF5 file such as a result", "not a record"]),
+        (&["response", "block.toml", "--strength", "0.1"], 4, &["block.toml: is a TOML file such as a study or"]),
+        (&["response", "manifest.csv", "--strength", "0.1"], 4, &["manifest.csv: is a manifest", "not a record"]),
+        (&["records", "list", "r.h5"], 4, &["r.h5", "it is an HDF5 file such as a result"]),
+        (&["records", "list", "block.toml"], 4, &["block.toml", "it is a TOML file such as a study or structure"]),
+        (&["records", "list", "a.AT2"], 4, &["a.AT2", "it is a record"]),
+        (&["hazard", "show", "r.h5"], 4, &["it is an HDF5 file such as a result, not a hazard curve"]),
+        (&["sweep", "study.toml", "--cases", "block.toml"], 4, &["block.toml: it is a TOML file"]),
+        (&["sweep", "study.toml", "--cases", "manifest.csv"], 4, &["manifest.csv: it is a manifest of records"]),
         (&["run", "absent.toml"], 3, &["absent.toml", "there is no such file"]),
         (&["records", "show", "absent.AT2"], 4, &["absent.AT2: there is no such file"]),
         (&["hazard", "show", "absent.csv"], 4, &["absent.csv: there is no such file"]),

@@ -34,8 +34,11 @@ pub(crate) fn unreadable_because(error: &io::Error) -> String {
 
 /// The content of `reader`, which gzip may have packed.
 pub(crate) fn unpacked(mut reader: impl BufRead + Send + 'static) -> io::Result<Input> {
-    let head = peek(&mut reader, 2)?;
-    let packed = head == b"\x1f\x8b";
+    let head = peek(&mut reader, 4)?;
+    if head == b"\x89HDF" {
+        return Err(io::Error::other("it is an HDF5 file such as a result, not a hazard curve"));
+    }
+    let packed = head.starts_with(b"\x1f\x8b");
     let whole = Cursor::new(head).chain(reader);
     Ok(if packed { Box::new(BufReader::new(MultiGzDecoder::new(whole))) } else { Box::new(whole) })
 }

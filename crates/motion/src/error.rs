@@ -107,6 +107,14 @@ pub enum MotionError {
         /// The file.
         name: String,
     },
+    /// A file is of another kind.
+    #[error("{name}: is {found}, not a record")]
+    OtherKind {
+        /// The file.
+        name: String,
+        /// What it is, and what takes it.
+        found: &'static str,
+    },
     /// No line of the head gives number of points and time step.
     #[error(
         "{name}: no line with NPTS and DT among the first {searched}; \

@@ -10,6 +10,10 @@ use uplift_plausible::{DecimalMarks, with_point};
 
 /// How a zip archive begins.
 const ZIP: &[u8] = b"PK\x03\x04";
+/// How an HDF5 file begins.
+const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
+/// Bytes in which a file of another kind shows itself.
+const HEAD_BYTES: usize = 4096;
 /// How text of two bytes a letter begins, either way round.
 const UTF_16: [&[u8]; 2] = [b"\xff\xfe", b"\xfe\xff"];
 
@@ -47,13 +51,25 @@ pub fn parse_with_short_row(bytes: &[u8], texts: &[&str]) -> Result<(DataFrame, 
     Ok((table, short))
 }
 
-/// Refuses what is no text of one byte a letter.
+/// Refuses what is no text of one byte a letter, and texts that are no table.
 ///
 /// # Errors
 /// What the file is instead.
 pub fn refuse_what_is_no_text(bytes: &[u8]) -> Result<(), String> {
     if bytes.starts_with(ZIP) {
         return Err("it is a zip archive: `uplift records import` takes one of records".to_owned());
+    }
+    if bytes.starts_with(HDF5) {
+        return Err("it is an HDF5 file such as a result (`uplift status` shows what it holds)".to_owned());
+    }
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD_BYTES)]);
+    let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#')).unwrap_or_default();
+    let is_key = |key: &str| key.trim().chars().all(|letter| letter.is_alphanumeric() || "_-. ".contains(letter));
+    if first.starts_with('[') || first.split_once('=').is_some_and(|(key, _)| is_key(key)) {
+        return Err("it is a TOML file such as a study or structure".to_owned());
+    }
+    if text.lines().take(4).any(|line| line.contains("NPTS=")) {
+        return Err("it is a record".to_owned());
     }
     if UTF_16.iter().any(|mark| bytes.starts_with(mark)) {
         return Err("it is UTF-16 text, which Excel and Notepad call Unicode: save it as \"CSV UTF-8\"".to_owned());
