@@ -191,6 +191,8 @@ fn wrong_arguments_are_refused() {
     shaken(at, "square.toml", &["--h1", "a.txt", "--h2", "b.txt", "--model", "wobbling"])
         .fails(2, &["rectangular section", "column_shape"]);
     shaken(at, "mass.toml", &["--h1", "a.txt"]).fails(2, &["mass.toml", "point-mass", "restrained-frame"]);
+    std::fs::write(at.join("wide.toml"), "kind = \"block\"\nwidth_m = 5\nheight_m = 2\nmass_kg = 1\n").unwrap();
+    shaken(at, "wide.toml", &["--h1", "a.txt"]).fails(3, &["wide.toml: slenderness alpha is 1.19029 rad"]);
     shaken(at, "held.toml", &[]).fails(2, &["--h1"]);
     shaken(at, "held.toml", &["a.txt"]).fails(2, &["write --h1 a.txt"]);
     shaken(at, "held.toml", &["--h1", "none.txt"]).fails(4, &["none.txt"]);

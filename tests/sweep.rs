@@ -112,7 +112,7 @@ fn a_table_of_cases_names_its_results() {
         ("risk.years,risk.years\n1,2\n", 4, &["column risk.years is given twice"]),
         (
             "records.frist,oscillator.restitution\n2,0.9\n,1.5\n",
-            2,
+            3,
             &["bad.csv, row 1, column records.frist", "bad.csv, row 2, column oscillator.restitution"],
         ),
         ("records.first,seed\n2,1\n\n3\n", 4, &["bad.csv: line 4: column seed is missing"]),
@@ -130,7 +130,7 @@ fn all_mistakes_of_all_variants_are_reported_before_anything_is_computed() {
     let study = SmallStudy::new();
     let over = ["--over", "oscillator.restitution=0.9,1.5,95", "--over", "records.frist=3,4"];
     study.uplift(&[&["sweep", "study.toml", "-o", "s"][..], &over].concat()).fails(
-        2,
+        3,
         &[
             "in the variants",
             "- --over oscillator.restitution=1.5: ",

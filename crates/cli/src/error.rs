@@ -1,5 +1,6 @@
 //! Why a command did not do what was typed, and what the shell sees of it.
 
+use std::error::Error;
 use std::io;
 
 use thiserror::Error;
@@ -8,7 +9,7 @@ use uplift::errors::{
     UniformRiskError,
 };
 use uplift::study::StudyError;
-use uplift::{JobError, UpliftError};
+use uplift::{JobError, UpliftError, cause};
 use uplift_frame::FrameError;
 use uplift_labelled::LabelledError;
 use uplift_motion::MotionError;
@@ -45,7 +46,8 @@ impl CommandError {
             Self::OutputClosed => 0,
             Self::Usage(_) => 2,
             Self::Uplift(error) if is_typed(error) => 2,
-            Self::Uplift(error) if error.root().is::<StudyError>() => 3,
+            Self::Uplift(UpliftError::Variants(_)) => 3,
+            Self::Uplift(error) if error.root().is::<StudyError>() || is_of_structure(error) => 3,
             Self::Interrupted(_) => Self::STOPPED,
             Self::Uplift(error) if is_stopped(error) => Self::STOPPED,
             // whatever else a job meets is in the input data or on the disk
@@ -71,6 +73,15 @@ fn is_typed(error: &UpliftError) -> bool {
     );
     let system = root.is::<OscillatorError>() || root.is::<StaticsError>() || root.is::<FrameError>();
     job || motion || system || !error.blocks().is_empty()
+}
+
+/// Whether a structure file describes what cannot be.
+fn is_of_structure(error: &UpliftError) -> bool {
+    let Some(JobError::InFile { source, .. }) = error.root().downcast_ref() else { return false };
+    let source: &(dyn Error + 'static) = source.as_ref();
+    cause::<FrameError>(source).is_some()
+        || cause::<OscillatorError>(source).is_some()
+        || cause::<StaticsError>(source).is_some()
 }
 
 /// Whether the user stopped the job.

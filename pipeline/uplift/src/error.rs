@@ -47,6 +47,8 @@ pub enum UpliftError {
     Laboratory(#[from] LaboratoryError),
     /// An export that cannot be made.
     Exports(#[from] ExportsError),
+    /// Variants of a study have mistakes; all of them.
+    Variants(String),
     /// The study file has mistakes.
     Study(#[from] StudyError),
     /// A study that TOML cannot hold; one that was loaded is none.

@@ -238,6 +238,7 @@ fn ready(options: &SweepOptions, variants: &[Variant], folder: &Path) -> Result<
                 .to_owned(),
         );
     }
+    let mut are_of_study = false;
     for (variant, name) in variants.iter().zip(names) {
         let overrides: Vec<String> = options.overrides.iter().cloned().chain(variant.overrides()).collect();
         match load_uniform_risk(&options.study_file, &overrides) {
@@ -254,6 +255,7 @@ fn ready(options: &SweepOptions, variants: &[Variant], folder: &Path) -> Result<
             }
             Err(error @ StudyError::Unreadable { .. }) => return Err(error.into()),
             Err(error) => {
+                are_of_study = true;
                 for mistake in error.mistakes() {
                     let help = mistake.help.as_ref().map_or_else(String::new, |help| format!(": {help}"));
                     let said = variant.mistake(format!("{mistake}{help}"));
@@ -270,8 +272,8 @@ fn ready(options: &SweepOptions, variants: &[Variant], folder: &Path) -> Result<
         return Ok(ready);
     }
     let lines: Vec<String> = mistakes.iter().map(|mistake| format!("  - {mistake}")).collect();
-    Err(JobError::Usage(format!("{} to mend in the variants:\n{}", counted(mistakes.len(), "thing"), lines.join("\n")))
-        .into())
+    let told = format!("{} in the variants:\n{}", counted(mistakes.len(), "mistake"), lines.join("\n"));
+    Err(if are_of_study { UpliftError::Variants(told) } else { JobError::Usage(told).into() })
 }
 
 /// What would compare nothing: studies without spectra, and spectra that cannot differ.
