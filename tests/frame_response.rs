@@ -195,7 +195,8 @@ fn wrong_arguments_are_refused() {
     shaken(at, "wide.toml", &["--h1", "a.txt"]).fails(3, &["wide.toml: slenderness alpha is 1.19029 rad"]);
     shaken(at, "held.toml", &[]).fails(2, &["--h1"]);
     shaken(at, "held.toml", &["a.txt"]).fails(2, &["write --h1 a.txt"]);
-    shaken(at, "held.toml", &["--h1", "none.txt"]).fails(4, &["none.txt"]);
+    let missing = shaken(at, "held.toml", &["--h1", "none.txt"]).fails(4, &["none.txt: there is no such file"]);
+    assert_eq!(missing.stderr.matches("none.txt").count(), 1, "{}", missing.stderr);
     shaken(at, "held.toml", &["--h1", "a.txt", "--h2", "b.txt", "--channel", "1"])
         .fails(2, &["--channel", "2 components"]);
     shaken(at, "held.toml", &["--h1", "a.txt", "--history", "a.txt"]).fails(2, &["a.txt"]);

@@ -46,6 +46,16 @@ fn a_name_says_what_is_written() {
     ] {
         study.uplift(command).fails(2, &[word]);
     }
+    study.write("file", "");
+    for command in [
+        &["run", "study.toml", "-o", "file/r.h5"][..],
+        &["sweep", "study.toml", "--over", "seed=1,2", "-o", "file/x"],
+        &["init", "file/x"],
+        &["run", "study.toml", "--shard", "1/2", "-o", "file/x/part"],
+    ] {
+        let said = study.uplift(command).fails(4, &["a part of the path is a file, not a folder"]).stderr;
+        assert!(!said.contains("os error"), "{said}");
+    }
     for name in ["part.csv", "x.svg", "new.CSV", "new.html"] {
         assert!(!study.path().join(name).exists(), "{name}");
     }

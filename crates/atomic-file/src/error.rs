@@ -36,8 +36,11 @@ pub enum FileError {
 
 /// The operating system's reason in plain words, without its number.
 pub fn reason(error: &io::Error) -> String {
-    if error.kind() == io::ErrorKind::NotFound {
-        return "there is no such file or folder".to_owned();
+    match error.kind() {
+        io::ErrorKind::NotFound => return "there is no such file or folder".to_owned(),
+        io::ErrorKind::NotADirectory => return "a part of the path is a file, not a folder".to_owned(),
+        io::ErrorKind::AlreadyExists => return "a file of this name exists".to_owned(),
+        _ => {}
     }
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or_default().to_owned()

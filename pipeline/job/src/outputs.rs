@@ -11,7 +11,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use uplift_atomic_file::AtomicFile;
+use uplift_atomic_file::{AtomicFile, io_error};
 use uplift_labelled::LabelledReader;
 
 use crate::error::JobError;
@@ -297,8 +297,7 @@ pub fn marked(what: impl Display) -> String {
 /// # Errors
 /// A place where no folder can be.
 pub fn provide_folder(folder: &Path) -> Result<(), JobError> {
-    std::fs::create_dir_all(folder)
-        .map_err(|error| JobError::input(format!("{} cannot be made: {error}", folder.display())))
+    std::fs::create_dir_all(folder).map_err(|error| io_error(folder, "create the folder")(error).into())
 }
 
 /// Whether the file at `path` says that this program made it of the result at `result`, or of one that lay there.

@@ -8,7 +8,7 @@ use uplift_ida::Shard;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::lock::ResultLock;
-use uplift_job::outputs::beside;
+use uplift_job::outputs::{beside, provide_folder};
 use uplift_job::text::counted;
 
 use super::Work;
@@ -45,8 +45,7 @@ pub fn shard_path(result: &Path, Shard { index, count }: Shard) -> PathBuf {
 /// A folder that cannot be made or written, another job that has the file.
 pub fn hold(path: &Path) -> Result<ResultLock, EngineError> {
     if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| JobError::input(format!("{} cannot be made: {error}", folder.display())))?;
+        provide_folder(folder)?;
     }
     Ok(ResultLock::acquire(path)?)
 }

@@ -150,8 +150,7 @@ pub(super) fn frame_response(file: &Path, options: &ResponseOptions) -> Result<F
     let mut alarms = options.alarms(&[(USUAL_RESTITUTION, "--restitution", options.restitution)]);
     let (mut components, mut motions, mut formats) = (Vec::new(), [None, None, None], Vec::new());
     for (component, record, channel) in options.components() {
-        let (motion, format) =
-            options.read_told(record, channel).map_err(|error| uplift_job::in_file(error, record))?;
+        let (motion, format) = options.read_told(record, channel)?;
         formats.push((record, format));
         let shaken_by = options.told(record, &motion);
         alarms.extend(shaken_by.alarms());
