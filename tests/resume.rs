@@ -485,6 +485,9 @@ fn a_run_with_other_settings_leaves_the_checkpoint() {
     std::fs::write(&checkpoint, &rows[..rows.len() * 3 / 4]).unwrap();
     let other = study.uplift(&["run", "study.toml", "--set", "records.first=2", "-o", "r.h5"]).ok();
     assert!(other.stderr.contains("r.h5.part stays: it holds analyses of other settings"), "{}", other.stderr);
+    let status = study.uplift(&["status", "r.h5"]).ok().stdout;
+    assert!(status.contains("r.h5.part: checkpoint of an interrupted run with other settings\n"), "{status}");
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).fails(2, &["--force to replace it and resume from r.h5.part"]);
     let plain = study.uplift(&["run", "study.toml", "-o", "r.h5", "--force"]).ok();
     assert!(plain.stderr.contains("analyses resumed") && !checkpoint.exists(), "{}", plain.stderr);
 }

@@ -96,7 +96,10 @@ pub(crate) fn check_outputs(study: &AnyStudy, options: &RunOptions) -> Result<()
 
 /// Why a run would replace the result of another, and what to do about it, see [`replaces_another`].
 pub(crate) fn replaced(study: &AnyStudy, options: &RunOptions) -> Result<Option<String>, UpliftError> {
-    let way_out = |reason| format!("{reason}: give the result another name (-o), or --force to replace it");
+    let checkpoint = checkpoint_path(options.result_file(&study.output().file));
+    let name = checkpoint.file_name().unwrap_or_default().to_string_lossy();
+    let resume = if checkpoint.is_file() { format!(" and resume from {name}") } else { String::new() };
+    let way_out = |reason| format!("{reason}: give the result another name (-o), or --force to replace it{resume}");
     Ok(replaces_another(study, options)?.map(way_out))
 }
 

@@ -108,6 +108,8 @@ pub struct UnfinishedStatus {
     pub done: u64,
     /// Analyses in all.
     pub analyses: u64,
+    /// Whether these are in a result, and the file is kept for analyses of an interrupted run with other settings.
+    pub is_kept_for_others: bool,
     /// Bytes that were cut off or damaged; their rows are computed again.
     pub damaged_bytes: u64,
 }
@@ -238,6 +240,7 @@ impl UnfinishedStatus {
             shards: head.shards,
             done: finding.analyses(),
             analyses: head.analyses,
+            is_kept_for_others: finding.is_kept_for_others(),
             damaged_bytes: finding.damaged_bytes,
         }
     }

@@ -96,7 +96,11 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
 }
 
 fn print_unfinished(out: &mut impl Write, unfinished: &UnfinishedStatus) -> Result<(), CommandError> {
-    let UnfinishedStatus { file, title, shard, shards, done, analyses, damaged_bytes } = unfinished;
+    let UnfinishedStatus { file, title, shard, shards, done, analyses, is_kept_for_others, damaged_bytes } = unfinished;
+    if *is_kept_for_others {
+        let file = file.display();
+        return Ok(writeln!(out, "{file}: checkpoint of an interrupted run with other settings")?);
+    }
     let what =
         if *shards > 1 { format!("shard {shard} of {shards}") } else { "checkpoint of an unfinished run".to_owned() };
     let share = 100.0 * *done as f64 / (*analyses).max(1) as f64;

@@ -132,6 +132,11 @@ impl Finding {
         let peaks = self.rows.peaks(|_| true).saturating_sub(self.head.peaks_of_others);
         (peaks * self.head.analyses_a_peak).min(self.head.analyses)
     }
+
+    /// Whether the work is finished, and only rows of other work keep the file.
+    pub fn is_kept_for_others(&self) -> bool {
+        self.head.peaks_of_others > 0 && self.analyses() == self.head.analyses
+    }
 }
 
 /// A file to which finished rows are appended.
