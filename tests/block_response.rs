@@ -122,6 +122,7 @@ fn mistakes_are_said() {
     fails(&["--width-m", "0.8", "--height-m", "4", "--size-m", "2"], &["a block needs two numbers"]);
     fails(&["--width-m", "800000000", "--height-m", "-1"], &["2 problems", "width_m is 8e8 m", "not in mm"]);
     fails(&["--size-m", "2", "--slenderness", "1.2"], &["slenderness alpha is 1.2 rad", "does not rock"]);
+    fails(&["--width-m", "5", "--height-m", "2"], &["slenderness alpha is 1.19029 rad"]);
     fails(&["--size-m", "2", "--slenderness", "0.2", "--strength", "0.2"], &["--strength", "--block"]);
     fails(&["--size-m", "2", "--slenderness", "0.2", "--capacity-m", "0.2"], &["--capacity-m", "--block"]);
     uplift(folder.path(), &["response", "step.txt", "--width-m", "0.8"]).fails(2, &["--block"]);

@@ -90,7 +90,7 @@ fn arguments_that_nobody_means() {
     };
     let strength = ["--strength", "0.1"];
     for (option, value, words) in [
-        ("--scale", "1e308", "from 0 to 1e6"),
+        ("--scale", "1e308", "from -1e6 to 1e6"),
         ("--free-vibration-s", "1e9", "from 0 to 3600 s"),
         ("--gravity-m-s2", "1e300", "from 0.1 to 2000 m/s2"),
         ("--uplift-displacement-m", "1e-300", "from 1e-6 to 10 m"),
@@ -103,6 +103,9 @@ fn arguments_that_nobody_means() {
         response(&[&strength[..], &[option, value]].concat()).fails(2, &[words]);
     }
     response(&["--strength", "1e10"]).fails(2, &["strength is 1e10", "from 0 to 100"]);
+    for scale in ["nan", "-1e7"] {
+        response(&[&strength[..], &["--scale", scale]].concat()).fails(2, &["scale is", "from -1e6 to 1e6"]);
+    }
     // all at once
     response(&["--strength", "1e10", "--scale", "1e308"]).fails(2, &["2 problems", "strength", "scale"]);
     response(&[&strength[..], &["--capacity-m", "0.000500000001"]].concat()).fails(2, &["stiffness after uplift"]);

@@ -1,13 +1,13 @@
 //! What can be wrong with a block, a pulse or what is asked of them.
 
 use thiserror::Error;
-use uplift_motion::MotionError;
+use uplift_motion::{MotionError, six_digits};
 
 /// Why a block cannot be made, or its motion not be computed.
 #[derive(Debug, Error)]
 pub enum BlockError {
     /// A number is outside the range that makes physical sense.
-    #[error("{name} is {value} {unit}: it must be {requirement}")]
+    #[error("{name} is {} {unit}: it must be {requirement}", six_digits(*value))]
     OutOfRange {
         /// Name of the quantity, without its unit.
         name: &'static str,

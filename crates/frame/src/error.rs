@@ -1,7 +1,7 @@
 //! What can be wrong with a frame, its shaking or what is asked of them.
 
 use thiserror::Error;
-use uplift_motion::MotionError;
+use uplift_motion::{MotionError, six_digits};
 use uplift_statics::StaticsError;
 use uplift_structure::StructureError;
 
@@ -9,7 +9,7 @@ use uplift_structure::StructureError;
 #[derive(Debug, Error)]
 pub enum FrameError {
     /// A number is outside the range that makes physical sense.
-    #[error("{name} is {value} {unit}: it must be {requirement}")]
+    #[error("{name} is {} {unit}: it must be {requirement}", six_digits(*value))]
     OutOfRange {
         /// Name of the quantity, without its unit.
         name: &'static str,

@@ -12,8 +12,8 @@ fn unreadable_because(error: &std::io::Error) -> String {
     }
 }
 
-/// A number with six digits.
-fn six_digits(value: f64) -> f64 {
+/// A number with six digits, as messages show it.
+pub fn six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 

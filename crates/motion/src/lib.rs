@@ -40,7 +40,7 @@ pub use accelerogram::Accelerogram;
 pub use combination::{Combination, Peaks};
 pub use component::{Component, Direction, Drawn, Rotation};
 pub use elastic_spectrum::{ElasticSpectrum, GroundType, SpectrumShape};
-pub use error::MotionError;
+pub use error::{MotionError, six_digits};
 pub use measure::{IntensityMeasure, Period, geometric_mean, scale_factor};
 pub use pair::{Horizontal, RecordPair};
 pub use pulse::{PulseClassification, classify_pulse, may_be_pulse_like};

@@ -120,8 +120,9 @@ pub const DISTANCE: Range = range(1e-3, 20_040.0, "km", "in km");
 /// Multiple of the median peak that records are scaled to.
 pub const MULTIPLE: Range = range(1e-4, 1e4, "", "a multiple of the median peak, 0.5 or 2, not the peak itself");
 
-/// Factor that multiplies a record, apart from its sign.
-pub const SCALE: Range = range(0.0, 1e6, "", "a factor on the record: a record that needs more is noise");
+/// Factor that multiplies a record.
+pub const SCALE: Range =
+    range(-1e6, 1e6, "", "a factor on the record, whose sign reverses it: a record that needs more is noise");
 
 /// Time between the samples of a record: shock tables sample at 100 kHz, early digitizations at 50 Hz.
 pub const TIME_STEP: Range = range(1e-6, 10.0, "s", "in s, 0.005 or 0.01 mostly; not in ms, nor a frequency");
@@ -169,7 +170,7 @@ mod tests {
             (YEARS, &[0.02, 1.0, 10_000.0]),
             (TIME_STEP, &[1e-5, 0.02, 1.0]),
             (PEAK_ACCELERATION, &[1e-6, 40.0, 981.0]),
-            (SCALE, &[0.0, 1000.0]),
+            (SCALE, &[-1.0, 0.0, 1000.0]),
             (TENDON_STIFFNESS, &[0.0, 2e9]),
             (DISC_DIAMETER, &[0.003, 1.0]),
             (DISC_HEIGHT, &[5e-5, 0.05]),

@@ -22,7 +22,7 @@ impl ResponseOptions {
     /// Refuses numbers that no system, record or person means, the `system`'s among them; all of them at once.
     pub(super) fn check(&self, system: &[Given]) -> Result<(), LaboratoryError> {
         let shaking = [
-            (SCALE, "scale", Some(self.scale.abs())),
+            (SCALE, "scale", Some(self.scale)),
             (GRAVITY, "gravity_m_s2", Some(self.gravity_m_s2)),
             (TIME_STEP, "dt_s", self.dt_s),
             (FREE_VIBRATION, "free_vibration_s", Some(self.free_vibration_s)),
