@@ -197,6 +197,11 @@ fn mistakes_are_reported_before_the_work() {
         uplift(folder.path(), &[&["pulse"], arguments].concat()).fails(2, words);
     }
     assert!(!folder.path().join("results").exists(), "nothing is left behind");
+    let at_rest =
+        ["-o", "still", "--slendernesses", "0.1:0.1:0.3", "--amplitude-g", "0.25", "--acceleration-lines", "0.5"];
+    let arguments: Vec<&str> = ["pulse"].into_iter().chain(SMALL[..8].iter().copied()).chain(at_rest).collect();
+    let said = uplift(folder.path(), &arguments).ok().stderr;
+    assert!(said.contains("note: 0.25 g does not uplift blocks of slenderness 0.3\n"), "{said}");
     std::fs::write(folder.path().join("taken"), "").unwrap();
     uplift(folder.path(), &small(&["-o", "taken"])).fails(4, &["taken"]);
 }

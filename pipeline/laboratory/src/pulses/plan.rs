@@ -203,6 +203,19 @@ impl PulsePlan {
         if mistakes.is_empty() { Ok(()) } else { Err(LaboratoryError::Blocks(mistakes)) }
     }
 
+    /// Which figures stay empty, since nothing uplifts.
+    pub(super) fn without_uplift(&self) -> Vec<String> {
+        let amplitude_g = self.blocks.amplitude_g.abs();
+        let stays = |alpha: &&f64| amplitude_g <= alpha.tan();
+        let at_rest: Vec<String> =
+            self.blocks.slendernesses_rad.iter().filter(stays).map(ToString::to_string).collect();
+        let largest = self.accelerations.last().filter(|&&largest| largest <= 1.0);
+        let spectra = largest.map(|largest| format!("a_p/(g tan alpha) up to {largest} does not uplift the block"));
+        let blocks = (!at_rest.is_empty())
+            .then(|| format!("{amplitude_g} g does not uplift blocks of slenderness {}", at_rest.join(", ")));
+        spectra.into_iter().chain(blocks).collect()
+    }
+
     /// A block with the restitution that was asked for.
     pub(super) fn block(&self, size_m: f64, slenderness_rad: f64) -> Result<RockingBlock, BlockError> {
         let block = RockingBlock::new(size_m, slenderness_rad)?;

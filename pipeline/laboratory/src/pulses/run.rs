@@ -58,6 +58,9 @@ pub fn pulses(options: &PulseOptions, events: &dyn Events) -> Result<PulseReport
         let nothing: [&Path; 0] = [];
         outputs::check(&PULSE_FIGURES.map(table), &nothing, options.force)?;
     }
+    for note in plan.without_uplift() {
+        events.note(&note);
+    }
     let progress = Progress::begin(events, "pulses", "motions", plan.points());
     let computed = compute(plan, &progress);
     drop(progress);
