@@ -408,6 +408,12 @@ fn no_input_is_replaced_even_if_it_is_forced() {
     study.write("set/manifest.csv", &manifest.replace("SYN001_H1.AT2", "a.csv"));
     let select = ["records", "select", "set/manifest.csv", "--pga-g", "0:9", "-o", "set/a.csv", "--force"];
     refused(&study, &select, "set/a.csv", "an input");
+    // of a larger set that is replaced nothing is left, but what the program did not make
+    study.uplift(&["records", "synthesize", "-o", "two", "--count", "2", "-q"]).ok();
+    let left = |name: &str| study.path().join("two").join(name).exists();
+    std::fs::write(study.path().join("two/SYN002_H1.AT2"), "mine").unwrap();
+    study.uplift(&["records", "synthesize", "-o", "two", "--count", "1", "-q", "--force"]).ok();
+    assert_eq!(["SYN001_H1.AT2", "SYN002_H1.AT2", "SYN002_H2.AT2"].map(left), [true, true, false]);
     // and records that a manifest elsewhere may name
     std::fs::rename(study.path().join("set/manifest.csv"), study.path().join("set/mine.csv")).unwrap();
     let again = ["records", "synthesize", "-o", "set", "--count", "2", "--seed", "9"];

@@ -183,6 +183,7 @@ fn synthetic_records_are_made_listed_shown_and_chosen() {
     assert!(done.stdout.contains("6 synthetic pairs") && done.stderr.contains("not for design"), "{}", done.stderr);
     uplift(at, &made).fails(2, &["manifest.csv already exists"]);
     uplift(at, &["records", "synthesize", "-o", "x", "--magnitude", "5"]).fails(2, &["magnitude is 5", "6 to 8"]);
+    uplift(at, &["records", "synthesize", "-o", "x", "--count", "-3"]).fails(2, &["-3", "a whole number of pairs"]);
     uplift(at, &["records", "synthesize", "-o", "x", "--vs30", "500:"]).fails(2, &["both ends"]);
     assert!(!at.join("x").exists());
 

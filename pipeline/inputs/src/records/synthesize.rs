@@ -1,10 +1,14 @@
 //! Synthetic records of a scenario, as files with a manifest.
 
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use polars::prelude::Column;
 use serde::Serialize;
+use uplift_atomic_file::io_error;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
@@ -17,6 +21,7 @@ use uplift_study::Range;
 use super::range;
 use crate::error::InputsError;
 use crate::made_pairs;
+use crate::manifest::record_files;
 
 /// Which records are made, and where they go.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -25,7 +30,10 @@ pub struct SynthesizeOptions {
     #[arg(short = 'o', long = "output", value_name = "FOLDER")]
     pub folder: PathBuf,
     /// Number of pairs
-    #[arg(long, value_name = "N", default_value_t = SynthesizeOptions::new("").count)]
+    #[arg(
+        long, value_name = "N", default_value_t = SynthesizeOptions::new("").count, value_parser = count,
+        allow_negative_numbers = true
+    )]
     pub count: usize,
     /// Seed: the same seed makes the same records
     #[arg(long, value_name = "N", default_value_t = SynthesizeOptions::new("").seed)]
@@ -75,6 +83,10 @@ pub enum Mechanism {
 
 fn between([from, to]: [f64; 2]) -> Range {
     Range { from, to }
+}
+
+fn count(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "write a whole number of pairs, 1 or more".to_owned())
 }
 
 fn number_or_range(text: &str) -> Result<Range, String> {
@@ -127,6 +139,9 @@ impl SynthesizeOptions {
     }
 }
 
+/// How the files of synthetic records begin.
+const MADE_BY: &str = "SYNTHETIC MOTION, NOT RECORDED: uplift ";
+
 /// What was made.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct SynthesizeReport {
@@ -152,13 +167,14 @@ pub fn synthesize(options: &SynthesizeOptions, events: &dyn Events) -> Result<Sy
     let records = pairs.iter().flat_map(|pair| ["H1", "H2"].map(|component| folder.join(file_name(pair, component))));
     let records: Vec<Output> = records.map(|path| Output::new(path, OutputKind::Record)).collect();
     outputs::check(&records, &nothing, force)?;
+    let earlier = earlier_records(&manifest, folder);
     for pair in &pairs {
         if events.cancelled() {
             return Err(JobError::Interrupted.into());
         }
         for (component, motion) in [("H1", &pair.h1), ("H2", &pair.h2)] {
             let said = |key: &str| pair.metadata.get(key).map_or("", String::as_str);
-            let title = format!("SYNTHETIC MOTION, NOT RECORDED: uplift {}", uplift_job::VERSION);
+            let title = format!("{MADE_BY}{}", uplift_job::VERSION);
             let head = [said("event"), "none", said("station"), component];
             let text = at2_text(motion, &title, head, STANDARD_GRAVITY_M_S2);
             write_atomically(&folder.join(file_name(pair, component)), text.as_bytes())?;
@@ -166,7 +182,20 @@ pub fn synthesize(options: &SynthesizeOptions, events: &dyn Events) -> Result<Sy
     }
     let line = format!("uplift {} ({}), synthetic records: {set:?}", uplift_job::VERSION, uplift_job::COMMIT);
     write_atomically(&manifest, &table_text(&manifest, &line, columns(&pairs))?)?;
+    for left in earlier.iter().filter(|path| records.iter().all(|record| record.path() != *path)) {
+        std::fs::remove_file(left).map_err(|error| JobError::from(io_error(left, "remove the file")(error)))?;
+    }
     Ok(SynthesizeReport { pairs: pairs.len(), manifest })
+}
+
+/// The records in `folder` that its manifest of an earlier set names, and that this program made.
+fn earlier_records(manifest: &Path, folder: &Path) -> BTreeSet<PathBuf> {
+    let is_ours = |path: &PathBuf| {
+        let mut head = vec![0; MADE_BY.len()];
+        let read = File::open(path).and_then(|mut file| file.read_exact(&mut head));
+        path.parent() == Some(folder) && read.is_ok() && head == MADE_BY.as_bytes()
+    };
+    record_files(manifest).into_iter().filter(is_ours).collect()
 }
 
 fn file_name(pair: &RecordPair, component: &str) -> String {
