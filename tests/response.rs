@@ -144,5 +144,9 @@ fn a_history_is_drawn_with_its_impacts() {
     // a dot for each impact, and one in the legend
     assert_eq!(svg.matches("<circle").count(), impacts + 1);
     assert!(svg.contains("displacement, m") && !svg.contains("sine.txt times 1"));
+    // as many digits as a peak has
+    let said = response(&[]).ok().stdout;
+    let peak = said.split_once("peak displacement ").unwrap().1.split(' ').next().unwrap();
+    assert_eq!(peak.trim_start_matches(['0', '.']).len(), 3, "{said}");
     response(&["--plot", "h.pdf"]).fails(2, &[".svg or .png"]);
 }

@@ -63,6 +63,16 @@ pub fn relative_error_in_words(error: f64) -> String {
 
 /// A displacement with the two digits that a record set can tell.
 pub fn two_digits(value: f64) -> String {
+    significant(value, 2)
+}
+
+/// A peak of a single motion with three digits: the others change with the last digits of the motion.
+pub fn three_digits(value: f64) -> String {
+    significant(value, 3)
+}
+
+/// A number with so many digits that count.
+fn significant(value: f64, digits: usize) -> String {
     if value.is_nan() {
         return "-".to_owned();
     }
@@ -70,10 +80,11 @@ pub fn two_digits(value: f64) -> String {
         return "∞".to_owned();
     }
     // what rounding makes of it decides where the first digit stands
-    let written = format!("{value:.1e}");
-    let exponent = written.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()).unwrap_or(0);
+    let after_first = digits - 1;
+    let written = format!("{value:.after_first$e}");
+    let exponent = written.split_once('e').and_then(|(_, exponent)| exponent.parse::<isize>().ok()).unwrap_or(0);
     let value = written.parse::<f64>().unwrap_or(value);
-    let decimals = if value == 0.0 { 0 } else { usize::try_from(1 - exponent).unwrap_or(0) };
+    let decimals = if value == 0.0 { 0 } else { after_first.saturating_add_signed(-exponent) };
     format!("{value:.decimals$}")
 }
 
@@ -169,6 +180,7 @@ mod tests {
             ["0.35", "0.10", "0.034", "1.2", "12", "0.00034"],
             [0.346, 0.0996, 0.0341, 1.24, 12.3, 3.4e-4].map(two_digits)
         );
+        assert_eq!(["0.346", "0.0997", "1.23", "1230"], [0.34561, 0.09966, 1.2345, 1234.5].map(three_digits));
         assert_eq!(cell_with_band(0.346, Some([0.24, f64::INFINITY])), "0.35 (0.24–∞)");
         assert_eq!(metres_with_band(0.346, Some([0.24, 0.841])), "0.35 m (0.24 to 0.84)");
         assert_eq!(metres_with_band(f64::INFINITY, Some([0.24, f64::INFINITY])), "overturns (lower limit 0.24 m)");

@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use uplift::response::{FrameResponseReport, FrameRun};
+use uplift::text::three_digits;
 use uplift_frame::Model;
 
 use super::alarms::print_warnings;
@@ -54,17 +55,18 @@ fn print_run(out: &mut impl Write, report: &FrameResponseReport, run: &FrameRun)
     } else if let (Some(uplift_s), Some(peak_s)) = (run.time_of_uplift_s, run.time_of_peak_s) {
         writeln!(
             out,
-            "response  under {under}: the deck moves {:.6} m, a drift of {:.3} %, at {peak_s:.4} s; rotation {:.6} \
+            "response  under {under}: the deck moves {} m, a drift of {} %, at {peak_s:.4} s; rotation {} \
              rad; first uplift at {uplift_s:.4} s",
-            run.peak_displacement_m,
-            100.0 * run.peak_drift,
-            run.peak_rotation_rad
+            three_digits(run.peak_displacement_m),
+            three_digits(100.0 * run.peak_drift),
+            three_digits(run.peak_rotation_rad)
         )?;
         if report.model == Model::Wobbling {
             writeln!(
                 out,
-                "          {:.6} m along h1, {:.6} m along h2",
-                run.peak_displacement_x_m, run.peak_displacement_y_m
+                "          {} m along h1, {} m along h2",
+                three_digits(run.peak_displacement_x_m),
+                three_digits(run.peak_displacement_y_m)
             )?;
         }
     } else {

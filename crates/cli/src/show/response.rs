@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use uplift::response::{BlockResponseReport, ResponseReport, ShakingRecord};
+use uplift::text::three_digits;
 
 use super::alarms::print_warnings;
 use crate::error::CommandError;
@@ -24,8 +25,8 @@ pub(crate) fn print_response(
     } else {
         writeln!(
             out,
-            "response  peak displacement {:.6} m at {:.4} s, {} uplifts, {} impacts",
-            report.peak_displacement_m,
+            "response  peak displacement {} m at {:.4} s, {} uplifts, {} impacts",
+            three_digits(report.peak_displacement_m),
             report.time_of_peak_s.unwrap_or_default(),
             report.uplifts,
             report.impacts
@@ -61,11 +62,11 @@ pub(crate) fn print_block_response(
     } else if let (Some(uplift_s), Some(peak_s)) = (report.time_of_uplift_s, report.time_of_peak_s) {
         writeln!(
             out,
-            "response  peak rotation {:.6} rad, {:.1} % of the slenderness, at {peak_s:.4} s; the top moves {:.6} m; \
+            "response  peak rotation {} rad, {:.1} % of the slenderness, at {peak_s:.4} s; the top moves {} m; \
              first uplift at {uplift_s:.4} s, {impacts} impacts",
-            report.peak_rotation_rad,
+            three_digits(report.peak_rotation_rad),
             100.0 * report.peak_rotation_rad / slenderness_rad,
-            report.peak_displacement_m
+            three_digits(report.peak_displacement_m)
         )?;
     } else {
         writeln!(out, "response  never uplifts: the ground does not exceed {:.4} g", report.uplift_acceleration_g)?;
