@@ -48,7 +48,7 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
     let name = &report.structure.name;
     let wobbling = frame.wobbling();
     let how_far = match report.frame_over_proxy() {
-        Some(ratio) => format!("the wobbling frame moves {ratio:.1} times as far as its proxy"),
+        Some(ratio) => format!("the frame moves {ratio:.1} times as far as its proxy"),
         None if wobbling.demand_m.is_infinite() => "the wobbling frame overturns more often than the target".to_owned(),
         None => "its proxy has no demand to compare with".to_owned(),
     };
@@ -62,9 +62,12 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
     for verdict in report.verdicts_by_other_measures() {
         writeln!(out, "          proxy {verdict}")?;
     }
+    if let Some(settings) = &report.own_oscillator {
+        writeln!(out, "          spectrum of another oscillator: run {settings}")?;
+    }
     if let Some(capacity_m) = report.structure.capacity_m {
         let factor = report.required_safety_factor;
-        writeln!(out, "Capacity  {capacity_m:.2} m, with a safety factor of {factor} (Eq. 3.15)")?;
+        writeln!(out, "Capacity  {capacity_m:.2} m; safety factor {factor}")?;
     }
     let dash = || "-".to_owned();
     let unsafe_upper_limits = report.unsafe_upper_limits();
@@ -98,7 +101,7 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
         let bands = exact.bands.as_ref();
         let overturning = bands.and_then(|bands| bands.overturning_per_year);
         rows.push([
-            "proxy, oscillator".to_owned(),
+            "proxy oscillator".to_owned(),
             demand(exact.demand_m, bands),
             report.own_check.map_or_else(dash, |check| required(check.required_capacity_m)),
             report.own_check.map_or_else(dash, |check| verdict("proxy", check.satisfied)),
@@ -107,7 +110,7 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
     }
     for (rule, check) in report.rules.iter().filter_map(|outcome| Some((outcome.rule, outcome.check()?))) {
         rows.push([
-            format!("proxy, {}", rule.words()),
+            rule_cell(rule),
             demand(check.demand_m, None),
             required(check.required_capacity_m),
             verdict_word(check.satisfied).to_owned(),
@@ -121,12 +124,26 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
         .left("verdict", |row| &row[3])
         .right("overturns, 1/yr", |row| &row[4]);
     writeln!(out, "{table}")?;
-    Ok(())
+    print_mark(out, report)
 }
 
 /// A capacity that is required, m.
 fn required(capacity_m: f64) -> String {
     if capacity_m.is_finite() { format!("{capacity_m:.2}") } else { "infinite".to_owned() }
+}
+
+/// A rule in a table that has its demand and the capacity that it requires: by equal energy that is not the demand
+/// times the safety factor.
+fn rule_cell(rule: Rule) -> String {
+    if rule == Rule::EqualEnergy { format!("{}†", rule.words()) } else { rule.words().to_owned() }
+}
+
+/// What the mark of [`rule_cell`] means, where it is.
+fn print_mark(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
+    if report.rules.iter().any(|outcome| outcome.rule == Rule::EqualEnergy && outcome.check().is_some()) {
+        writeln!(out, "† demand rises with capacity")?;
+    }
+    Ok(())
 }
 
 /// The verdict of the rules, with the demand on the structure's oscillator and its risks.
@@ -308,7 +325,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         }
         let infinite = check.capacity_m.is_infinite();
         rows.push(vec![
-            rule.words().to_owned(),
+            rule_cell(rule),
             metres_or_overturns(check.demand_m),
             format!("{:.4}", check.required_capacity_m),
             if infinite { "infinite".to_owned() } else { format!("{:.4}", check.capacity_m) },
@@ -339,6 +356,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         report.required_safety_factor,
         Table::new(header, rows)
     )?;
+    print_mark(out, report)?;
     if report.alarms.iter().any(|alarm| alarm.severity == Severity::Mistake) {
         writeln!(out, "These verdicts hold only if the inputs marked mistake? below are correct.")?;
     }
