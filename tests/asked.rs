@@ -179,6 +179,7 @@ fn a_single_record_has_no_band_in_any_export() {
     let json: serde_json::Value = serde_json::from_slice(&std::fs::read(study.path().join("r.json")).unwrap()).unwrap();
     let spectrum = &json["spectra"][0];
     let strengths = json["strength"].as_array().unwrap().len();
+    assert!(json["confidence"] == 0.9 && spectrum["confidence"] == 0.9, "{spectrum}");
     for limit in ["lower_m", "upper_m"] {
         assert_eq!(spectrum[limit], serde_json::json!(vec![(); strengths]), "{spectrum}");
     }

@@ -8,7 +8,7 @@ use uplift_result::{
     BAND_FIGURES, BandKind, EFFICIENCY, Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, TRENDS,
     regression, urs,
 };
-use uplift_uniform_risk::QUOTED_LIMITS;
+use uplift_uniform_risk::{CONFIDENCE, QUOTED_LIMITS};
 
 use super::Export;
 use super::added::Influence;
@@ -28,7 +28,7 @@ impl Export {
             "alarms": self.alarms,
             "years": self.spectra.years,
             "strength": self.spectra.strengths,
-            "confidence": self.bands.as_ref().map(|bands| bands.confidence),
+            "confidence": self.bands.as_ref().map_or(CONFIDENCE, |bands| bands.confidence),
             "resampled": self.bands.as_ref().map(|bands| bands.unit.key()),
             "influence": self.influences(),
             "efficiency": self.added.efficiency.iter().map(efficiency).collect::<Vec<_>>(),
@@ -54,6 +54,7 @@ impl Export {
             spectrum[quantity.exported_name()] =
                 self.places(row).map(|at| cell(quantity, row.of_measure, at)).collect();
         }
+        spectrum["confidence"] = CONFIDENCE.into();
         for (name, limits_m) in QUOTED_LIMITS.iter().zip(row.quoted_m()) {
             spectrum[name] = numbers(&limits_m).into();
         }
