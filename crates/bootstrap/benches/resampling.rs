@@ -5,7 +5,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use uplift_bootstrap::{
-    BootstrapError, Replicates, ResamplingPlan, inferred_limits, repaired_limits, truth_limits, weighted_replicates,
+    BootstrapError, Replicates, ResamplingPlan, inferred_limits, truth_limits, weighted_replicates,
 };
 use uplift_fragility::Stripes;
 use uplift_hazard::{Extrapolation, HazardCurve};
@@ -100,7 +100,7 @@ fn benchmarks(criterion: &mut Criterion) {
         bencher.iter(|| inferred_limits(&demand, &weights, &earthquakes, black_box(&TARGETS), asked).unwrap());
     });
     group.bench_function("weighted records", |bencher| {
-        bencher.iter(|| repaired_limits(&demand, &alike, &units, black_box(&TARGETS), asked).unwrap());
+        bencher.iter(|| inferred_limits(&demand, &alike, &units, black_box(&TARGETS), asked).unwrap());
     });
     group.finish();
 }

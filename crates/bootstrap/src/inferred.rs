@@ -1,6 +1,6 @@
 //! What a set of records says of the spectrum of all records there could be, and of that of another set.
 
-use uplift_risk::{PooledDemand, RiskError, RunWeights, StripeWeights};
+use uplift_risk::{PooledDemand, RiskError, SiteWeights};
 
 use crate::inversion::Inversion;
 use crate::rates::Rates;
@@ -22,6 +22,7 @@ pub struct InferredLimits {
 /// (Woodruff, 1952). The band runs from the ordinate down to where λ(c) is first too large, and up to where it is first
 /// too small, and from there that of demands that spread about those at hand. No resampling takes part.
 ///
+/// - `weights`: those of a repair are taken as they are.
 /// - `units`: the records of each unit, `[unit]`, by their positions; each record in one of them.
 /// - `targets_per_year`: target rates λ*, 1/yr.
 /// - `sizes`: units in a sample. For as many as the set has, the first band is that of the truth; for others it is
@@ -34,94 +35,37 @@ pub struct InferredLimits {
 ///
 /// # Source
 /// R. S. Woodruff, J. Am. Stat. Assoc. 47 (1952), 635–646.
-pub fn inferred_limits(
+pub fn inferred_limits<'a>(
     demand: &PooledDemand,
-    weights: &StripeWeights,
+    weights: impl Into<SiteWeights<'a>>,
     units: &[Vec<usize>],
     targets_per_year: &[f64],
     (sizes, confidence): (&[usize], f64),
 ) -> Result<Vec<InferredLimits>, RiskError> {
-    check(demand, weights, units)?;
-    limits(
-        demand,
-        (Rates::from_demand(demand, units, weights.per_year()), units),
-        targets_per_year,
-        (sizes, confidence),
-    )
-}
-
-/// The same of records that count as `weights` say, repaired: the weights are taken as they are.
-///
-/// # Errors
-/// As [`inferred_limits`].
-pub fn repaired_limits(
-    demand: &PooledDemand,
-    weights: &RunWeights,
-    units: &[Vec<usize>],
-    targets_per_year: &[f64],
-    (sizes, confidence): (&[usize], f64),
-) -> Result<Vec<InferredLimits>, RiskError> {
-    check(demand, weights.stripes(), units)?;
-    limits(demand, (Rates::weighted(weights, units), units), targets_per_year, (sizes, confidence))
+    let of_size = |&size: &usize| {
+        // its own scatter is added to that of the set
+        let wider = (1.0 + units.len() as f64 / size as f64).sqrt();
+        [Sample { units: size, wider: 1.0, size }, Sample { units: units.len(), wider, size }]
+    };
+    let samples: Vec<Sample> = sizes.iter().flat_map(of_size).collect();
+    let limits_m = bands(demand, weights.into(), units, targets_per_year, (&samples, confidence))?;
+    let of = |both: &[[f64; 2]]| InferredLimits { truth_m: both[0], prediction_m: both[1] };
+    Ok(limits_m.chunks_exact(2).map(of).collect())
 }
 
 /// The limits of the truth alone, m, `[target]`: those of [`inferred_limits`] for as many units as the set has.
 ///
 /// # Errors
 /// As [`inferred_limits`].
-pub fn truth_limits(
+pub fn truth_limits<'a>(
     demand: &PooledDemand,
-    weights: &StripeWeights,
+    weights: impl Into<SiteWeights<'a>>,
     units: &[Vec<usize>],
     targets_per_year: &[f64],
     confidence: f64,
 ) -> Result<Vec<[f64; 2]>, RiskError> {
-    check(demand, weights, units)?;
-    truths(demand, (Rates::from_demand(demand, units, weights.per_year()), units), targets_per_year, confidence)
-}
-
-/// The same of records that count as `weights` say, repaired: those of [`repaired_limits`].
-///
-/// # Errors
-/// As [`inferred_limits`].
-pub fn repaired_truth_limits(
-    demand: &PooledDemand,
-    weights: &RunWeights,
-    units: &[Vec<usize>],
-    targets_per_year: &[f64],
-    confidence: f64,
-) -> Result<Vec<[f64; 2]>, RiskError> {
-    check(demand, weights.stripes(), units)?;
-    truths(demand, (Rates::weighted(weights, units), units), targets_per_year, confidence)
-}
-
-fn truths(
-    demand: &PooledDemand,
-    rates: (Rates, &[Vec<usize>]),
-    targets_per_year: &[f64],
-    confidence: f64,
-) -> Result<Vec<[f64; 2]>, RiskError> {
-    let units = rates.1.len();
-    let samples = [Sample { units, wider: 1.0, size: units }];
-    bands(demand, rates, targets_per_year, (&samples, confidence))
-}
-
-fn limits(
-    demand: &PooledDemand,
-    rates: (Rates, &[Vec<usize>]),
-    targets_per_year: &[f64],
-    (sizes, confidence): (&[usize], f64),
-) -> Result<Vec<InferredLimits>, RiskError> {
-    let units = rates.1.len();
-    let of_size = |&size: &usize| {
-        // its own scatter is added to that of the set
-        let wider = (1.0 + units as f64 / size as f64).sqrt();
-        [Sample { units: size, wider: 1.0, size }, Sample { units, wider, size }]
-    };
-    let samples: Vec<Sample> = sizes.iter().flat_map(of_size).collect();
-    let limits_m = bands(demand, rates, targets_per_year, (&samples, confidence))?;
-    let of = |both: &[[f64; 2]]| InferredLimits { truth_m: both[0], prediction_m: both[1] };
-    Ok(limits_m.chunks_exact(2).map(of).collect())
+    let samples = [Sample { units: units.len(), wider: 1.0, size: units.len() }];
+    bands(demand, weights.into(), units, targets_per_year, (&samples, confidence))
 }
 
 /// What a band is said by: so many units, within quantiles that are so much wider, with demands that spread as those of
@@ -136,10 +80,12 @@ struct Sample {
 /// The limits of the ordinates of target rates, m, `[target, sample]`.
 fn bands(
     demand: &PooledDemand,
-    (rates, units): (Rates, &[Vec<usize>]),
+    weights: SiteWeights<'_>,
+    units: &[Vec<usize>],
     targets_per_year: &[f64],
     (samples, confidence): (&[Sample], f64),
 ) -> Result<Vec<[f64; 2]>, RiskError> {
+    let rates = Rates::new(demand, weights, units)?;
     targets_per_year.iter().try_for_each(|target| check_target(*target))?;
     if units.len() < 2 {
         return Ok(vec![[f64::NAN; 2]; targets_per_year.len() * samples.len()]);
@@ -165,37 +111,15 @@ fn bands(
 ///
 /// # Errors
 /// As [`inferred_limits`].
-pub fn inferred_rate(
+pub fn inferred_rate<'a>(
     demand: &PooledDemand,
-    weights: &StripeWeights,
+    weights: impl Into<SiteWeights<'a>>,
     units: &[Vec<usize>],
     (threshold_m, confidence): (f64, f64),
 ) -> Result<[f64; 2], RiskError> {
-    check(demand, weights, units)?;
-    Ok(interval(demand, (Rates::from_demand(demand, units, weights.per_year()), units), (threshold_m, confidence)))
-}
-
-/// The same of records that count as `weights` say, repaired: the interval that [`repaired_limits`] inverts.
-///
-/// # Errors
-/// As [`inferred_limits`].
-pub fn repaired_rate(
-    demand: &PooledDemand,
-    weights: &RunWeights,
-    units: &[Vec<usize>],
-    (threshold_m, confidence): (f64, f64),
-) -> Result<[f64; 2], RiskError> {
-    check(demand, weights.stripes(), units)?;
-    Ok(interval(demand, (Rates::weighted(weights, units), units), (threshold_m, confidence)))
-}
-
-fn interval(
-    demand: &PooledDemand,
-    (rates, units): (Rates, &[Vec<usize>]),
-    (threshold_m, confidence): (f64, f64),
-) -> [f64; 2] {
+    let rates = Rates::new(demand, weights.into(), units)?;
     let quantiles = StudentQuantiles::new(confidence, units.len());
-    Inversion::new(demand, vec![rates]).rate_limits(threshold_m, |means| means[0].interval(&quantiles))
+    Ok(Inversion::new(demand, vec![rates]).rate_limits(threshold_m, |means| means[0].interval(&quantiles)))
 }
 
 /// Limits of the rate of all records there could be, 1/yr, where each record at hand contributes so much and the mean
@@ -235,12 +159,7 @@ pub(crate) fn check_target(rate: f64) -> Result<(), RiskError> {
     if rate.is_finite() && rate > 0.0 { Ok(()) } else { Err(RiskError::Target { rate }) }
 }
 
-/// Whether these belong together.
-pub(crate) fn check(demand: &PooledDemand, weights: &StripeWeights, units: &[Vec<usize>]) -> Result<(), RiskError> {
-    fits("records of the units", units.iter().map(Vec::len).sum(), demand.record_count())?;
-    fits("stripe weights", weights.level_count(), demand.level_count())
-}
-
-fn fits(what: &'static str, found: usize, expected: usize) -> Result<(), RiskError> {
+/// Whether there are as many as expected.
+pub(crate) fn fits(what: &'static str, found: usize, expected: usize) -> Result<(), RiskError> {
     if found == expected { Ok(()) } else { Err(RiskError::Count { what, found, expected }) }
 }

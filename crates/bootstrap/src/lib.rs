@@ -9,7 +9,6 @@
 //!   accelerated (BCa).
 //! - [`inferred_limits`]: the band of the spectrum of all records there could be, and that of another set's, without
 //!   resampling; [`inferred_rate`]: the same of the rate at which something is exceeded.
-//! - [`repaired_limits`], [`repaired_rate`]: the same of records with weights by which they bring a site's hazard.
 //! - [`inferred_limits_over_curves`], [`inferred_rate_over_curves`]: the same where there are weighted hazard curves.
 //! - [`inferred_mean`], [`inferred_mean_over_alternatives`]: the same of a rate of which each record's part is known;
 //!   [`falling`], [`crossing`]: the value at which such a rate meets a target.
@@ -48,10 +47,7 @@ mod weighted_replicates;
 pub use accuracy::{error_of_median, range_of_interval};
 pub use error::BootstrapError;
 pub use falling::{crossing, falling};
-pub use inferred::{
-    InferredLimits, inferred_limits, inferred_mean, inferred_rate, repaired_limits, repaired_rate,
-    repaired_truth_limits, truth_limits,
-};
+pub use inferred::{InferredLimits, inferred_limits, inferred_mean, inferred_rate, truth_limits};
 pub use interval::{Band, Interval};
 pub use jackknife::{acceleration, contributions, leave_one_out, without_each};
 pub use over_curves::{inferred_limits_over_curves, inferred_mean_over_alternatives, inferred_rate_over_curves};

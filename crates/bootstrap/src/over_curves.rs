@@ -3,7 +3,7 @@
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use uplift_risk::{PooledDemand, RiskError, StripeWeights};
 
-use crate::inferred::{check, check_target, mean_of};
+use crate::inferred::{check_target, mean_of};
 use crate::inversion::Inversion;
 use crate::rates::Rates;
 use crate::skewed_mean::{SkewedMean, StudentQuantiles, of_side};
@@ -71,11 +71,7 @@ fn rates_of(
     curves: &[(f64, StripeWeights)],
     units: &[Vec<usize>],
 ) -> Result<Vec<Rates>, RiskError> {
-    let of = |(_, weights): &(f64, StripeWeights)| {
-        check(demand, weights, units)?;
-        Ok(Rates::from_demand(demand, units, weights.per_year()))
-    };
-    curves.iter().map(of).collect()
+    curves.iter().map(|(_, weights)| Rates::new(demand, weights.into(), units)).collect()
 }
 
 /// Limits of the rate, 1/yr, where each record contributes so much by each of several alternatives, hazard curves or

@@ -1,8 +1,9 @@
 //! The rate at which a displacement is exceeded by the runs of a set, with the scatter of its units.
 
-use uplift_risk::{PooledDemand, RunWeights};
+use uplift_risk::{PooledDemand, RiskError, SiteWeights};
 
 use crate::SkewedMean;
+use crate::inferred::fits;
 use crate::shared_rates::SharedRates;
 use crate::unit_rates::UnitRates;
 use crate::walk::Run;
@@ -23,27 +24,44 @@ enum OfUnits {
     Shared(SharedRates),
 }
 
-impl Rates {
-    /// Of units of records that count alike, or as the `demand` says, where levels weigh `per_year`, 1/yr.
-    pub(crate) fn from_demand(demand: &PooledDemand, units: &[Vec<usize>], per_year: Vec<f64>) -> Self {
+impl OfUnits {
+    /// Of records that count alike, or as the demand says.
+    fn of_demand(demand: &PooledDemand, units: &[Vec<usize>]) -> Self {
         let is_alike = units.windows(2).all(|two| two[0].len() == two[1].len());
-        let of_units = match demand.shares() {
-            None if is_alike => OfUnits::Alike(UnitRates::new(units)),
-            Some(shares) if is_alike => OfUnits::Shared(SharedRates::new(units, shares)),
-            Some(shares) => OfUnits::Shared(SharedRates::new(units, shares).with_leverage()),
+        match demand.shares() {
+            None if is_alike => Self::Alike(UnitRates::new(units)),
+            Some(shares) if is_alike => Self::Shared(SharedRates::new(units, shares)),
+            Some(shares) => Self::Shared(SharedRates::new(units, shares).with_leverage()),
             None => {
                 let runs = demand.record_count() * demand.level_count();
                 let shares = vec![1.0 / demand.record_count() as f64; runs];
-                OfUnits::Shared(SharedRates::new(units, &shares).with_leverage())
+                Self::Shared(SharedRates::new(units, &shares).with_leverage())
+            }
+        }
+    }
+}
+
+impl Rates {
+    /// Of units of records that count alike, as the `demand` says, or as a repair does.
+    ///
+    /// # Errors
+    /// Demand and weights with different numbers of levels or records, or units of other records.
+    pub(crate) fn new(
+        demand: &PooledDemand,
+        weights: SiteWeights<'_>,
+        units: &[Vec<usize>],
+    ) -> Result<Self, RiskError> {
+        let records = demand.record_count();
+        fits("records of the units", units.iter().map(Vec::len).sum(), records)?;
+        fits("stripe weights", weights.stripes().level_count(), demand.level_count())?;
+        let of_units = match weights {
+            SiteWeights::Alike(_) => OfUnits::of_demand(demand, units),
+            SiteWeights::Repaired(weights) => {
+                fits("records with shares", weights.record_count(), records)?;
+                OfUnits::Shared(SharedRates::new(units, weights.shares()).with_effective_units())
             }
         };
-        Self { of_units, per_year }
-    }
-
-    /// Of units of records that count as `weights` say.
-    pub(crate) fn weighted(weights: &RunWeights, units: &[Vec<usize>]) -> Self {
-        let of_units = OfUnits::Shared(SharedRates::new(units, weights.shares()).with_effective_units());
-        Self { of_units, per_year: weights.stripes().per_year() }
+        Ok(Self { of_units, per_year: weights.stripes().per_year() })
     }
 
     /// What a run adds to the rate, 1/yr.

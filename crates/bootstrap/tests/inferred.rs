@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 use uplift_bootstrap::{
     InferredLimits, ResamplingPlan, SkewedMean, StudentQuantiles, inferred_limits, inferred_limits_over_curves,
-    inferred_rate, repaired_limits, repaired_truth_limits, truth_limits,
+    inferred_rate, truth_limits,
 };
 use uplift_fragility::Stripes;
 use uplift_risk::{PooledDemand, RecordSample, RiskCurve, RunWeights, StripeWeights};
@@ -325,10 +325,10 @@ proptest! {
         let units: Vec<Vec<usize>> = (0..count).map(|record| vec![record]).collect();
         let asked = (&[count, 7][..], 0.9);
         let demand = pooled(&edp_m);
-        let found = repaired_limits(&demand, &alike, &units, &[target], asked).unwrap();
+        let found = inferred_limits(&demand, &alike, &units, &[target], asked).unwrap();
         prop_assert_eq!(&found, &inferred_limits(&demand, &weights(), &units, &[target], asked).unwrap());
-        let alone = repaired_truth_limits(&demand, &alike, &units, &[target], 0.9).unwrap();
-        let of_both = repaired_limits(&demand, &alike, &units, &[target], (&[units.len()], 0.9)).unwrap();
+        let alone = truth_limits(&demand, &alike, &units, &[target], 0.9).unwrap();
+        let of_both = inferred_limits(&demand, &alike, &units, &[target], (&[units.len()], 0.9)).unwrap();
         prop_assert_eq!(alone[0], of_both[0].truth_m);
     }
 }

@@ -5,7 +5,8 @@
 //! - [`RiskCurve`]: the two together, λ(c), the mean annual frequency of exceeding a displacement c; its ordinates are
 //!   [`RiskCurve::exact_ordinate`] and [`RiskCurve::grid_ordinate`].
 //! - [`RecordSample`]: which records count, and how often: a bootstrap replicate.
-//! - [`RunWeights`]: records that do not count alike, each with its share at every level.
+//! - [`RunWeights`]: records that do not count alike, each with its share at every level; [`SiteWeights`]: these, or
+//!   those of the stripes alone.
 //! - [`ResamplingTable`]: the same ordinates for thousands of samples.
 //! - [`ReplicateWeights`]: the same for samples whose records are weighed anew, a few at once.
 //! - [`EventRisk`]: how often something happens to a structure.
@@ -56,6 +57,7 @@ mod resampling;
 mod risk_targeted;
 mod run_weights;
 mod sample;
+mod site_weights;
 mod strength_place;
 mod stretches;
 mod weights;
@@ -76,5 +78,6 @@ pub use resampling::ResamplingTable;
 pub use risk_targeted::{RiskTargetedLevel, risk_targeted_level};
 pub use run_weights::RunWeights;
 pub use sample::RecordSample;
+pub use site_weights::SiteWeights;
 pub use strength_place::StrengthPlace;
 pub use weights::{StripeWeights, mean_annual_frequency};

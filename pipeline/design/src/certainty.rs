@@ -2,11 +2,10 @@
 
 use serde::Serialize;
 use uplift_bootstrap::{
-    inferred_limits_over_curves, inferred_rate, inferred_rate_over_curves, is_too_narrow, repaired_rate,
-    repaired_truth_limits, truth_limits,
+    inferred_limits_over_curves, inferred_rate, inferred_rate_over_curves, is_too_narrow, truth_limits,
 };
 use uplift_result::ResultFile;
-use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
+use uplift_risk::{PooledDemand, RunWeights, SiteWeights};
 use uplift_uniform_risk::consistency::Question;
 
 use super::hazard::Hazard;
@@ -129,10 +128,8 @@ pub(super) fn rate_bands(
     scatter: &Scatter,
     threshold_m: f64,
 ) -> Result<Option<Bands>, DesignError> {
-    let of = |units: &Vec<Vec<usize>>| match repaired {
-        None => inferred_rate(demand, hazard.mean, units, (threshold_m, CONFIDENCE)),
-        Some(weights) => repaired_rate(demand, weights, units, (threshold_m, CONFIDENCE)),
-    };
+    let weights = SiteWeights::new(hazard.mean, repaired);
+    let of = |units: &Vec<Vec<usize>>| inferred_rate(demand, weights, units, (threshold_m, CONFIDENCE));
     let by_record = of(&scatter.pairs)?;
     // NaN of a single record
     let is_told = |band: &[f64; 2]| !band[1].is_nan();
@@ -149,16 +146,12 @@ pub(super) fn rate_bands(
 /// single record.
 pub(super) fn record_bands(
     demand: &PooledDemand,
-    (mean, repaired): (&StripeWeights, Option<&RunWeights>),
+    weights: SiteWeights<'_>,
     scatter: &Scatter,
     (target_per_year, confidence): (f64, f64),
 ) -> Result<Option<Bands>, DesignError> {
     let of = |units: &Vec<Vec<usize>>| -> Result<Option<[f64; 2]>, DesignError> {
-        let targets = [target_per_year];
-        let found = match repaired {
-            None => truth_limits(demand, mean, units, &targets, confidence)?,
-            Some(weights) => repaired_truth_limits(demand, weights, units, &targets, confidence)?,
-        };
+        let found = truth_limits(demand, weights, units, &[target_per_year], confidence)?;
         Ok(found.first().copied().filter(|limits_m| !limits_m[1].is_nan()))
     };
     let Some(by_record) = of(&scatter.pairs)? else { return Ok(None) };
@@ -175,7 +168,8 @@ pub(super) fn demand_bands(
     (target_per_year, factor, capacity_m): (f64, f64, Option<f64>),
 ) -> Result<Option<DemandBands>, DesignError> {
     let asked = (target_per_year, CONFIDENCE);
-    let Some(of_records) = record_bands(demand, (hazard.mean, repaired), scatter, asked)? else { return Ok(None) };
+    let weights = SiteWeights::new(hazard.mean, repaired);
+    let Some(of_records) = record_bands(demand, weights, scatter, asked)? else { return Ok(None) };
     let branches = if repaired.is_some() { &[] } else { &hazard.branches[..] };
     let with_hazard = inferred_limits_over_curves(demand, branches, scatter.coarsest(), asked)?;
     let with_hazard = (!with_hazard[1].is_nan()).then_some(with_hazard);

@@ -2,11 +2,10 @@
 //! 2.3).
 
 use uplift_fragility::{FragilityError, LognormalFit, StripeCount, Stripes as Stripe, fit_lognormal, stripe_counts};
-use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
+use uplift_risk::{PooledDemand, RunWeights, SiteWeights, StripeWeights};
 use uplift_uniform_risk::EventRisk;
 
 use super::risk::{OVERTURNING_M, bounded, risk_of_exceeding};
-use super::weights::SiteWeights;
 use crate::error::DesignError;
 
 /// Overturning of one model by one measure.

@@ -2,7 +2,7 @@
 //! from.
 
 use serde::Serialize;
-use uplift_risk::{Ordinate, PooledDemand};
+use uplift_risk::{Ordinate, PooledDemand, SiteWeights};
 use uplift_structure::{EquivalentSystem, Rule, relative_error};
 use uplift_uniform_risk::{EventRisk, Stripes};
 
@@ -11,7 +11,6 @@ use super::hazard::Hazard;
 use super::risk::{OVERTURNING_M, bounded, demand_of, oscillator_capacity_m, risk_of_exceeding};
 use super::sensitivity::{Sensitivity, sensitivity};
 use super::sweep::{OF_STUDY, OWN, Sweep, ZERO_STIFFNESS};
-use super::weights::SiteWeights;
 use crate::error::DesignError;
 
 /// What the structure's own stripes say, in its own displacement; infinite where it overturns more often than the
@@ -118,13 +117,14 @@ pub(super) fn exact_demand(
     let beyond = |capacity_m: f64| shaken.risk(OWN, capacity_m).map(may_happen);
     let overturning = shaken.risk(OWN, OVERTURNING_M)?;
     let demand = shaken.ordinates[OWN];
-    let repaired = match weights {
-        SiteWeights::Alike(_) => None,
-        SiteWeights::Repaired(weights) => Some(*weights),
-    };
     let sensitivity = sweep.neighbours.as_ref().map(|of| sensitivity(shaken, of, capacity_m)).transpose()?;
     Ok(ExactDemand {
-        bands: demand_bands(&shaken.demands[OWN], (hazard, repaired), scatter, (target_per_year, factor, capacity_m))?,
+        bands: demand_bands(
+            &shaken.demands[OWN],
+            (hazard, weights.repaired()),
+            scatter,
+            (target_per_year, factor, capacity_m),
+        )?,
         analyses,
         zero_stiffness_demand_of_spectrum_m: shaken.displacement_m(OF_STUDY),
         zero_stiffness_demand_m: shaken.displacement_m(ZERO_STIFFNESS),

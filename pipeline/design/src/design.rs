@@ -24,6 +24,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_plausible::SAFETY_FACTOR;
 use uplift_questions::bootstrap::resampled;
 use uplift_result::ResultFile;
+use uplift_risk::SiteWeights;
 use uplift_study::Structure;
 use uplift_uniform_risk::{EventRisk, OneRisk, SpectraOfResult, StudyOfResult, at};
 
@@ -35,7 +36,7 @@ use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::rules::{MeasureVerdict, OwnCheck, RuleDemands, apply_rules, verdicts_by_curve};
 use super::spectrum::SpectrumDemand;
-use super::weights::{RepairedWeights, SiteWeights};
+use super::weights::RepairedWeights;
 use crate::error::DesignError;
 use analysis::{DesignAnalysis, OwnAnalysis, Question};
 pub use report::DesignReport;

@@ -15,7 +15,7 @@ use uplift_inputs::{Record, RecordSet, rocking_frame};
 use uplift_job::checksum::motion_key;
 use uplift_job::text::thousands;
 use uplift_motion::{Accelerogram, IntensityMeasure, RecordPair};
-use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
+use uplift_risk::{PooledDemand, SiteWeights, StripeWeights};
 use uplift_statics::RestrainedColumns;
 use uplift_study::Structure;
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, seen, shaken_upwards, stripes_of};
@@ -25,7 +25,6 @@ use super::hazard::Hazard;
 use super::opening::{Place, ShakenRecords};
 use super::risk::{OVERTURNING_M, bounded, own_risk, risk_of_exceeding};
 use super::rules::OwnCheck;
-use super::weights::SiteWeights;
 use crate::error::DesignError;
 
 /// Most levels at which a frame is shaken beside its oscillator.
@@ -346,11 +345,8 @@ impl FrameQuestion<'_> {
         let levels: Vec<f64> = self.places.iter().map(|&place| of_study[place]).collect();
         let mean: StripeWeights = self.hazard.mean.at_levels(self.places)?;
         let hazard = self.hazard.at_levels(&mean, self.places)?;
-        let repaired: Option<RunWeights> = match self.weights {
-            SiteWeights::Alike(_) => None,
-            SiteWeights::Repaired(runs) => Some(runs.at_levels(self.places)?),
-        };
-        let weights = repaired.as_ref().map_or(SiteWeights::Alike(&mean), SiteWeights::Repaired);
+        let repaired = self.weights.repaired().map(|runs| runs.at_levels(self.places)).transpose()?;
+        let weights = SiteWeights::new(&mean, repaired.as_ref());
         let model = |(model, restitution, peaks_m): &(&'static str, f64, Vec<f64>)| {
             let pool = PooledDemand::new(&Stripe::new(&levels, peaks_m)?)?;
             let risk = |threshold_m: f64| -> Result<EventRisk, DesignError> {

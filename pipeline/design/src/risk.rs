@@ -4,10 +4,9 @@ use uplift_alarms::OwnRisk;
 use uplift_fragility::Stripes as Stripe;
 use uplift_ida::System;
 use uplift_oscillator::Oscillator;
-use uplift_risk::PooledDemand;
+use uplift_risk::{PooledDemand, SiteWeights};
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, at_most_per_year, pooled_demand};
 
-use super::weights::SiteWeights;
 use crate::error::DesignError;
 
 /// The same of something that may happen, though no run may show it of `pairs`, each with the positions of its

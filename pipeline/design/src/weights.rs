@@ -1,7 +1,7 @@
-//! What the runs of a structure weigh at a site: records that count alike, or weights by which they bring its hazard.
+//! The weights by which the motions of a result bring the hazard of its sites.
 
 use uplift_result::ResultFile;
-use uplift_risk::{PooledDemand, RiskCurve, RiskError, RunWeights, StripeWeights};
+use uplift_risk::RunWeights;
 use uplift_uniform_risk::SpectraOfResult;
 use uplift_uniform_risk::consistency::Reweighing;
 
@@ -18,71 +18,5 @@ impl RepairedWeights {
     /// Those by one measure at the site at this position; none where there is no repair.
     pub(super) fn at(&self, measure: &SpectraOfResult, site: usize) -> Option<&RunWeights> {
         self.0.as_ref()?.weights(measure.measure(), site)
-    }
-}
-
-/// What the runs of a structure weigh at a site.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum SiteWeights<'a> {
-    /// Every record of a stripe alike.
-    Alike(&'a StripeWeights),
-    /// As a repair says ([hazard consistency](uplift_uniform_risk::consistency)).
-    Repaired(&'a RunWeights),
-}
-
-impl<'a> SiteWeights<'a> {
-    /// The risk curve of a `demand`.
-    pub(super) fn curve(&self, demand: &'a PooledDemand) -> Result<RiskCurve<'a>, RiskError> {
-        match self {
-            Self::Alike(stripes) => RiskCurve::new(demand, stripes),
-            Self::Repaired(weights) => RiskCurve::weighted(demand, weights),
-        }
-    }
-
-    /// What the hazard makes of each stripe.
-    pub(super) fn stripes(&self) -> &'a StripeWeights {
-        match self {
-            Self::Alike(stripes) => stripes,
-            Self::Repaired(weights) => weights.stripes(),
-        }
-    }
-
-    /// To how many pairs that count alike `pairs`, each with the positions of its records, amount at the last level,
-    /// 1/Σp² with the share p of a pair: two records of one tell little more than one does.
-    pub(super) fn effective_pairs(&self, pairs: &[Vec<usize>]) -> f64 {
-        match self {
-            Self::Alike(_) => pairs.len() as f64,
-            Self::Repaired(weights) => {
-                let shares = weights.shares();
-                let last = &shares[shares.len().saturating_sub(weights.record_count())..];
-                let of_pair = |pair: &Vec<usize>| pair.iter().map(|&record| last[record]).sum::<f64>();
-                1.0 / pairs.iter().map(of_pair).map(|share| share * share).sum::<f64>()
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use super::*;
-
-    #[test]
-    fn records_that_weigh_little_count_little() {
-        let stripes = StripeWeights::new(&[1.0, 0.5], None).unwrap();
-        let repaired = RunWeights::new(&stripes, &[0.5, 0.5, 0.0, 0.25, 0.75, 0.0]).unwrap();
-        let alone = [vec![0], vec![1], vec![2]];
-        assert!((SiteWeights::Repaired(&repaired).effective_pairs(&alone) - 1.6).abs() < 1e-12);
-        assert_eq!(SiteWeights::Alike(&stripes).effective_pairs(&alone), 3.0);
-    }
-
-    #[test]
-    fn records_of_one_pair_count_as_one() {
-        let stripes = StripeWeights::new(&[1.0, 0.5], None).unwrap();
-        // at the last level 1/4 and 1/4 of one pair, 1/2 and 0 of the other
-        let repaired = RunWeights::new(&stripes, &[0.25, 0.25, 0.25, 0.25, 0.25, 0.25, 0.5, 0.0]).unwrap();
-        let pairs = [vec![0, 1], vec![2, 3]];
-        assert_eq!(SiteWeights::Repaired(&repaired).effective_pairs(&pairs), 2.0);
-        assert_eq!(SiteWeights::Alike(&stripes).effective_pairs(&pairs), 2.0);
     }
 }

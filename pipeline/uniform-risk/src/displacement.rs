@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
-use uplift_bootstrap::{repaired_truth_limits, truth_limits};
+use uplift_bootstrap::truth_limits;
 use uplift_hazard::{rate_from_probability, return_period_from_probability};
 use uplift_job::table::{ColumnsOf, table_text};
 use uplift_job::text::nearest;
@@ -214,7 +214,7 @@ fn bands(
     let of_site = |&site: &usize| {
         Ok(match reweighing.map(|own| own.weights(stripes.measure, site)) {
             None => truth_limits(&demand, &stripes.weights[site], units, targets_per_year, CONFIDENCE)?,
-            Some(Some(weights)) => repaired_truth_limits(&demand, weights, units, targets_per_year, CONFIDENCE)?,
+            Some(Some(weights)) => truth_limits(&demand, weights, units, targets_per_year, CONFIDENCE)?,
             Some(None) => vec![[f64::NAN; 2]; targets_per_year.len()],
         })
     };

@@ -1,11 +1,11 @@
 //! Spectra and coefficients of many sites, one after the other: what they share is made once.
 
 use rayon::prelude::*;
-use uplift_bootstrap::{repaired_truth_limits, truth_limits};
+use uplift_bootstrap::truth_limits;
 use uplift_job::Array;
 use uplift_regression::ExponentialFit;
 use uplift_result::{FRACTILES, Spread};
-use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, RunWeights, StripeWeights};
+use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, SiteWeights, StripeWeights};
 use uplift_study::UniformRiskStudy;
 
 use crate::coefficients::fit_spectrum;
@@ -84,8 +84,7 @@ impl<'a> SiteRisk<'a> {
         Ok(Self { study, reading: Reading::from_study(study)?, demands, bands: None })
     }
 
-    /// The same with the band of each ordinate at the strengths of these positions: [`truth_limits`], or
-    /// [`repaired_truth_limits`] of weighted runs.
+    /// The same with the band of each ordinate at the strengths of these positions: [`truth_limits`].
     ///
     /// - `units`: positions of the records that count as one, as [`QuotedUnits`](crate::QuotedUnits) has them.
     #[must_use]
@@ -95,26 +94,31 @@ impl<'a> SiteRisk<'a> {
 
     /// The spectra of the site whose hazard gives the stripes these weights: to the bit those of
     /// [`uniform_risk_spectra`](crate::spectra::uniform_risk_spectra) and
-    /// [`fit_spectra`](crate::coefficients::fit_spectra).
+    /// [`fit_spectra`](crate::coefficients::fit_spectra); or, of weights of runs, those of a repair.
     ///
     /// # Errors
-    /// Weights of another number of levels.
-    pub fn spectra(&self, weights: &StripeWeights) -> Result<SiteSpectra, String> {
-        let limits = |demand: &PooledDemand, units: &[Vec<usize>]| {
-            truth_limits(demand, weights, units, &self.reading.targets, CONFIDENCE)
-        };
-        self.of_curves(|demand| RiskCurve::new(demand, weights), limits)
+    /// Weights of another number of levels or runs.
+    pub fn spectra<'w>(&self, weights: impl Into<SiteWeights<'w>>) -> Result<SiteSpectra, String> {
+        self.weighed(weights.into()).map_err(|error| error.to_string())
     }
 
-    /// The spectra of runs that weigh `weights`, those of a repair.
-    ///
-    /// # Errors
-    /// Weights of another number of runs.
-    pub fn weighted_spectra(&self, weights: &RunWeights) -> Result<SiteSpectra, String> {
-        let limits = |demand: &PooledDemand, units: &[Vec<usize>]| {
-            repaired_truth_limits(demand, weights, units, &self.reading.targets, CONFIDENCE)
-        };
-        self.of_curves(|demand| RiskCurve::weighted(demand, weights), limits)
+    fn weighed(&self, weights: SiteWeights<'_>) -> Result<SiteSpectra, RiskError> {
+        let ordinates = |demand| self.reading.ordinates(&weights.curve(demand)?);
+        let by_strength: Vec<Vec<Ordinate>> = self.demands.iter().map(ordinates).collect::<Result<_, _>>()?;
+        let poes = self.reading.targets.len();
+        let ordinates: Vec<Ordinate> =
+            (0..poes).flat_map(|poe| by_strength.iter().map(move |ordinates| ordinates[poe])).collect();
+        let fits = ordinates.chunks(self.demands.len()).map(|spectrum| fit_spectrum(self.study, spectrum)).collect();
+        let mut limits_by_strength = Vec::new();
+        if let Some(Bands { units, strengths }) = &self.bands {
+            let of = |&strength: &usize| {
+                truth_limits(&self.demands[strength], weights, units, &self.reading.targets, CONFIDENCE)
+            };
+            limits_by_strength = strengths.iter().map(of).collect::<Result<_, _>>()?;
+        }
+        let of_poe = |poe: usize| limits_by_strength.iter().map(move |limits| limits[poe]);
+        let bands_m = (0..poes).flat_map(of_poe).collect();
+        Ok(SiteSpectra { ordinates, fits, bands_m, spread_m: Vec::new() })
     }
 
     /// Mean and fractiles over weighted hazard curves, over `[poe, strength]` of the strengths of these positions: to
@@ -145,29 +149,5 @@ impl<'a> SiteRisk<'a> {
             own
         };
         Ok((0..poes * strengths.len()).map(of).collect())
-    }
-
-    fn of_curves<'d>(
-        &'d self,
-        curve: impl Fn(&'d PooledDemand) -> Result<RiskCurve<'d>, RiskError>,
-        limits: impl Fn(&PooledDemand, &[Vec<usize>]) -> Result<Vec<[f64; 2]>, RiskError>,
-    ) -> Result<SiteSpectra, String> {
-        let mut by_strength = Vec::with_capacity(self.demands.len());
-        for demand in &self.demands {
-            let curve = curve(demand).map_err(|error| error.to_string())?;
-            by_strength.push(self.reading.ordinates(&curve).map_err(|error| error.to_string())?);
-        }
-        let poes = self.reading.targets.len();
-        let ordinates: Vec<Ordinate> =
-            (0..poes).flat_map(|poe| by_strength.iter().map(move |ordinates| ordinates[poe])).collect();
-        let fits = ordinates.chunks(self.demands.len()).map(|spectrum| fit_spectrum(self.study, spectrum)).collect();
-        let mut limits_by_strength = Vec::new();
-        if let Some(Bands { units, strengths }) = &self.bands {
-            let of = |&strength: &usize| limits(&self.demands[strength], units).map_err(|error| error.to_string());
-            limits_by_strength = strengths.iter().map(of).collect::<Result<_, _>>()?;
-        }
-        let of_poe = |poe: usize| limits_by_strength.iter().map(move |limits| limits[poe]);
-        let bands_m = (0..poes).flat_map(of_poe).collect();
-        Ok(SiteSpectra { ordinates, fits, bands_m, spread_m: Vec::new() })
     }
 }

@@ -6,6 +6,7 @@ use uplift_ida::System;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_result::ResultFile;
+use uplift_risk::SiteWeights;
 use uplift_study::Structure;
 use uplift_uniform_risk::{Stripes, StudyOfResult, plan_stripes};
 
@@ -18,7 +19,6 @@ use crate::opening::{Place, ShakenRecords, job_name, restitution};
 use crate::own_frame::{FrameQuestion, FrameReport, OwnFrame, Pairs, levels_for};
 use crate::sweep::Sweep;
 use crate::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
-use crate::weights::SiteWeights;
 
 /// Where and by what a structure is designed.
 pub(super) struct Question<'a> {

@@ -5,11 +5,10 @@ use rayon::prelude::*;
 use serde::Serialize;
 use uplift_bootstrap::{Band, ResamplingPlan};
 use uplift_fragility::Stripes as Stripe;
-use uplift_risk::{PooledDemand, ResamplingTable, RunWeights, StripeWeights};
+use uplift_risk::{PooledDemand, ResamplingTable, RiskCurve, RunWeights, SiteWeights, StripeWeights};
 use uplift_structure::relative_error;
 
 use super::super::certainty::{Scatter, record_bands};
-use super::super::weights::SiteWeights;
 use crate::error::DesignError;
 
 /// Displacements at which a risk curve is reported.
@@ -91,20 +90,20 @@ impl Question<'_> {
             Ok(factor * ordinate_m[0])
         };
         let asked = (self.target_per_year, self.confidence);
-        let bands = record_bands(&pool, (self.weights, None), self.scatter, asked)?;
+        let bands = record_bands(&pool, self.weights.into(), self.scatter, asked)?;
         Ok(Resampled {
             band_of: bands.map(|bands| bands.source()),
             limits_m: bands.map_or([f64::NAN; 2], |bands| bands.quoted().map(|limit_m| factor * limit_m)),
-            demand_m: demand_m(SiteWeights::Alike(self.weights))?,
+            demand_m: demand_m(self.weights.into())?,
             replicates_m: self.plan.samples().par_iter().map(replicate).collect::<Result<_, _>>()?,
-            repaired_m: self.repaired.map(|weights| demand_m(SiteWeights::Repaired(weights))).transpose()?,
+            repaired_m: self.repaired.map(|weights| demand_m(weights.into())).transpose()?,
             risk_curve: self.risk_curve(&pool, factor)?,
         })
     }
 
     /// From where nearly everything exceeds to the largest peak.
     fn risk_curve(&self, pool: &PooledDemand, factor: f64) -> Result<Vec<RiskPoint>, DesignError> {
-        let curve = SiteWeights::Alike(self.weights).curve(pool)?;
+        let curve = RiskCurve::new(pool, self.weights)?;
         let mut finite = pool.edp_m().iter().filter(|peak_m| peak_m.is_finite());
         let (Some(&largest_m), Some(&least_m)) = (finite.next(), finite.next_back()) else { return Ok(Vec::new()) };
         let least_m = least_m.max(1e-4 * largest_m);

@@ -5,12 +5,11 @@
 use serde::Serialize;
 use uplift_fragility::{Stripes as Stripe, quantile};
 use uplift_frame::RockingFrame;
-use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
+use uplift_risk::{PooledDemand, RunWeights, SiteWeights, StripeWeights};
 use uplift_statics::{EventKind, Spring};
 use uplift_uniform_risk::EventRisk;
 
 use super::super::risk::{bounded, risk_of_exceeding};
-use super::super::weights::SiteWeights;
 use crate::error::DesignError;
 
 /// How often something happens to the frame.

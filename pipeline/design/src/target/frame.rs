@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use uplift_alarms::OwnRisk;
+use uplift_risk::SiteWeights;
 use uplift_study::Structure;
 use uplift_uniform_risk::EventRisk;
 
@@ -14,7 +15,6 @@ use crate::hazard::Hazard;
 use crate::opening::Place;
 use crate::own_frame::{FrameModel, FrameQuestion, FrameReport, OwnFrame, levels_for};
 use crate::risk::own_risk;
-use crate::weights::SiteWeights;
 
 /// Most values at which a wobbling frame is shaken.
 const MOST_VALUES: usize = 8;

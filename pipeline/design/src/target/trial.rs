@@ -10,7 +10,7 @@ use uplift_ida::{Peaks, Plan, System};
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::text::{counted, rate, records_in_words, thousands};
-use uplift_risk::StripeWeights;
+use uplift_risk::{SiteWeights, StripeWeights};
 use uplift_structure::Quantity;
 use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_levels};
@@ -24,7 +24,6 @@ use crate::opening::{Place, ShakenRecords, job_name, records_and_pairs, required
 use crate::own_frame::{FramePeaks, OwnFrame, Pairs};
 use crate::risk::{HAPPENS, OVERTURNING_M, bounded, happenings, risk_of_exceeding};
 use crate::uncertain::{Around, Spread};
-use crate::weights::SiteWeights;
 
 /// What values are tried on. The rows of every round stay in the checkpoint until the answer is given.
 pub(super) struct Trials<'a> {

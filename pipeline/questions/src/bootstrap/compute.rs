@@ -3,9 +3,7 @@
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
-use uplift_bootstrap::{
-    InferredLimits, Interval, ResamplingPlan, Unit, inferred_limits, repaired_limits, units_in_sample,
-};
+use uplift_bootstrap::{InferredLimits, Interval, ResamplingPlan, Unit, inferred_limits, units_in_sample};
 use uplift_ida::Watch;
 use uplift_job::events::{Events, Progress};
 use uplift_job::{Array, JobError, is_stopped};
@@ -314,7 +312,7 @@ pub(super) fn inferred_bands(
         let none = InferredLimits { truth_m: [f64::NAN; 2], prediction_m: [f64::NAN; 2] };
         let of_site = |(site, weights)| match reweighing.map(|own| own.weights(measure.measure, site)) {
             None => inferred_limits(&demand, weights, &units, targets, asked),
-            Some(Some(weights)) => repaired_limits(&demand, weights, &units, targets, asked),
+            Some(Some(weights)) => inferred_limits(&demand, weights, &units, targets, asked),
             Some(None) => Ok(vec![none; targets.len() * sizes.len()]),
         };
         Ok(measure.weights.iter().enumerate().map(of_site).collect::<Result<_, _>>()?)

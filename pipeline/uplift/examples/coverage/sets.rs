@@ -5,9 +5,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 use uplift::consistency::Question;
 use uplift::result::{ResultFile, StoredMeasure, StoredStripes};
-use uplift_bootstrap::{
-    Band, Replicates, ResamplingPlan, inferred_limits, repaired_limits, units, weighted_replicates,
-};
+use uplift_bootstrap::{Band, Replicates, ResamplingPlan, inferred_limits, units, weighted_replicates};
 use uplift_consistency::{DEFAULT_SMOOTHNESS, RecordSet, RepairOptions, Repaired, ScaledAnalysis, Scratch, Solver};
 use uplift_fragility::Stripes;
 use uplift_hazard::Extrapolation;
@@ -231,7 +229,7 @@ impl Place<'_> {
         let resampled = resamples.as_ref().map(resampled).transpose()?;
         for (strength, demand) in demands.iter().enumerate() {
             let truths = RiskCurve::weighted(&self.demands[strength], &of_all.weights)?.exact_ordinates(targets)?;
-            let limits = repaired_limits(demand, &weights, &alone, targets, (&[drawn.len()], CONFIDENCE))?;
+            let limits = inferred_limits(demand, &weights, &alone, targets, (&[drawn.len()], CONFIDENCE))?;
             for (poe, (limits, truth)) in limits.iter().zip(&truths).enumerate() {
                 let truth_m = truth.displacement_m;
                 see_both(&mut found, ["repaired", "repaired, rocking"], cell([poe, strength]), limits.truth_m, truth_m);

@@ -85,7 +85,7 @@ impl<'a> SiteRepair<'a> {
             Ok(finding) => {
                 let deviation = finding.diagnosis.deviation.as_ref();
                 let spectra = match finding.repaired() {
-                    Some(repaired) => risk.weighted_spectra(&repaired.weights),
+                    Some(repaired) => risk.spectra(&repaired.weights),
                     None => Err(self.question.no_repair(&finding).unwrap_or_default()),
                 };
                 let least = finding.repaired().and_then(|repaired| repaired.diagnosis.least_effective.as_ref());
