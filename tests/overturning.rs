@@ -171,7 +171,7 @@ fn what_no_record_overturns_has_a_bound_and_what_cannot_has_none() {
     let stiff = json(&study, "stiff.toml", &[]);
     assert_eq!(stiff["models"].as_array().unwrap().len(), 1);
     let notes = stiff["notes"].to_string();
-    assert!(notes.contains("never overturns") && notes.contains("no solitary block"), "{notes}");
+    assert!(notes.contains("never overturns") && notes.contains("not a solitary block"), "{notes}");
     let risk = &model(&stiff, "PGA", "oscillator")["sites"][0];
     assert!(risk["per_year"] == 0.0 && risk["at_most_per_year"].is_null(), "{risk}");
     let free = json(&study, "free.toml", &[]);

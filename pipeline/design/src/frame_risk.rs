@@ -102,6 +102,9 @@ pub struct FrameRiskReport {
     pub site: String,
     /// `PGV` or `PGA`.
     pub im: &'static str,
+    /// Those that the frame could be asked by, too.
+    #[serde(skip)]
+    pub other_measures: Vec<&'static str>,
     /// Unit of the levels.
     pub unit: &'static str,
     /// Probability of exceedance.
@@ -247,6 +250,7 @@ pub fn frame_risk(
         structure: StructureReport::from_structure(structure, None),
         site: place.name.to_owned(),
         im: measure.measure().label(),
+        other_measures: design.by_other_measures.iter().map(|of| of.im).collect(),
         unit: measure.measure().unit(),
         poe: source.study.risk.poe[poe],
         years,

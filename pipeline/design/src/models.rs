@@ -35,7 +35,7 @@ pub(super) fn models(
     }
     let Some(block) = structure.block else {
         let kind = structure.description.kind.name();
-        notes.push(format!("a {kind} rotates as no solitary block does: only the equivalent oscillator is analysed"));
+        notes.push(format!("a {kind} is not a solitary block: no block is analysed"));
         return Ok(models);
     };
     let (restitution, origin) = chosen.unwrap_or((block.restitution, "angular momentum"));

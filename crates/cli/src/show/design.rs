@@ -16,7 +16,7 @@ use uplift_structure::Rule;
 
 use super::alarms::print_in_parts;
 use super::shown_path;
-use super::structure::{band_after, band_in_cell, demand_in_words, lines, rate, risk_cells};
+use super::structure::{band_after, band_in_cell, demand_in_words, lines, measure_option, rate, risk_cells};
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use crate::error::CommandError;
 use crate::terminal::Terminal;
@@ -59,8 +59,8 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
         }
         _ => writeln!(out, "Verdict   {name}: no capacity, the force does not fall; {how_far}")?,
     }
-    for verdict in report.verdicts_by_other_measures() {
-        writeln!(out, "          proxy {verdict}")?;
+    for (im, verdict) in report.verdicts_by_other_measures() {
+        writeln!(out, "          proxy {verdict}; the frame: {}", measure_option(im))?;
     }
     if let Some(settings) = &report.own_oscillator {
         writeln!(out, "          spectrum of another oscillator: run {settings}")?;
@@ -163,7 +163,8 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         writeln!(out, "          {why}")?;
     }
     let unsafe_upper_limits = report.unsafe_upper_limits().into_iter().map(|(_, verdict)| verdict);
-    for verdict in unsafe_upper_limits.chain(report.verdicts_by_other_measures()) {
+    let by_others = report.verdicts_by_other_measures().into_iter().map(|(_, verdict)| verdict);
+    for verdict in unsafe_upper_limits.chain(by_others) {
         writeln!(out, "          {verdict}")?;
     }
     // the notes begin with what the structure and the spectrum do not have in common

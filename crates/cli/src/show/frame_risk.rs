@@ -9,7 +9,7 @@ use uplift::text::{
 
 use super::alarms::print_in_parts;
 use super::shown_path;
-use super::structure::{band_after, demand_in_words, lines, risk_cells};
+use super::structure::{band_after, demand_in_words, lines, measure_option, risk_cells};
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 
@@ -43,7 +43,11 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     let band = band_after(report.overturning.bands);
     writeln!(out, "Overturning  {per_year} per year{band}, once in {return_period} years")?;
     let risk = risk_in_words(report.poe, report.years);
-    writeln!(out, "At           {} by {}, {risk}; {}", report.site, report.im, report.source.record_set)?;
+    write!(out, "At           {} by {}", report.site, report.im)?;
+    for im in &report.other_measures {
+        write!(out, " ({im}: {})", measure_option(im))?;
+    }
+    writeln!(out, ", {risk}; {}", report.source.record_set)?;
     Ok(())
 }
 

@@ -58,6 +58,11 @@ pub(super) fn band_in_cell(per_year: Option<Bands>) -> String {
     per_year.map_or_else(String::new, |bands| format!(" ({})", bands.quoted().map(text::rate).join("–")))
 }
 
+/// The option by which a structure is judged by another measure.
+pub(super) fn measure_option(im: &str) -> String {
+    format!("--measure {}", im.to_lowercase())
+}
+
 /// Annual rate, probability and return period, with two digits each.
 pub(super) fn risk_cells(risk: &EventRisk) -> [String; 3] {
     let return_period = |per_year: f64| match 1.0 / per_year {

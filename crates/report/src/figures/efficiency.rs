@@ -27,9 +27,9 @@ pub(super) fn efficiency(source: &FigureSource) -> Result<Figure, UpliftError> {
         let tone = Tone::Distinct(index);
         panels[0].series.push(source.over_strengths(label, &found.own.rocking, tone));
         panels[1].series.push(source.over_strengths(label, &found.own.initiation, tone));
-        for (panel, lines) in panels[2..].iter_mut().zip(&found.lines) {
-            let values: Vec<f64> =
-                lines.iter().map(|line| line.as_ref().map_or(f64::NAN, |line| line.p_value.max(1e-6))).collect();
+        for (panel, trend) in panels[2..].iter_mut().zip(&found.own.trends) {
+            // NaN where there is no line
+            let values: Vec<f64> = trend.p_value.iter().map(|p_value| p_value.clamp(1e-6, 1.0)).collect();
             panel.series.push(source.over_strengths(label, &values, tone));
         }
     }

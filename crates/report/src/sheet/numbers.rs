@@ -76,7 +76,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         let whose = if is_of_proxy { "The" } else { "Its" }.to_owned() + " " + whose;
         say(format!("{whose} is {words}."), Some("no"));
     }
-    for verdict in report.verdicts_by_other_measures() {
+    for (_, verdict) in report.verdicts_by_other_measures() {
         let class = if verdict.contains("NOT") { "no" } else { "yes" };
         say(format!("{}.", verdict.replacen("by", "By", 1)), Some(class));
     }

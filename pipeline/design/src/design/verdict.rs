@@ -59,13 +59,13 @@ impl DesignReport {
     }
 
     /// The same by other measures. A measure by which every rule is satisfied is left out where every rule is satisfied
-    /// here, too.
-    pub fn verdicts_by_other_measures(&self) -> Vec<String> {
+    /// here, too, and no frame is judged: its frame may tell another story.
+    pub fn verdicts_by_other_measures(&self) -> Vec<(&'static str, String)> {
         let is_satisfied = |rules: &[RuleOutcome]| rules.iter().filter_map(RuleOutcome::check).all(|of| of.satisfied);
         let told = self.by_other_measures.iter().filter_map(|of| {
             let verdicts = verdicts_in_words(&of.rules, None)?;
-            let is_silent = is_satisfied(&of.rules) && is_satisfied(&self.rules);
-            (!is_silent).then(|| format!("by {}: {verdicts}", of.im))
+            let is_silent = self.frame.is_none() && is_satisfied(&of.rules) && is_satisfied(&self.rules);
+            (!is_silent).then(|| (of.im, format!("by {}: {verdicts}", of.im)))
         });
         told.collect()
     }

@@ -29,9 +29,6 @@ pub struct MeasureEfficiency {
     pub levels: Vec<f64>,
     /// Scatter of the demand over `[strength, level]`.
     pub dispersions: Vec<Dispersion>,
-    /// The line of the mean residuals over each covariate, `[covariate][strength]`; none where there are too few
-    /// records or stripes.
-    pub lines: Vec<Vec<Option<Line>>>,
 }
 
 /// One strength: scatter of each level, levels at first uplift, a line for each covariate.
@@ -99,8 +96,10 @@ fn efficiency_of(
         initiation.push(standard_deviation(&amplitudes.collect::<Vec<_>>()));
         initiation_records.push(u32::try_from(uplift.len()).unwrap_or(u32::MAX));
     }
-    let of_covariate = |covariate: usize| by_strength.iter().map(|(.., lines)| lines[covariate]).collect();
-    let lines: Vec<Vec<Option<Line>>> = (0..covariates.len()).map(of_covariate).collect();
+    let trend = |(place, covariate): (usize, &Covariate)| {
+        let lines: Vec<Option<Line>> = by_strength.iter().map(|(.., lines)| lines[place]).collect();
+        StoredTrend::new(covariate.key, &lines)
+    };
     Ok(MeasureEfficiency {
         own: StoredEfficiency {
             measure: measure.measure,
@@ -110,10 +109,9 @@ fn efficiency_of(
             undefined,
             initiation,
             initiation_records,
-            trends: covariates.iter().zip(&lines).map(|(of, lines)| StoredTrend::new(of.key, lines)).collect(),
+            trends: covariates.iter().enumerate().map(trend).collect(),
         },
         levels: measure.levels.clone(),
-        lines,
         dispersions: by_strength.into_iter().flat_map(|(dispersions, ..)| dispersions).collect(),
     })
 }

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::Serialize;
-use uplift_result::StoredEfficiency;
+use uplift_job::text::finite;
+use uplift_result::{StoredEfficiency, StoredTrend};
 use uplift_uniform_risk::StoredStripes;
 
 use super::of_measure::{Covariate, MeasureEfficiency};
@@ -80,6 +81,11 @@ pub(super) fn rank(measures: &[MeasureEfficiency], of: &StoredEfficiency, index:
     of.reaching[index].is_finite().then(place)
 }
 
+fn trend_at(trend: &StoredTrend, index: usize) -> Trend {
+    let [slope, p_value, r_squared] = [&trend.slope, &trend.p_value, &trend.r_squared].map(|of| finite(of[index]));
+    Trend { slope, p_value, r_squared }
+}
+
 impl EfficiencyReport {
     pub(super) fn new(
         stored: StoredStripes,
@@ -87,7 +93,7 @@ impl EfficiencyReport {
         measures: &[MeasureEfficiency],
         up_to_m: Vec<Option<f64>>,
     ) -> Self {
-        let row = |MeasureEfficiency { own: of, lines, .. }: &MeasureEfficiency, index: usize| EfficiencyRow {
+        let row = |MeasureEfficiency { own: of, .. }: &MeasureEfficiency, index: usize| EfficiencyRow {
             im: of.measure.label(),
             scaled_to: of.scaled_to.label(),
             strength: stored.strengths[index],
@@ -96,19 +102,7 @@ impl EfficiencyReport {
             dispersion_rocking: of.rocking[index],
             undefined_share: of.undefined[index],
             dispersion_initiation: of.initiation[index],
-            trends: covariates
-                .iter()
-                .zip(lines)
-                .map(|(covariate, lines)| {
-                    let line = lines[index].as_ref();
-                    let trend = Trend {
-                        slope: line.map(|line| line.slope),
-                        p_value: line.map(|line| line.p_value),
-                        r_squared: line.map(|line| line.r_squared),
-                    };
-                    (covariate.key, trend)
-                })
-                .collect(),
+            trends: covariates.iter().zip(&of.trends).map(|(of, trend)| (of.key, trend_at(trend, index))).collect(),
         };
         Self {
             rows: measures

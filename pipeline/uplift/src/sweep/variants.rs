@@ -4,6 +4,7 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 use uplift_atomic_file::read_file;
+use uplift_job::text::distinct;
 use uplift_job::{JobError, text_table};
 use uplift_labelled::hexadecimal;
 
@@ -98,13 +99,7 @@ fn is_same_name(one: &str, other: &str) -> bool {
 
 /// All keys that vary, in the order in which they come.
 pub(super) fn keys(variants: &[Variant]) -> Vec<String> {
-    let mut keys: Vec<String> = Vec::new();
-    for (key, _) in variants.iter().flat_map(|variant| &variant.changes) {
-        if !keys.contains(key) {
-            keys.push(key.clone());
-        }
-    }
-    keys
+    distinct(variants.iter().flat_map(|variant| &variant.changes).map(|(key, _)| key.clone()))
 }
 
 /// Every combination of the values in `over`, each `KEY=VALUE,VALUE…`; the last runs fastest. A comma within brackets,
