@@ -30,9 +30,7 @@ pub fn without_each(
 ) -> Result<Vec<f64>, BootstrapError> {
     let table = ResamplingTable::new(demand, weights)?;
     let mut ordinates_m = vec![0.0; samples.len() * targets_per_year.len()];
-    for (sample, row) in samples.iter().zip(ordinates_m.chunks_exact_mut(targets_per_year.len().max(1))) {
-        table.ordinates(sample, targets_per_year, row)?;
-    }
+    table.ordinates(samples, targets_per_year, &mut ordinates_m)?;
     Ok(ordinates_m)
 }
 

@@ -30,12 +30,12 @@ impl Replicates {
     ) -> Result<Self, BootstrapError> {
         let (targets, samples) = (targets_per_year.len(), plan.samples().len());
         let mut ordinates_m = vec![0.0; sites.len() * targets * samples];
-        let mut row = vec![0.0; targets];
+        let mut of_samples_m = vec![0.0; targets * samples];
         for (site, weights) in sites.iter().enumerate() {
             let table = ResamplingTable::new(demand, weights)?;
-            for (index, sample) in plan.samples().iter().enumerate() {
-                table.ordinates(sample, targets_per_year, &mut row)?;
-                for (target, &ordinate_m) in row.iter().enumerate() {
+            table.ordinates(plan.samples(), targets_per_year, &mut of_samples_m)?;
+            for (index, row_m) in of_samples_m.chunks_exact(targets.max(1)).enumerate() {
+                for (target, &ordinate_m) in row_m.iter().enumerate() {
                     ordinates_m[(site * targets + target) * samples + index] = ordinate_m;
                 }
             }

@@ -9,13 +9,18 @@
 // what is not inlined into a search is not compiled for the instructions that it is compiled for
 #![allow(clippy::inline_always)]
 
+use std::hint::select_unpredictable;
+
 use uplift_instructions::{Instructions, LANES, Vectors, Work, by_halves};
 
 use crate::fixed_point::{QUANTUM_PER_YEAR, rate_per_year};
+use crate::sample::Lanes;
 use crate::{PooledDemand, RecordSample, RiskCurve, RiskError, StripeWeights};
 
 /// Demands between two rows of the table.
 const BLOCK: usize = 32;
+/// Searches side by side.
+const TOGETHER: usize = 4;
 
 /// The risk of one oscillator at one site, split by record: for many samples of the records.
 ///
@@ -24,10 +29,13 @@ const BLOCK: usize = 32;
 pub struct ResamplingTable<'a> {
     demand: &'a PooledDemand,
     weights: &'a StripeWeights,
-    /// `[block, record]`: weight of the runs of a record before the block, 1/yr; rows are padded to whole lanes.
-    before: Vec<f64>,
+    /// `[block, record]`: weight of the runs of a record before the block, 1/yr; a row is of whole lanes.
+    before: Vec<Lanes>,
     /// Weight of each stripe, 1/yr.
     per_year: Vec<f64>,
+    /// What all records have before each block, over their number, 1/yr.
+    means: Vec<f64>,
+    /// Lanes of a row.
     row: usize,
     /// Bound on the relative error of a sum.
     error: f64,
@@ -42,14 +50,25 @@ impl<'a> ResamplingTable<'a> {
         RiskCurve::new(demand, weights)?;
         if demand.shares().is_some() {
             // what a record weighs depends on the others of its level in the sample: the exact curve does it all
-            return Ok(Self { demand, weights, before: Vec::new(), per_year: Vec::new(), row: 0, error: 0.0 });
+            return Ok(Self {
+                demand,
+                weights,
+                before: Vec::new(),
+                means: Vec::new(),
+                per_year: Vec::new(),
+                row: 0,
+                error: 0.0,
+            });
         }
-        let row = demand.record_count().next_multiple_of(LANES);
+        let records = demand.record_count();
+        let row = records.div_ceil(LANES);
         let quanta = weights.quanta();
-        let (mut sums, mut rates) = (vec![0_u128; demand.record_count()], vec![0.0; row]);
-        let mut before = Vec::with_capacity((demand.runs().len() / BLOCK + 1) * row);
+        let (mut sums, mut rates) = (vec![0_u128; records], vec![0.0; records]);
+        let blocks = demand.runs().len() / BLOCK + 1;
+        let (mut before, mut means) = (Vec::with_capacity(blocks * row), Vec::with_capacity(blocks));
         for block in demand.runs().chunks(BLOCK) {
-            before.extend_from_slice(&rates);
+            before.extend(Lanes::of(&rates));
+            means.push(rates.iter().sum::<f64>() / records as f64);
             for run in block {
                 let (sum, rate) = (&mut sums[usize::from(run.record)], &mut rates[usize::from(run.record)]);
                 *sum += quanta[usize::from(run.level)];
@@ -57,92 +76,73 @@ impl<'a> ResamplingTable<'a> {
             }
         }
         // every term of a sum is rounded once or twice and passes through at most so many additions
-        let error = (row + BLOCK + 8) as f64 * f64::EPSILON;
-        Ok(Self { demand, weights, before, per_year: weights.per_year(), row, error })
+        let error = (row * LANES + BLOCK + 8) as f64 * f64::EPSILON;
+        Ok(Self { demand, weights, before, means, per_year: weights.per_year(), row, error })
     }
 
-    /// Exact ordinates of a sample, m, `[target]`: 0 where nothing is exceeded so often, +∞ where overturning alone is.
+    /// Exact ordinates of samples, m, `[sample, target]`: 0 where nothing is exceeded so often, +∞ where overturning
+    /// alone is.
     ///
-    /// - `targets_per_year`: target rates, 1/yr, `[target]`; rising targets are found fastest.
-    /// - `ordinates_m`: receives the ordinates, `[target]`.
+    /// - `targets_per_year`: target rates, 1/yr, `[target]`.
+    /// - `ordinates_m`: receives the ordinates, `[sample, target]`.
     ///
     /// # Errors
     /// A sample of another number of records, or one that leaves a level with records of its own without any; a target
     /// that is not positive and finite.
     ///
     /// # Panics
-    /// Unless there is space for one ordinate a target, which is a bug of the caller.
+    /// Unless there is space for one ordinate a sample and target, which is a bug of the caller.
     pub fn ordinates(
         &self,
-        sample: &RecordSample,
+        samples: &[RecordSample],
         targets_per_year: &[f64],
         ordinates_m: &mut [f64],
     ) -> Result<(), RiskError> {
-        assert_eq!(targets_per_year.len(), ordinates_m.len(), "one ordinate a target");
+        assert_eq!(samples.len() * targets_per_year.len(), ordinates_m.len(), "one ordinate a sample and target");
         // the exact curve also refuses what does not fit
-        let exact = RiskCurve::resampled(self.demand, self.weights, sample)?;
+        let exact = |sample| RiskCurve::resampled(self.demand, self.weights, sample);
         if self.demand.shares().is_some() {
-            for (ordinate_m, ordinate) in ordinates_m.iter_mut().zip(exact.exact_ordinates(targets_per_year)?) {
-                *ordinate_m = ordinate.displacement_m;
+            for (sample, row_m) in samples.iter().zip(ordinates_m.chunks_exact_mut(targets_per_year.len().max(1))) {
+                let found = exact(sample)?.exact_ordinates(targets_per_year)?;
+                row_m.iter_mut().zip(found).for_each(|(own_m, found)| *own_m = found.displacement_m);
             }
             return Ok(());
         }
+        samples.iter().try_for_each(|sample| exact(sample).map(drop))?;
+        if let Some(&rate) = targets_per_year.iter().find(|target| !(target.is_finite() && **target > 0.0)) {
+            return Err(RiskError::Target { rate });
+        }
         let instructions = Instructions::chosen();
-        for (&target, ordinate_m) in targets_per_year.iter().zip(ordinates_m) {
-            if !target.is_finite() || target <= 0.0 {
-                return Err(RiskError::Target { rate: target });
+        let targets = targets_per_year.len();
+        for (target, &target_per_year) in targets_per_year.iter().enumerate() {
+            let near = self.means.partition_point(|&mean| mean <= target_per_year);
+            let rows_m = ordinates_m.chunks_mut(TOGETHER * targets);
+            for (samples, rows_m) in samples.chunks(TOGETHER).zip(rows_m) {
+                // where fewer are left, the last is sought more than once
+                let all = std::array::from_fn(|place| &samples[place.min(samples.len() - 1)]);
+                let found = instructions.run(Searches { table: self, samples: all, target_per_year, near });
+                for ((sample, row_m), found) in samples.iter().zip(rows_m.chunks_mut(targets)).zip(found) {
+                    row_m[target] = match found {
+                        Some(displacement_m) => displacement_m,
+                        None => exact(sample)?.exact_ordinate(target_per_year)?.displacement_m,
+                    };
+                }
             }
-            let search = Search { table: self, sample, limit: target * f64::from(sample.size()) };
-            *ordinate_m = match instructions.run(search) {
-                Some(displacement_m) => displacement_m,
-                None => exact.exact_ordinate(target)?.displacement_m,
-            };
         }
         Ok(())
     }
-}
 
-/// A search for the ordinate at which the sum of weights passes a limit; none where rounding leaves doubt.
-struct Search<'a> {
-    table: &'a ResamplingTable<'a>,
-    sample: &'a RecordSample,
-    /// The target rate times the size of the sample, 1/yr.
-    limit: f64,
-}
-
-impl Work for Search<'_> {
-    type Output = Option<f64>;
-
+    /// The first demand from the run at `start` on at which the sum of the weights of a sample is beyond the limit;
+    /// none where that is in doubt.
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) -> Option<f64> {
-        let Self { table, sample, limit } = self;
-        let draws = sample.lanes();
-        // the exact curve rounds the target to whole quanta
-        let margin = limit * table.error + 2.0 * f64::from(sample.size()) * QUANTUM_PER_YEAR;
-        let (surely_within, surely_beyond) = (limit - margin, limit + margin);
-        let blocks = table.before.len() / table.row;
-        // the last block that begins within the limit: the first begins with nothing
-        let (mut low, mut high) = (0, blocks);
-        let mut sum = 0.0;
-        while high - low > 1 {
-            let middle = usize::midpoint(low, high);
-            let middle_sum = dot(vectors, draws, &table.before[middle * table.row..(middle + 1) * table.row]);
-            if middle_sum < surely_within {
-                (low, sum) = (middle, middle_sum);
-            } else if middle_sum > surely_beyond {
-                high = middle;
-            } else {
-                return None;
-            }
-        }
-        let start = low * BLOCK;
-        let (edp_m, runs) = (table.demand.edp_m(), table.demand.runs());
-        for (run, &demand_m) in runs[start..].iter().zip(&edp_m[start..]) {
-            sum += draws[usize::from(run.record)] * table.per_year[usize::from(run.level)];
-            if sum > surely_beyond {
+    fn walk(&self, sample: &RecordSample, (start, mut sum): (usize, f64), [within, beyond]: [f64; 2]) -> Option<f64> {
+        let draws = sample.multiplicities();
+        for (run, &demand_m) in self.demand.runs()[start..].iter().zip(&self.demand.edp_m()[start..]) {
+            sum += f64::from(draws[usize::from(run.record)]) * self.per_year[usize::from(run.level)];
+            if sum > beyond {
                 return Some(demand_m);
             }
-            if sum >= surely_within {
+            if sum >= within {
                 return None;
             }
         }
@@ -150,11 +150,67 @@ impl Work for Search<'_> {
     }
 }
 
-/// Scalar product; both of the same whole number of lanes.
+/// Searches for the ordinates at which the rates of samples pass a target: side by side, so that the processor waits
+/// for none of them.
+struct Searches<'a> {
+    table: &'a ResamplingTable<'a>,
+    samples: [&'a RecordSample; TOGETHER],
+    target_per_year: f64,
+    /// The first block before which all records pass the target.
+    near: usize,
+}
+
+impl Work for Searches<'_> {
+    /// None where rounding leaves doubt.
+    type Output = [Option<f64>; TOGETHER];
+
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) -> Self::Output {
+        let Self { table, samples, target_per_year, near } = self;
+        // between these limits of the sum of weights there is doubt
+        let doubtful = samples.map(|sample| {
+            let limit = target_per_year * f64::from(sample.size());
+            // the exact curve rounds the target to whole quanta
+            let margin = limit * table.error + 2.0 * f64::from(sample.size()) * QUANTUM_PER_YEAR;
+            [limit - margin, limit + margin]
+        });
+        let blocks = table.before.len() / table.row;
+        // the last block that begins within the limit: the first begins with nothing
+        let (mut low, mut high) = ([0; TOGETHER], [blocks; TOGETHER]);
+        // from where all records pass the target with longer and longer steps, until the block lies between two
+        let (mut places, mut step) = ([near.clamp(1, blocks.max(2) - 1); TOGETHER], 1);
+        let (mut sums, mut is_doubtful) = ([0.0_f64.to_bits(); TOGETHER], [false; TOGETHER]);
+        while (0..TOGETHER).any(|at| high[at] > low[at] + 1) {
+            for at in 0..TOGETHER {
+                let place = places[at];
+                let row = &table.before[place * table.row..(place + 1) * table.row];
+                let sum = dot(vectors, samples[at].lanes(), row);
+                let (is_within, is_beyond) = (sum < doubtful[at][0], sum > doubtful[at][1]);
+                is_doubtful[at] |= !(is_within || is_beyond);
+                low[at] = select_unpredictable(is_within, place, low[at]);
+                high[at] = select_unpredictable(is_within, high[at], place);
+                sums[at] = select_unpredictable(is_within, sum.to_bits(), sums[at]);
+                let middle = usize::midpoint(low[at], high[at]);
+                let (up, down) = (middle.min(place + step), middle.max(place.saturating_sub(step)));
+                places[at] = select_unpredictable(is_within, up, down);
+            }
+            step *= 2;
+        }
+        std::array::from_fn(|at| {
+            if is_doubtful[at] {
+                None
+            } else {
+                table.walk(samples[at], (low[at] * BLOCK, f64::from_bits(sums[at])), doubtful[at])
+            }
+        })
+    }
+}
+
+/// Scalar product.
 #[inline(always)]
-fn dot<V: Vectors>(vectors: V, a: &[f64], b: &[f64]) -> f64 {
+fn dot<V: Vectors>(vectors: V, a: &[Lanes], b: &[Lanes]) -> f64 {
     let mut sums = vectors.splat(0.0);
-    for (a, b) in a.as_chunks().0.iter().zip(b.as_chunks().0) {
+    for (Lanes(a), Lanes(b)) in a.iter().zip(b) {
         sums = vectors.add(sums, vectors.mul(vectors.load(a), vectors.load(b)));
     }
     by_halves(vectors.store(sums), |a, b| a + b)

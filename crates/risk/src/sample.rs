@@ -5,13 +5,29 @@ use uplift_instructions::LANES;
 use crate::RiskError;
 use crate::fixed_point::MAX_SAMPLE_SIZE;
 
+/// Numbers side by side where the processor reads them at once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
+pub(crate) struct Lanes(pub(crate) [f64; LANES]);
+
+impl Lanes {
+    /// `numbers` in whole lanes, with zeros after them.
+    pub(crate) fn of(numbers: &[f64]) -> impl Iterator<Item = Self> {
+        numbers.chunks(LANES).map(|chunk| {
+            let mut lanes = [0.0; LANES];
+            lanes[..chunk.len()].copy_from_slice(chunk);
+            Self(lanes)
+        })
+    }
+}
+
 /// A sample of the records, drawn with replacement: how often each record was drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordSample {
     multiplicities: Vec<u32>,
     size: u32,
-    /// The multiplicities in double precision, padded to whole lanes.
-    lanes: Vec<f64>,
+    /// The multiplicities in double precision.
+    lanes: Vec<Lanes>,
 }
 
 impl RecordSample {
@@ -23,9 +39,8 @@ impl RecordSample {
         let total: u64 = multiplicities.iter().map(|&count| u64::from(count)).sum();
         match u32::try_from(total) {
             Ok(size) if (1..=MAX_SAMPLE_SIZE).contains(&total) => {
-                let mut lanes: Vec<f64> = multiplicities.iter().map(|&count| f64::from(count)).collect();
-                lanes.resize(lanes.len().next_multiple_of(LANES), 0.0);
-                Ok(Self { multiplicities, size, lanes })
+                let counts: Vec<f64> = multiplicities.iter().map(|&count| f64::from(count)).collect();
+                Ok(Self { multiplicities, size, lanes: Lanes::of(&counts).collect() })
             }
             _ => Err(RiskError::SampleSize { size: total }),
         }
@@ -54,7 +69,7 @@ impl RecordSample {
         Ok(weighed)
     }
 
-    pub(crate) fn lanes(&self) -> &[f64] {
+    pub(crate) fn lanes(&self) -> &[Lanes] {
         &self.lanes
     }
 

@@ -357,28 +357,34 @@ proptest! {
         prop_assert_eq!(a.disaggregation(0.3).unwrap(), b.disaggregation(0.3).unwrap());
     }
 
-    // Targets are random, or λ at a demand, where rounding could go either way.
+    // Targets are random, or λ of the first sample at a demand, where rounding could go either way; as many samples as
+    // are sought side by side, fewer and more.
     #[test]
     fn a_resampling_table_gives_the_exact_ordinates(
         case in case(),
-        draws in prop::collection::vec(0_usize..1000, 1..120),
+        draws in prop::collection::vec(prop::collection::vec(0_usize..1000, 1..120), 1..10),
         random in 1e-6_f64..1.0,
         position in 0_usize..2000,
     ) {
-        let mut multiplicities = vec![0; case.records];
-        for draw in draws {
-            multiplicities[draw % case.records] += 1;
-        }
-        let sample = RecordSample::new(multiplicities).unwrap();
+        let sample = |draws: Vec<usize>| {
+            let mut multiplicities = vec![0; case.records];
+            for draw in draws {
+                multiplicities[draw % case.records] += 1;
+            }
+            RecordSample::new(multiplicities).unwrap()
+        };
+        let samples: Vec<RecordSample> = draws.into_iter().map(sample).collect();
         let pool = case.pool();
-        let curve = RiskCurve::resampled(&pool, &case.weights, &sample).unwrap();
+        let curve = RiskCurve::resampled(&pool, &case.weights, &samples[0]).unwrap();
         let candidates = case.candidates();
         let at_demand = curve.mean_annual_frequency(candidates[position % candidates.len()]).unwrap();
         let targets = [random, if at_demand > 0.0 { at_demand } else { random }];
         let table = ResamplingTable::new(&pool, &case.weights).unwrap();
-        let mut found = [f64::NAN; 2];
-        table.ordinates(&sample, &targets, &mut found).unwrap();
-        let exact = curve.exact_ordinates(&targets).unwrap();
-        prop_assert_eq!(found.to_vec(), exact.iter().map(|ordinate| ordinate.displacement_m).collect::<Vec<_>>());
+        let mut found = vec![f64::NAN; 2 * samples.len()];
+        table.ordinates(&samples, &targets, &mut found).unwrap();
+        for (sample, found) in samples.iter().zip(found.chunks_exact(2)) {
+            let exact = RiskCurve::resampled(&pool, &case.weights, sample).unwrap().exact_ordinates(&targets).unwrap();
+            prop_assert_eq!(found, exact.iter().map(|ordinate| ordinate.displacement_m).collect::<Vec<_>>());
+        }
     }
 }

@@ -177,7 +177,7 @@ fn levels_with_records_of_their_own_by_hand() {
     assert_eq!(curve.exceedance_probabilities(0.3).unwrap(), [0.0, 1.0, 1.0]);
     let table = ResamplingTable::new(&demand, &stripes).unwrap();
     let mut found = [NONE; 2];
-    table.ordinates(&without, &[0.2, 0.5], &mut found).unwrap();
+    table.ordinates(&[without], &[0.2, 0.5], &mut found).unwrap();
     assert_eq!(found, [0.4, 0.2]);
     // record 1 drawn thrice: its share grows where it counts, and nowhere else
     let thrice = RecordSample::new(vec![1, 3, 1]).unwrap();
@@ -187,7 +187,7 @@ fn levels_with_records_of_their_own_by_hand() {
     // nobody is left at the last level
     let empty = RecordSample::new(vec![0, 2, 0]).unwrap();
     assert_eq!(RiskCurve::resampled(&demand, &stripes, &empty).unwrap_err(), RiskError::EmptyLevel { level: 2 });
-    assert_eq!(table.ordinates(&empty, &[0.2, 0.5], &mut found).unwrap_err(), RiskError::EmptyLevel { level: 2 });
+    assert_eq!(table.ordinates(&[empty], &[0.2, 0.5], &mut found).unwrap_err(), RiskError::EmptyLevel { level: 2 });
     // weights of a run that is none
     let even = RunWeights::new(&stripes, &[1.0 / 3.0; 9]).unwrap();
     assert_eq!(RiskCurve::weighted(&demand, &even).unwrap_err(), RiskError::NoRun { level: 0, record: 2 });

@@ -1,7 +1,6 @@
 //! The demand of a target rate on a frame and on its proxies with its confidence band; errors with bands from resampled
 //! records.
 
-use rayon::prelude::*;
 use serde::Serialize;
 use uplift_bootstrap::{Band, ResamplingPlan};
 use uplift_fragility::Stripes as Stripe;
@@ -84,18 +83,18 @@ impl Question<'_> {
             Ok(factor * weights.curve(&pool)?.exact_ordinate(self.target_per_year)?.displacement_m)
         };
         let table = ResamplingTable::new(&pool, self.weights)?;
-        let replicate = |sample| -> Result<f64, DesignError> {
-            let mut ordinate_m = [0.0];
-            table.ordinates(sample, &[self.target_per_year], &mut ordinate_m)?;
-            Ok(factor * ordinate_m[0])
-        };
+        let mut replicates_m = vec![0.0; self.plan.samples().len()];
+        table.ordinates(self.plan.samples(), &[self.target_per_year], &mut replicates_m)?;
+        for replicate_m in &mut replicates_m {
+            *replicate_m *= factor;
+        }
         let asked = (self.target_per_year, self.confidence);
         let bands = record_bands(&pool, self.weights.into(), self.scatter, asked)?;
         Ok(Resampled {
             band_of: bands.map(|bands| bands.source()),
             limits_m: bands.map_or([f64::NAN; 2], |bands| bands.quoted().map(|limit_m| factor * limit_m)),
             demand_m: demand_m(self.weights.into())?,
-            replicates_m: self.plan.samples().par_iter().map(replicate).collect::<Result<_, _>>()?,
+            replicates_m,
             repaired_m: self.repaired.map(|weights| demand_m(weights.into())).transpose()?,
             risk_curve: self.risk_curve(&pool, factor)?,
         })
