@@ -53,17 +53,17 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
         None => "its proxy has no demand to compare with".to_owned(),
     };
     match (report.verdicts_differ(), wobbling.check) {
-        (Some(true), _) => writeln!(out, "Verdict   {name}: the verdicts differ; {how_far}")?,
+        (Some(true), _) => writeln!(out, "Verdict   {name}: verdicts differ; {how_far}")?,
         (Some(false), Some(check)) => {
             writeln!(out, "Verdict   {name}: {} by frame and proxy; {how_far}", verdict_word(check.satisfied))?;
         }
         _ => writeln!(out, "Verdict   {name}: no capacity, the force does not fall; {how_far}")?,
     }
     for (im, verdict) in report.verdicts_by_other_measures() {
-        writeln!(out, "          proxy {verdict}; the frame: {}", measure_option(im))?;
+        writeln!(out, "          proxy {verdict}; frame: {}", measure_option(im))?;
     }
     if let Some(settings) = &report.own_oscillator {
-        writeln!(out, "          spectrum of another oscillator: run {settings}")?;
+        writeln!(out, "          own spectrum: run {settings}")?;
     }
     if let Some(capacity_m) = report.structure.capacity_m {
         let factor = report.required_safety_factor;
