@@ -138,11 +138,11 @@ fn a_design_has_the_frame_beside_its_proxy() {
     let said = study.uplift(&[&["design", "free.toml", "--urs", "r.h5", "--report", "s.html"], &ask[..]].concat()).ok();
     let (first, rest) = said.stdout.split_once('\n').unwrap();
     let differ = models[0]["check"]["satisfied"] != design["rules"][0]["from_spectrum"]["satisfied"];
-    assert_eq!(first.contains("verdicts differ"), differ, "{first}");
+    assert_eq!(first.contains("the verdicts differ"), differ, "{first}");
     assert!(rest.contains("wobbling frame") && rest.contains("\nequal energy† "), "{rest}");
-    assert!(rest.contains("\n† demand rises with capacity\n"), "{rest}");
+    assert!(rest.contains("\n† not demand × safety factor: demand rises with capacity\n"), "{rest}");
     let settings = design["own_oscillator"].as_str().unwrap();
-    assert!(rest.contains(&format!("own spectrum: run {settings}\n")), "{rest}");
+    assert!(rest.contains(&format!("its own: run {settings}\n")), "{rest}");
     let sheet = std::fs::read_to_string(study.path().join("s.html")).unwrap();
     assert!(sheet.contains("The wobbling frame itself") && sheet.contains("required capacity, m"), "{sheet}");
 

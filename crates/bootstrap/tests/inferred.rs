@@ -169,6 +169,9 @@ fn what_does_not_belong_together_is_refused() {
     let of = |units: &[Vec<usize>], target: f64| inferred_limits(&demand, &weights(), units, &[target], (&[2], 0.9));
     assert!(of(&[vec![0], vec![1], vec![2]], 0.1).unwrap_err().to_string().contains("3 records of the units"));
     assert!(of(&[vec![0], vec![1]], -0.1).is_err());
+    let one_record = RunWeights::new(&weights(), &[1.0; 4]).unwrap();
+    let refused = truth_limits(&demand, &one_record, &[vec![0], vec![1]], &[0.1], 0.9).unwrap_err();
+    assert!(refused.to_string().contains("1 records with shares"), "{refused}");
 }
 
 fn many_levels() -> (Vec<f64>, StripeWeights) {

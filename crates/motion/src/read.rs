@@ -105,7 +105,9 @@ pub fn read_record_file(path: &Path, options: &ReadOptions) -> Result<RecordFile
 /// reader: a head that lacks something or cannot be read, an invalid number, fewer values than the head says.
 pub fn read_record(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<RecordFile, MotionError> {
     let bytes = unpacked(bytes, name)?;
-    if let Some(found) = other_kind(&bytes, name) {
+    if options.format.is_none()
+        && let Some(found) = other_kind(&bytes, name)
+    {
         return Err(MotionError::OtherKind { name: name.to_owned(), found });
     }
     let format = options.format.unwrap_or_else(|| detect(&bytes, name));
@@ -163,10 +165,11 @@ fn detect(bytes: &[u8], name: &str) -> RecordFormat {
 
 /// What a file is that people give in place of a record; none of one that may be a record.
 fn other_kind(bytes: &[u8], name: &str) -> Option<&'static str> {
-    let header = bytes.split(|&byte| byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
+    let is_header = |line: &&[u8]| !line.starts_with(b"#") && !line.trim_ascii().is_empty();
+    let header = bytes.split(|&byte| byte == b'\n').find(is_header).unwrap_or_default();
     if bytes.starts_with(b"\x89HDF\r\n\x1a\n") {
         Some("an HDF5 file such as a result (`uplift status` shows what it holds)")
-    } else if decode(header).split([',', ';', '\t']).any(|column| column.trim() == "record_id") {
+    } else if decode(header).split([',', ';', '\t']).any(|column| column.trim().trim_matches('"') == "record_id") {
         Some("a manifest (`uplift records list` shows its records)")
     } else if Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         Some("a TOML file such as a study or structure")

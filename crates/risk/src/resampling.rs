@@ -194,7 +194,7 @@ impl Work for Searches<'_> {
                 let (up, down) = (middle.min(place + step), middle.max(place.saturating_sub(step)));
                 places[at] = select_unpredictable(is_within, up, down);
             }
-            step *= 2;
+            step = step.saturating_mul(2);
         }
         std::array::from_fn(|at| {
             if is_doubtful[at] {

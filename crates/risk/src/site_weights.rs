@@ -1,13 +1,13 @@
-//! What the runs of a structure weigh at a site: records that count alike, or weights by which they bring its hazard.
+//! What each run weighs at a site: records count alike, or by the weights of a repair.
 
 use crate::{PooledDemand, RiskCurve, RiskError, RunWeights, StripeWeights};
 
-/// What the runs of a structure weigh at a site: of the weights of its stripes alone, or of each run.
+/// What each run weighs at a site.
 #[derive(Debug, Clone, Copy)]
 pub enum SiteWeights<'a> {
-    /// Every record of a stripe alike, or as the demand says.
+    /// Its share of what the stripe weighs: that of the demand, or the same for all records.
     Alike(&'a StripeWeights),
-    /// As a repair says.
+    /// Its own weight, by which the records match the hazard of another measure.
     Repaired(&'a RunWeights),
 }
 
@@ -24,7 +24,7 @@ impl<'a> From<&'a RunWeights> for SiteWeights<'a> {
 }
 
 impl<'a> SiteWeights<'a> {
-    /// The repaired ones, where there are any.
+    /// The weights of a repair, if there are any, else those of the stripes.
     pub fn new(stripes: &'a StripeWeights, repaired: Option<&'a RunWeights>) -> Self {
         repaired.map_or(Self::Alike(stripes), Self::Repaired)
     }
@@ -40,7 +40,7 @@ impl<'a> SiteWeights<'a> {
         }
     }
 
-    /// What the hazard makes of each stripe.
+    /// The weights of the stripes.
     pub fn stripes(&self) -> &'a StripeWeights {
         match self {
             Self::Alike(stripes) => stripes,
@@ -48,7 +48,7 @@ impl<'a> SiteWeights<'a> {
         }
     }
 
-    /// Those of a repair.
+    /// The weights of a repair; none without one.
     pub fn repaired(&self) -> Option<&'a RunWeights> {
         match self {
             Self::Alike(_) => None,
@@ -56,8 +56,13 @@ impl<'a> SiteWeights<'a> {
         }
     }
 
-    /// To how many pairs that count alike `pairs`, each with the positions of its records, amount at the last level,
-    /// 1/Σp² with the share p of a pair: two records of one tell little more than one does.
+    /// Effective number of pairs at the last level: 1/Σp², with the share p of a pair. Two records of one pair tell
+    /// little more than one does.
+    ///
+    /// - `pairs`: the positions of the records of each pair, `[pair]`.
+    ///
+    /// # Panics
+    /// At a position that no record has, which is a bug of the caller.
     pub fn effective_pairs(&self, pairs: &[Vec<usize>]) -> f64 {
         match self {
             Self::Alike(_) => pairs.len() as f64,

@@ -106,7 +106,7 @@ impl DesignReport {
     /// # Errors
     /// None for the reports of this program.
     pub fn finding(&self, structure: &Structure) -> Result<Finding, DesignError> {
-        let analysed = if self.exact.is_some() { "response analysis" } else { "the spectrum only" };
+        let analysed = if self.exact.is_some() { "its own analysis" } else { "the spectrum alone" };
         let question = Question {
             inquiry: Inquiry::Design,
             structure,
@@ -117,7 +117,7 @@ impl DesignReport {
                 ("poe", self.poe.to_string()),
                 ("years", self.years.to_string()),
                 ("safety factor", self.required_safety_factor.to_string()),
-                ("demand from", analysed.to_owned()),
+                ("by", analysed.to_owned()),
             ],
         };
         question.answered(self.finding_rows(), self)

@@ -36,6 +36,16 @@ pub fn parse(bytes: &[u8], texts: &[&str]) -> Result<DataFrame, String> {
 pub fn parse_with_short_row(bytes: &[u8], texts: &[&str]) -> Result<(DataFrame, Option<(usize, usize)>), String> {
     refuse_what_is_no_text(bytes)?;
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let parsed = parse_text(bytes, texts);
+    // a table may look like another kind of file, but is not in pieces then
+    let is_table = parsed.as_ref().is_ok_and(|(table, _)| table.width() > 1);
+    match other_kind(bytes).filter(|_| !is_table) {
+        Some(kind) => Err(kind.to_owned()),
+        None => parsed,
+    }
+}
+
+fn parse_text(bytes: &[u8], texts: &[&str]) -> Result<(DataFrame, Option<(usize, usize)>), String> {
     let header = bytes.split(|&byte| byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
     let separator = separator(header);
     let short = shape::check(bytes, separator)?;
@@ -51,7 +61,7 @@ pub fn parse_with_short_row(bytes: &[u8], texts: &[&str]) -> Result<(DataFrame, 
     Ok((table, short))
 }
 
-/// Refuses what is no text of one byte a letter, and texts that are no table.
+/// Refuses what is no text of one byte a letter.
 ///
 /// # Errors
 /// What the file is instead.
@@ -62,19 +72,24 @@ pub fn refuse_what_is_no_text(bytes: &[u8]) -> Result<(), String> {
     if bytes.starts_with(HDF5) {
         return Err("it is an HDF5 file such as a result (`uplift status` shows what it holds)".to_owned());
     }
-    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD_BYTES)]);
-    let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#')).unwrap_or_default();
-    let is_key = |key: &str| key.trim().chars().all(|letter| letter.is_alphanumeric() || "_-. ".contains(letter));
-    if first.starts_with('[') || first.split_once('=').is_some_and(|(key, _)| is_key(key)) {
-        return Err("it is a TOML file such as a study or structure".to_owned());
-    }
-    if text.lines().take(4).any(|line| line.contains("NPTS=")) {
-        return Err("it is a record".to_owned());
-    }
     if UTF_16.iter().any(|mark| bytes.starts_with(mark)) {
         return Err("it is UTF-16 text, which Excel and Notepad call Unicode: save it as \"CSV UTF-8\"".to_owned());
     }
     Ok(())
+}
+
+/// What a text seems to be that is no table; none where it may be one.
+fn other_kind(bytes: &[u8]) -> Option<&'static str> {
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD_BYTES)]);
+    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    if lines.clone().take(4).any(|line| line.contains("NPTS=")) {
+        return Some("it is a record");
+    }
+    let first = lines.next().unwrap_or_default();
+    let is_key = |key: &str| key.chars().all(|letter| letter.is_alphanumeric() || "_-. ".contains(letter));
+    // Excel puts `sep=;` before a table
+    let is_entry = first.split_once('=').is_some_and(|(key, _)| is_key(key) && key != "sep");
+    (first.starts_with('[') || is_entry).then_some("it is a TOML file such as a study or structure")
 }
 
 /// What separates the columns of a table with this `header`: what stands there most often.
@@ -108,4 +123,36 @@ fn with_points(table: DataFrame, texts: &[&str]) -> Result<DataFrame, String> {
         None => column.clone(),
     });
     DataFrame::new(table.height(), replaced.collect()).map_err(|error| error.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::parse;
+
+    #[test]
+    fn a_table_that_looks_like_another_file_is_a_table() {
+        for text in [
+            "record_id,note\na,NPTS= 5\n",
+            "# NPTS=3, DT=0.1\na,b\n1,2\n",
+            "sep=;\na;b\n",
+            "= odd,b\n1,2\n",
+            "[g],b\n1,2\n",
+        ] {
+            assert_eq!(parse(text.as_bytes(), &[]).unwrap().width(), 2, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_table_is_named() {
+        let record = "a title\nwith, a comma\nsecond\nNPTS=  3, DT= .01\n1 2 3\n";
+        for (text, kind) in [
+            ("kind = \"block\"\nheight_m = 1\n", "a TOML file"),
+            ("[study]\nname = \"x, y, z\"\n", "a TOML file"),
+            (record, "a record"),
+        ] {
+            let error = parse(text.as_bytes(), &[]).unwrap_err();
+            assert!(error.contains(kind), "{error}");
+        }
+    }
 }

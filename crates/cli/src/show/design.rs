@@ -53,17 +53,17 @@ fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameRepo
         None => "its proxy has no demand to compare with".to_owned(),
     };
     match (report.verdicts_differ(), wobbling.check) {
-        (Some(true), _) => writeln!(out, "Verdict   {name}: verdicts differ; {how_far}")?,
+        (Some(true), _) => writeln!(out, "Verdict   {name}: the verdicts differ; {how_far}")?,
         (Some(false), Some(check)) => {
             writeln!(out, "Verdict   {name}: {} by frame and proxy; {how_far}", verdict_word(check.satisfied))?;
         }
         _ => writeln!(out, "Verdict   {name}: no capacity, the force does not fall; {how_far}")?,
     }
     for (im, verdict) in report.verdicts_by_other_measures() {
-        writeln!(out, "          proxy {verdict}; frame: {}", measure_option(im))?;
+        writeln!(out, "          {verdict}; frame: {}", measure_option(im))?;
     }
     if let Some(settings) = &report.own_oscillator {
-        writeln!(out, "          own spectrum: run {settings}")?;
+        writeln!(out, "          spectrum of another oscillator; its own: run {settings}")?;
     }
     if let Some(capacity_m) = report.structure.capacity_m {
         let factor = report.required_safety_factor;
@@ -141,7 +141,7 @@ fn rule_cell(rule: Rule) -> String {
 /// What the mark of [`rule_cell`] means, where it is.
 fn print_mark(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
     if report.rules.iter().any(|outcome| outcome.rule == Rule::EqualEnergy && outcome.check().is_some()) {
-        writeln!(out, "† demand rises with capacity")?;
+        writeln!(out, "† not demand × safety factor: demand rises with capacity")?;
     }
     Ok(())
 }

@@ -78,7 +78,8 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     }
     for (_, verdict) in report.verdicts_by_other_measures() {
         let class = if verdict.contains("NOT") { "no" } else { "yes" };
-        say(format!("{}.", verdict.replacen("by", "By", 1)), Some(class));
+        let (first, rest) = verdict.split_at(1);
+        say(format!("{}{rest}.", first.to_uppercase()), Some(class));
     }
     if let Some(frame) = &report.frame {
         let own = frame.wobbling();

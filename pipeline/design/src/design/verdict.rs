@@ -26,20 +26,12 @@ impl DesignReport {
     /// Whether the structure satisfies both rules and its own demand, by each measure where they differ:
     /// `satisfied by PGV, partly satisfied by PGA; safety factor 2.5 (Eq. 3.15)`.
     pub fn verdict(&self) -> String {
-        let checks = |rules: &[RuleOutcome]| -> Vec<bool> {
-            rules.iter().filter_map(RuleOutcome::check).map(|check| check.satisfied).collect()
-        };
-        let mut own = checks(&self.rules);
-        own.extend(self.own_check.map(|own| own.satisfied));
-        let others = self.by_other_measures.iter().map(|of| (of.im.to_owned(), checks(&of.rules)));
-        let by_measure: Vec<(String, &str)> = std::iter::once((self.spectrum_words(), own))
-            .chain(others)
-            .filter_map(|(measure, checks)| {
-                let first = *checks.first()?;
-                let is_part = checks.iter().any(|satisfied| *satisfied != first);
-                Some((measure, if is_part { "partly satisfied" } else { verdict_word(first) }))
-            })
-            .collect();
+        let others = self.by_other_measures.iter().map(|of| (of.im.to_owned(), verdict_of_rules(&of.rules, None)));
+        let by_measure: Vec<(String, &str)> =
+            std::iter::once((self.spectrum_words(), verdict_of_rules(&self.rules, self.own_check)))
+                .chain(others)
+                .filter_map(|(measure, verdict)| Some((measure, verdict?)))
+                .collect();
         let Some((_, first)) = by_measure.first() else { return "no rule applies".to_owned() };
         let verdict = if by_measure.iter().all(|(_, verdict)| verdict == first) {
             (*first).to_owned()
@@ -58,13 +50,17 @@ impl DesignReport {
         Some(format!("by {}: {verdicts}", self.spectrum_words()))
     }
 
-    /// The same by other measures. A measure by which every rule is satisfied is left out where every rule is satisfied
-    /// here, too, and no frame is judged: its frame may tell another story.
+    /// The same by other measures, and of a frame, which may tell another story, the verdict on its proxy: `proxy by
+    /// PGA: NOT satisfied`. A measure by which every rule is satisfied is left out where every rule is satisfied here,
+    /// too, and there is no frame.
     pub fn verdicts_by_other_measures(&self) -> Vec<(&'static str, String)> {
         let is_satisfied = |rules: &[RuleOutcome]| rules.iter().filter_map(RuleOutcome::check).all(|of| of.satisfied);
         let told = self.by_other_measures.iter().filter_map(|of| {
+            if self.frame.is_some() {
+                return Some((of.im, format!("proxy by {}: {}", of.im, verdict_of_rules(&of.rules, None)?)));
+            }
             let verdicts = verdicts_in_words(&of.rules, None)?;
-            let is_silent = self.frame.is_none() && is_satisfied(&of.rules) && is_satisfied(&self.rules);
+            let is_silent = is_satisfied(&of.rules) && is_satisfied(&self.rules);
             (!is_silent).then(|| (of.im, format!("by {}: {verdicts}", of.im)))
         });
         told.collect()
@@ -98,4 +94,12 @@ impl DesignReport {
     pub fn spectrum_words(&self) -> String {
         spectrum_words(self.im, self.repaired)
     }
+}
+
+/// What the rules, and the structure's own demand, say together; none where none applies.
+fn verdict_of_rules(rules: &[RuleOutcome], own: Option<OwnCheck>) -> Option<&'static str> {
+    let checks = rules.iter().filter_map(RuleOutcome::check).map(|check| check.satisfied);
+    let mut checks = checks.chain(own.map(|own| own.satisfied));
+    let first = checks.next()?;
+    Some(if checks.any(|satisfied| satisfied != first) { "partly satisfied" } else { verdict_word(first) })
 }

@@ -1,6 +1,5 @@
 //! Synthetic records of a scenario, as files with a manifest.
 
-use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -21,7 +20,6 @@ use uplift_study::Range;
 use super::range;
 use crate::error::InputsError;
 use crate::made_pairs;
-use crate::manifest::record_files;
 
 /// Which records are made, and where they go.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -142,6 +140,9 @@ impl SynthesizeOptions {
 /// How the files of synthetic records begin.
 const MADE_BY: &str = "SYNTHETIC MOTION, NOT RECORDED: uplift ";
 
+/// What the head of their manifest says.
+const SET_OF: &str = ", synthetic records: ";
+
 /// What was made.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct SynthesizeReport {
@@ -180,7 +181,7 @@ pub fn synthesize(options: &SynthesizeOptions, events: &dyn Events) -> Result<Sy
             write_atomically(&folder.join(file_name(pair, component)), text.as_bytes())?;
         }
     }
-    let line = format!("uplift {} ({}), synthetic records: {set:?}", uplift_job::VERSION, uplift_job::COMMIT);
+    let line = format!("uplift {} ({}){SET_OF}{set:?}", uplift_job::VERSION, uplift_job::COMMIT);
     write_atomically(&manifest, &table_text(&manifest, &line, columns(&pairs))?)?;
     for left in earlier.iter().filter(|path| records.iter().all(|record| record.path() != *path)) {
         std::fs::remove_file(left).map_err(|error| JobError::from(io_error(left, "remove the file")(error)))?;
@@ -188,14 +189,27 @@ pub fn synthesize(options: &SynthesizeOptions, events: &dyn Events) -> Result<Sy
     Ok(SynthesizeReport { pairs: pairs.len(), manifest })
 }
 
-/// The records in `folder` that its manifest of an earlier set names, and that this program made.
-fn earlier_records(manifest: &Path, folder: &Path) -> BTreeSet<PathBuf> {
+/// The records of the set that an earlier `manifest` of this program names in `folder`: files of the names and the head
+/// that this program gives them, and no others.
+fn earlier_records(manifest: &Path, folder: &Path) -> Vec<PathBuf> {
+    let text = std::fs::read_to_string(manifest).unwrap_or_default();
+    let is_set = |head: &str| head.starts_with("# uplift ") && head.contains(SET_OF);
+    if !text.lines().next().is_some_and(is_set) {
+        return Vec::new();
+    }
+    let is_name = |name: &&str| {
+        let id = ["_H1.AT2", "_H2.AT2"].iter().find_map(|ending| name.strip_suffix(ending)?.strip_prefix("SYN"));
+        id.is_some_and(|number| !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()))
+    };
     let is_ours = |path: &PathBuf| {
         let mut head = vec![0; MADE_BY.len()];
-        let read = File::open(path).and_then(|mut file| file.read_exact(&mut head));
-        path.parent() == Some(folder) && read.is_ok() && head == MADE_BY.as_bytes()
+        // no link is followed
+        path.symlink_metadata().is_ok_and(|data| data.is_file())
+            && File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok()
+            && head == MADE_BY.as_bytes()
     };
-    record_files(manifest).into_iter().filter(is_ours).collect()
+    let names = text.lines().flat_map(|line| line.split(',')).filter(is_name);
+    names.map(|name| folder.join(name)).filter(is_ours).collect()
 }
 
 fn file_name(pair: &RecordPair, component: &str) -> String {
