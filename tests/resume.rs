@@ -486,8 +486,23 @@ fn a_run_with_other_settings_leaves_the_checkpoint() {
     let other = study.uplift(&["run", "study.toml", "--set", "records.first=2", "-o", "r.h5"]).ok();
     assert!(other.stderr.contains("r.h5.part stays: it holds analyses of other settings"), "{}", other.stderr);
     let status = study.uplift(&["status", "r.h5"]).ok().stdout;
-    assert!(status.contains("r.h5.part: checkpoint of an interrupted run with other settings\n"), "{status}");
-    study.uplift(&["run", "study.toml", "-o", "r.h5"]).fails(2, &["--force to replace it and resume from r.h5.part"]);
+    assert!(status.contains("r.h5.part: checkpoint with analyses of other settings\n"), "{status}");
+    let kept = "--force to replace it; r.h5.part has analyses of an interrupted run";
+    study.uplift(&["run", "study.toml", "-o", "r.h5"]).fails(2, &[kept]);
+    // a checkpoint that nothing can resume from is not offered
+    let rows = std::fs::read(&checkpoint).unwrap();
+    std::fs::write(&checkpoint, "").unwrap();
+    let refused = study.uplift(&["run", "study.toml", "-o", "r.h5"]).fails(2, &["--force to replace it"]);
+    assert!(!refused.stderr.contains("r.h5.part"), "{}", refused.stderr);
+    std::fs::write(&checkpoint, rows).unwrap();
+    // without the result nothing is finished
+    let result = study.path().join("r.h5");
+    std::fs::rename(&result, study.path().join("away.h5")).unwrap();
+    for asked in ["r.h5", "r.h5.part"] {
+        let status = study.uplift(&["status", asked]).ok().stdout;
+        assert!(status.contains("r.h5.part: checkpoint of an unfinished run, "), "{status}");
+    }
+    std::fs::rename(study.path().join("away.h5"), result).unwrap();
     let plain = study.uplift(&["run", "study.toml", "-o", "r.h5", "--force"]).ok();
     assert!(plain.stderr.contains("analyses resumed") && !checkpoint.exists(), "{}", plain.stderr);
 }

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 use uplift_atomic_file::FileError;
-use uplift_engine::checkpoint::{FinishedRows, checkpoint_path};
+use uplift_engine::checkpoint::{FinishedRows, RowFile, checkpoint_path};
 use uplift_inputs::manifest;
 use uplift_job::events::Events;
 use uplift_job::outputs::Output;
@@ -98,8 +98,11 @@ pub(crate) fn check_outputs(study: &AnyStudy, options: &RunOptions) -> Result<()
 pub(crate) fn replaced(study: &AnyStudy, options: &RunOptions) -> Result<Option<String>, UpliftError> {
     let checkpoint = checkpoint_path(options.result_file(&study.output().file));
     let name = checkpoint.file_name().unwrap_or_default().to_string_lossy();
-    let resume = if checkpoint.is_file() { format!(" and resume from {name}") } else { String::new() };
-    let way_out = |reason| format!("{reason}: give the result another name (-o), or --force to replace it{resume}");
+    let has_rows = || matches!(RowFile::read(&checkpoint), Ok(Some(found)) if !found.rows.is_empty());
+    let way_out = |reason| {
+        let kept = if has_rows() { format!("; {name} has analyses of an interrupted run") } else { String::new() };
+        format!("{reason}: give the result another name (-o), or --force to replace it{kept}")
+    };
     Ok(replaces_another(study, options)?.map(way_out))
 }
 

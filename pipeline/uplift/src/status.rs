@@ -108,7 +108,7 @@ pub struct UnfinishedStatus {
     pub done: u64,
     /// Analyses in all.
     pub analyses: u64,
-    /// Whether these are in a result, and the file is kept for analyses of an interrupted run with other settings.
+    /// Whether all of them are finished, the result is there, and the file has analyses of other settings too.
     pub is_kept_for_others: bool,
     /// Bytes that were cut off or damaged; their rows are computed again.
     pub damaged_bytes: u64,
@@ -123,7 +123,9 @@ pub struct UnfinishedStatus {
 pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
     if input.is_file() && !is_hdf5(input) {
         if let Ok(Some(finding)) = RowFile::read(input) {
-            let unfinished = vec![UnfinishedStatus::from_finding(input, &finding)];
+            let is_checkpoint = input.extension().is_some_and(|extension| extension == "part");
+            let has_result = is_checkpoint && input.with_extension("").is_file();
+            let unfinished = vec![UnfinishedStatus::from_finding(input, &finding, has_result)];
             return Ok(StatusReport { unfinished, ..StatusReport::default() });
         }
         if input.extension().is_some_and(|extension| extension == "h5") {
@@ -142,11 +144,11 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
     let checkpoint = checkpoint_path(&path);
     let mut unfinished = Vec::new();
     if let Some(finding) = RowFile::read(&checkpoint)? {
-        unfinished.push(UnfinishedStatus::from_finding(&checkpoint, &finding));
+        unfinished.push(UnfinishedStatus::from_finding(&checkpoint, &finding, result.is_some()));
     }
     for shard in shards_of(&path) {
         if let Ok(Some(finding)) = RowFile::read(&shard) {
-            unfinished.push(UnfinishedStatus::from_finding(&shard, &finding));
+            unfinished.push(UnfinishedStatus::from_finding(&shard, &finding, false));
         }
     }
     let (slices, written_by) = (slices_of(&path), ResultLock::holder(&path));
@@ -231,7 +233,7 @@ impl AskedStatus {
 }
 
 impl UnfinishedStatus {
-    fn from_finding(file: &Path, finding: &Finding) -> Self {
+    fn from_finding(file: &Path, finding: &Finding, has_result: bool) -> Self {
         let head = &finding.head;
         Self {
             file: file.to_owned(),
@@ -240,7 +242,7 @@ impl UnfinishedStatus {
             shards: head.shards,
             done: finding.analyses(),
             analyses: head.analyses,
-            is_kept_for_others: finding.is_kept_for_others(),
+            is_kept_for_others: has_result && finding.is_finished_with_others(),
             damaged_bytes: finding.damaged_bytes,
         }
     }

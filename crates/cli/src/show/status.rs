@@ -99,7 +99,7 @@ fn print_unfinished(out: &mut impl Write, unfinished: &UnfinishedStatus) -> Resu
     let UnfinishedStatus { file, title, shard, shards, done, analyses, is_kept_for_others, damaged_bytes } = unfinished;
     if *is_kept_for_others {
         let file = file.display();
-        return Ok(writeln!(out, "{file}: checkpoint of an interrupted run with other settings")?);
+        return Ok(writeln!(out, "{file}: checkpoint with analyses of other settings")?);
     }
     let what =
         if *shards > 1 { format!("shard {shard} of {shards}") } else { "checkpoint of an unfinished run".to_owned() };

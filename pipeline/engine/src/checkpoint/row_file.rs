@@ -133,8 +133,8 @@ impl Finding {
         (peaks * self.head.analyses_a_peak).min(self.head.analyses)
     }
 
-    /// Whether the work is finished, and only rows of other work keep the file.
-    pub fn is_kept_for_others(&self) -> bool {
+    /// Whether all analyses are finished, and there are rows of other work too.
+    pub fn is_finished_with_others(&self) -> bool {
         self.head.peaks_of_others > 0 && self.analyses() == self.head.analyses
     }
 }
