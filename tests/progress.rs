@@ -65,6 +65,11 @@ fn errors_are_events_with_all_their_mistakes() {
     assert!(places.contains(&(&"risk.years".into(), &null, &"risk.years=no".into())), "{places:?}");
     assert!(mistakes.iter().all(|mistake| !mistake["message"].as_str().unwrap().is_empty()));
 
+    let swept = error(&["sweep", "study.toml", "--over", "records.first=-3,-2"], 3);
+    let mistakes = swept["mistakes"].as_array().unwrap();
+    assert!(swept["kind"] == "study" && mistakes.len() == 2, "{swept}");
+    assert!(mistakes.iter().all(|mistake| mistake["message"].as_str().unwrap().contains("records.first")), "{swept}");
+
     let absent = error(&["run", "absent.toml"], 3);
     assert_eq!((&absent["kind"], &absent["reason"]), (&"file".into(), &"not found".into()));
     assert_eq!(error(&["table", "absent.h5"], 4)["kind"], "input");

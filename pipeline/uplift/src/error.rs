@@ -12,6 +12,7 @@ use uplift_engine::checkpoint::CheckpointError;
 use uplift_exports::ExportsError;
 use uplift_inputs::InputsError;
 use uplift_job::JobError;
+use uplift_job::text::counted;
 use uplift_labelled::LabelledError;
 use uplift_laboratory::LaboratoryError;
 use uplift_questions::QuestionsError;
@@ -48,7 +49,8 @@ pub enum UpliftError {
     /// An export that cannot be made.
     Exports(#[from] ExportsError),
     /// Variants of a study have mistakes; all of them.
-    Variants(String),
+    #[error("{}", in_variants(.0))]
+    Variants(Vec<String>),
     /// The study file has mistakes.
     Study(#[from] StudyError),
     /// A study that TOML cannot hold; one that was loaded is none.
@@ -57,6 +59,12 @@ pub enum UpliftError {
     Checkpoint(#[from] CheckpointError),
     /// Columns, a restrainer or a protocol that cannot be, or a displacement beyond their reach.
     Statics(#[from] StaticsError),
+}
+
+/// The mistakes of variants, a line each.
+pub(crate) fn in_variants(mistakes: &[String]) -> String {
+    let lines: Vec<String> = mistakes.iter().map(|mistake| format!("  - {mistake}")).collect();
+    format!("{} in the variants:\n{}", counted(mistakes.len(), "mistake"), lines.join("\n"))
 }
 
 uplift_job::through_job_error!(UpliftError: LabelledError, FileError);

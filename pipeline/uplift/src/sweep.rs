@@ -23,14 +23,13 @@ use uplift_job::alarm::{Alarm, Severity};
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::study_run::RunOptions;
-use uplift_job::text::counted;
 use uplift_labelled::hexadecimal;
 use uplift_result::ResultFile;
 use uplift_studies::uniform_risk::Inputs;
 use uplift_study::{AnyStudy, Study, StudyError, UniformRiskStudy};
 use uplift_uniform_risk::{BandOf, Displacement, DisplacementOptions, DisplacementReport, displacements};
 
-use crate::error::UpliftError;
+use crate::error::{UpliftError, in_variants};
 use crate::result_of::result_of;
 use crate::shard::check_inputs;
 use variants::{Variant, cases, product};
@@ -271,9 +270,7 @@ fn ready(options: &SweepOptions, variants: &[Variant], folder: &Path) -> Result<
     if mistakes.is_empty() {
         return Ok(ready);
     }
-    let lines: Vec<String> = mistakes.iter().map(|mistake| format!("  - {mistake}")).collect();
-    let told = format!("{} in the variants:\n{}", counted(mistakes.len(), "mistake"), lines.join("\n"));
-    Err(if are_of_study { UpliftError::Variants(told) } else { JobError::Usage(told).into() })
+    Err(if are_of_study { UpliftError::Variants(mistakes) } else { JobError::Usage(in_variants(&mistakes)).into() })
 }
 
 /// What would compare nothing: studies without spectra, and spectra that cannot differ.

@@ -100,6 +100,9 @@ impl<'a> Event<'a> {
 /// All that was found, where an error has several mistakes.
 fn mistakes(error: &UpliftError) -> Vec<Mistake<'_>> {
     let of = |message: String| Mistake { key: "", line: None, column: None, given: None, message, help: None };
+    if let UpliftError::Variants(mistakes) = error {
+        return mistakes.iter().cloned().map(of).collect();
+    }
     let root = innermost(error);
     if let Some(error) = root.downcast_ref::<StudyError>() {
         return error.mistakes().iter().map(in_study).collect();
