@@ -30,7 +30,7 @@ pub(crate) fn take_partial(target: &Path) -> io::Result<(PathBuf, File)> {
             }
         }
     }
-    taken.ok_or_else(|| io::ErrorKind::AlreadyExists.into())
+    taken.ok_or_else(|| io::Error::other("other writers have every name of a hidden file"))
 }
 
 fn partial_path(target: &Path, count: u32) -> PathBuf {

@@ -28,6 +28,7 @@ pub(crate) fn open(path: &Path) -> Result<Input, HazardError> {
 pub(crate) fn unreadable_because(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::NotADirectory => "a part of the path is a file, not a folder".to_owned(),
         _ => format!("cannot be read: {}", error.to_string().split(" (os error").next().unwrap_or_default()),
     }
 }

@@ -8,6 +8,7 @@ use crate::recording::RecordFormat;
 fn unreadable_because(error: &std::io::Error) -> String {
     match error.kind() {
         std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        std::io::ErrorKind::NotADirectory => "a part of the path is a file, not a folder".to_owned(),
         _ => format!("cannot be read: {}", error.to_string().split(" (os error").next().unwrap_or_default()),
     }
 }

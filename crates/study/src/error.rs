@@ -67,12 +67,20 @@ impl Diagnostic for StudyMistake {
     }
 }
 
+/// What the system says of a file, without its number.
+pub(crate) fn in_words(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotADirectory => "a part of the path is a file, not a folder".to_owned(),
+        _ => error.to_string().split(" (os error").next().unwrap_or_default().to_owned(),
+    }
+}
+
 /// Why a study file cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Unreadable {
     /// The system does not give it.
-    #[error(transparent)]
+    #[error("{}", in_words(.0))]
     System(#[from] std::io::Error),
     /// There is none.
     #[error("there is no such file: give its path from the current folder, e.g. {example}")]
@@ -94,7 +102,7 @@ pub enum Unreadable {
     #[error("it is UTF-16 text, which PowerShell and Notepad call Unicode: save it as UTF-8")]
     Utf16,
     /// There is no current directory that a relative path could start from.
-    #[error("no current directory: {0}")]
+    #[error("no current directory: {}", in_words(.0))]
     NoCurrentDirectory(std::io::Error),
     /// It is a folder.
     #[error("it is a folder: give a file, e.g. {}", example.display())]

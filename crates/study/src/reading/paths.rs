@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::text::{BACKSLASH, STANDARD_INPUT};
 use super::{Field, Origin};
+use crate::error::in_words;
 
 /// What becomes of the paths in a study.
 #[derive(Debug, Clone)]
@@ -61,10 +62,10 @@ impl Paths {
             Ok(metadata) if !metadata.is_file() => "this is not a file".to_owned(),
             Ok(_) => match fs::File::open(&path) {
                 Ok(_) => return Some(path),
-                Err(error) => format!("cannot open the file: {error}"),
+                Err(error) => format!("cannot open the file: {}", in_words(&error)),
             },
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => "file not found".to_owned(),
-            Err(error) => format!("cannot find the file: {error}"),
+            Err(error) => format!("cannot find the file: {}", in_words(&error)),
         };
         // "C:\temp\new.csv" in double quotes is TOML, with a tab and the end of a line in it
         let backslash = path.to_string_lossy().contains(char::is_control);

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use thiserror::Error;
+use uplift_atomic_file::reason;
 
 use super::row_file::FORMAT;
 
@@ -15,7 +16,7 @@ pub(crate) fn in_brackets(title: &str) -> String {
 #[derive(Debug, Error)]
 pub enum CheckpointError {
     /// It cannot be read.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {}", path.display(), reason(source))]
     Read {
         /// The file.
         path: PathBuf,
@@ -23,7 +24,7 @@ pub enum CheckpointError {
         source: std::io::Error,
     },
     /// It cannot be written.
-    #[error("{} cannot be written: {source}", path.display())]
+    #[error("{} cannot be written: {}", path.display(), reason(source))]
     Write {
         /// The file.
         path: PathBuf,
@@ -54,9 +55,10 @@ pub enum CheckpointError {
     },
     /// Nothing more can be added to it.
     #[error(
-        "{}: no more analysis rows can be written ({source}); those written are kept: free some space, and run the \
-         same command to resume",
-        path.display()
+        "{}: no more analysis rows can be written ({}); those written are kept: free some space, and run the same \
+         command to resume",
+        path.display(),
+        reason(source)
     )]
     Full {
         /// The file.
