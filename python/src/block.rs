@@ -153,7 +153,7 @@ scale=1.0, free_vibration_s=0.0)")]
         };
         check_plausible(&[(FREE_VIBRATION, "free_vibration_s", Some(free_vibration_s))])?;
         for factor in &scale {
-            check_plausible(&[(SCALE, "scale", Some(factor.abs()))])?;
+            check_plausible(&[(SCALE, "scale", Some(*factor))])?;
         }
         let free = match free_vibration_s {
             0.0 => FreeRocking::FirstPeak,

@@ -67,7 +67,7 @@ pub(crate) fn respond_frame(
     history: bool,
 ) -> PyResult<FrameResponse> {
     check_plausible(&[
-        (SCALE, "scale", Some(scale.abs())),
+        (SCALE, "scale", Some(scale)),
         (FREE_VIBRATION, "free_vibration_s", Some(free_vibration_s)),
         (RESTITUTION, "restitution", restitution),
     ])?;

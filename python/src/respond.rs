@@ -242,7 +242,7 @@ struct Shaken {
 
 impl Shaken {
     fn case(&self, numbers: &Numbers, scale: f64) -> PyResult<Case> {
-        check_plausible(&[(SCALE, "scale", Some(scale.abs()))])?;
+        check_plausible(&[(SCALE, "scale", Some(scale))])?;
         let oscillator = numbers.oscillator()?;
         let free_s = if let FreeVibration::Seconds(seconds) = self.free_vibration { seconds } else { 0.0 };
         oscillator.check_run_length(self.motion.duration_s() + free_s, self.motion.dt_s()).map_err(refused)?;

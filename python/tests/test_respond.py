@@ -74,6 +74,10 @@ def test_all_mistakes_of_an_oscillator_at_once(record):
     ):
         with pytest.raises(ValueError):
             uplift.respond(record, **options)
+    block = uplift.Block(width_m=1, height_m=4)
+    for shake in (lambda: uplift.respond(record, 0.1, scale=-1e7), lambda: block.respond(record, scale=-1e7)):
+        with pytest.raises(ValueError, match="scale is -1.*from -1e6 to 1e6"):
+            shake()
 
 
 def test_what_is_no_number_is_a_type_error(record):
