@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use uplift_motion::STANDARD_GRAVITY_M_S2;
 
-use crate::error::{BlockError, within};
+use crate::error::{BlockError, slenderness_within, within};
 
 /// A rigid rectangular block of half-width b = R sin α and half-height h = R cos α, free to rock about its corners
 /// (Figure 2.1). It neither slides nor leaves the ground.
@@ -29,10 +29,8 @@ impl RockingBlock {
     /// restitution is negative: such a block does not rock on.
     pub fn new(size_m: f64, slenderness_rad: f64) -> Result<Self, BlockError> {
         let size_m = within("size parameter R", size_m, "m", 1e-6..=1e9, "between 1e-6 m and 1e9 m")?;
-        let slenderness_rad = within(
-            "slenderness alpha",
+        let slenderness_rad = slenderness_within(
             slenderness_rad,
-            "rad",
             1e-6..=(2.0_f64 / 3.0).sqrt().asin(),
             "between 1e-6 rad and 0.9553 rad (a stockier block does not rock: Eq. 2.3 is negative)",
         )?;
@@ -219,6 +217,14 @@ mod tests {
             let message = RockingBlock::new(1.0, alpha).unwrap_err().to_string();
             assert!(message.contains(&format!("slenderness alpha is {alpha} rad")), "{message}");
         }
+        // six digits of what sides give, unless these would be within
+        for (alpha, shown) in [(1.190_289_949_682_531_7, "1.19029 rad"), (0.999_999_9e-6, "0.0000009999999 rad")] {
+            let message = RockingBlock::new(1.0, alpha).unwrap_err().to_string();
+            assert!(message.contains(&format!("slenderness alpha is {shown}: ")), "{message}");
+        }
+        // what is typed is shown as it is
+        let message = RockingBlock::new(1_000_000_001.0, 0.1).unwrap_err().to_string();
+        assert!(message.contains("R is 1000000001 m: it must be between 1e-6 m and 1e9 m"), "{message}");
         let block = RockingBlock::new(1.0, 0.1).unwrap();
         for bad in [-0.01, 1.01, f64::NAN] {
             assert!(block.with_restitution(bad).unwrap_err().to_string().contains("between 0 and 1"));

@@ -7,7 +7,7 @@ use uplift_motion::{MotionError, six_digits};
 #[derive(Debug, Error)]
 pub enum BlockError {
     /// A number is outside the range that makes physical sense.
-    #[error("{name} is {} {unit}: it must be {requirement}", six_digits(*value))]
+    #[error("{name} is {value} {unit}: it must be {requirement}")]
     OutOfRange {
         /// Name of the quantity, without its unit.
         name: &'static str,
@@ -53,4 +53,15 @@ pub(crate) fn within(
     requirement: &'static str,
 ) -> Result<f64, BlockError> {
     if range.contains(&value) { Ok(value) } else { Err(BlockError::OutOfRange { name, value, unit, requirement }) }
+}
+
+/// A slenderness if it is within `range`. Width and height give it sixteen digits; its refusal has six, unless those
+/// are within.
+pub(crate) fn slenderness_within(
+    value: f64,
+    range: std::ops::RangeInclusive<f64>,
+    requirement: &'static str,
+) -> Result<f64, BlockError> {
+    let shown = Some(six_digits(value)).filter(|rounded| !range.contains(rounded)).unwrap_or(value);
+    if range.contains(&value) { Ok(value) } else { within("slenderness alpha", shown, "rad", range, requirement) }
 }

@@ -9,7 +9,7 @@ use uplift_structure::StructureError;
 #[derive(Debug, Error)]
 pub enum FrameError {
     /// A number is outside the range that makes physical sense.
-    #[error("{name} is {} {unit}: it must be {requirement}", six_digits(*value))]
+    #[error("{name} is {value} {unit}: it must be {requirement}")]
     OutOfRange {
         /// Name of the quantity, without its unit.
         name: &'static str,
@@ -95,4 +95,15 @@ pub(crate) fn within(
     requirement: &'static str,
 ) -> Result<f64, FrameError> {
     if range.contains(&value) { Ok(value) } else { Err(FrameError::OutOfRange { name, value, unit, requirement }) }
+}
+
+/// A slenderness if it is within `range`. Width and height give it sixteen digits; its refusal has six, unless those
+/// are within.
+pub(crate) fn slenderness_within(
+    value: f64,
+    range: std::ops::RangeInclusive<f64>,
+    requirement: &'static str,
+) -> Result<f64, FrameError> {
+    let shown = Some(six_digits(value)).filter(|rounded| !range.contains(rounded)).unwrap_or(value);
+    if range.contains(&value) { Ok(value) } else { within("slenderness alpha", shown, "rad", range, requirement) }
 }

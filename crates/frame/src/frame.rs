@@ -10,7 +10,7 @@
 use uplift_statics::{RestrainedColumns, Restrainer, TendonPath};
 use uplift_structure::Geometry;
 
-use crate::error::{FrameError, within};
+use crate::error::{FrameError, slenderness_within, within};
 
 /// Section of the columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -68,7 +68,7 @@ impl RockingFrame {
         within("column mass", column_mass_kg, "kg", 0.0..=1e15, "between 0 and 1e15 kg")?;
         within("deck mass", deck_mass_kg, "kg", 0.0..=1e15, "between 0 and 1e15 kg")?;
         let slenderness = geometry.slenderness_rad();
-        within("slenderness alpha", slenderness, "rad", 1e-6..=0.9553, "between 1e-6 and 0.9553 rad")?;
+        slenderness_within(slenderness, 1e-6..=0.9553, "between 1e-6 and 0.9553 rad")?;
         let top_load_n = deck_mass_kg * gravity_m_s2 / f64::from(columns.max(1));
         let columns = RestrainedColumns::new(geometry, columns, top_load_n, column_mass_kg * gravity_m_s2)?;
         Ok(Self { columns, column_mass_kg, deck_mass_kg, shape, gravity_m_s2 })

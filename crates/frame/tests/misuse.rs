@@ -55,6 +55,13 @@ fn numbers_out_of_range() {
     {
         assert!(RockingFrame::new(column, columns, column_kg, deck_kg, ColumnShape::Rectangle, gravity).is_err());
     }
+    let refusal = |column, deck_kg| {
+        RockingFrame::new(column, 1, 1.0, deck_kg, ColumnShape::Rectangle, 9.81).unwrap_err().to_string()
+    };
+    let stocky = Geometry::from_width_and_height(5.0, 2.0).unwrap();
+    assert!(refusal(stocky, 1.0).contains("slenderness alpha is 1.19029 rad"), "{}", refusal(stocky, 1.0));
+    let heavy = refusal(column, 1_000_000_100_000_000.0);
+    assert!(heavy.contains("deck mass is 1000000100000000 kg"), "{heavy}");
     let frame = table_frame(ColumnShape::Cylinder);
     let state = |rotation_rad, turning_rad_s| {
         Start::Tilted(FrameState { rotation_rad, turning_rad_s, ..FrameState::default() })
