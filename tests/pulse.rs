@@ -198,10 +198,15 @@ fn mistakes_are_reported_before_the_work() {
     }
     assert!(!folder.path().join("results").exists(), "nothing is left behind");
     let at_rest =
-        ["-o", "still", "--slendernesses", "0.1:0.1:0.3", "--amplitude-g", "0.25", "--acceleration-lines", "0.5"];
+        ["-o", "still", "--slendernesses", "0.1:0.1:0.3", "--amplitude-g", "0.25", "--acceleration-lines", "0.5,1,2"];
     let arguments: Vec<&str> = ["pulse"].into_iter().chain(SMALL[..8].iter().copied()).chain(at_rest).collect();
     let said = uplift(folder.path(), &arguments).ok().stderr;
     assert!(said.contains("note: 0.25 g does not uplift blocks of slenderness 0.3\n"), "{said}");
+    assert!(said.contains("note: acceleration lines at 0.5, 1 g tan alpha do not uplift the block\n"), "{said}");
+    assert!(!said.contains("accelerations up to"), "{said}");
+    let faint = ["pulse", "-o", "faint", "--frequencies", "1,2", "--half-widths", "1,2", "--accelerations", "0.5,1"];
+    let said = uplift(folder.path(), &faint).ok().stderr;
+    assert!(said.contains("note: accelerations up to 1 g tan alpha do not uplift the block\n"), "{said}");
     std::fs::write(folder.path().join("taken"), "").unwrap();
     uplift(folder.path(), &small(&["-o", "taken"])).fails(4, &["taken"]);
 }

@@ -203,17 +203,22 @@ impl PulsePlan {
         if mistakes.is_empty() { Ok(()) } else { Err(LaboratoryError::Blocks(mistakes)) }
     }
 
-    /// Which figures stay empty, since nothing uplifts.
+    /// Accelerations that uplift no block: their figures and lines stay empty.
     pub(super) fn without_uplift(&self) -> Vec<String> {
         let amplitude_g = self.blocks.amplitude_g.abs();
         let stays = |alpha: &&f64| amplitude_g <= alpha.tan();
         let at_rest: Vec<String> =
             self.blocks.slendernesses_rad.iter().filter(stays).map(ToString::to_string).collect();
         let largest = self.accelerations.last().filter(|&&largest| largest <= 1.0);
-        let spectra = largest.map(|largest| format!("a_p/(g tan alpha) up to {largest} does not uplift the block"));
+        let spectra =
+            largest.map(|largest| format!("accelerations up to {largest} g tan alpha do not uplift the block"));
+        let low: Vec<String> =
+            self.acceleration_lines.iter().filter(|&&line| line <= 1.0).map(ToString::to_string).collect();
+        let lines = (!low.is_empty())
+            .then(|| format!("acceleration lines at {} g tan alpha do not uplift the block", low.join(", ")));
         let blocks = (!at_rest.is_empty())
             .then(|| format!("{amplitude_g} g does not uplift blocks of slenderness {}", at_rest.join(", ")));
-        spectra.into_iter().chain(blocks).collect()
+        spectra.into_iter().chain(lines).chain(blocks).collect()
     }
 
     /// A block with the restitution that was asked for.
