@@ -75,13 +75,18 @@ fn is_typed(error: &UpliftError) -> bool {
     job || motion || system || !error.blocks().is_empty()
 }
 
-/// Whether a structure file describes what cannot be.
+/// Whether a structure file describes what cannot be; a result, which is the other file that a model may fail in, is
+/// input data.
 fn is_of_structure(error: &UpliftError) -> bool {
-    let Some(JobError::InFile { source, .. }) = error.root().downcast_ref() else { return false };
+    let Some(JobError::InFile { source, path }) = error.root().downcast_ref() else { return false };
+    if path.extension().is_some_and(|extension| extension == "h5") {
+        return false;
+    }
     let source: &(dyn Error + 'static) = source.as_ref();
     cause::<FrameError>(source).is_some()
         || cause::<OscillatorError>(source).is_some()
         || cause::<StaticsError>(source).is_some()
+        || cause::<DesignError>(source).is_some_and(|error| matches!(error, DesignError::Blocks(_)))
 }
 
 /// Whether the user stopped the job.
@@ -119,5 +124,27 @@ impl From<io::Error> for CommandError {
     /// Only standard output is written through plain `io`; files have their own errors.
     fn from(error: io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe { Self::OutputClosed } else { Self::Output(error) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use uplift_block::BlockError;
+
+    use super::*;
+
+    #[test]
+    fn only_a_structure_that_cannot_be_is_a_mistake_of_its_file() {
+        let block = || BlockError::Empty { axis: "sizes" };
+        let frame = || FrameError::RectangleWobbles;
+        let code = |path: &str, error: DesignError| {
+            let in_file = JobError::InFile { path: path.into(), source: Box::new(error) };
+            CommandError::from(DesignError::from(in_file)).exit_code()
+        };
+        for file in ["pier.toml", "pier"] {
+            assert_eq!([code(file, block().into()), code(file, frame().into())], [3, 3]);
+            assert_eq!(code(file, JobError::input("the records differ").into()), 4);
+        }
+        assert_eq!([code("r.h5", block().into()), code("r.h5", frame().into())], [4, 4]);
     }
 }
