@@ -182,6 +182,9 @@ fn synthetic_records_are_made_listed_shown_and_chosen() {
     let done = uplift(at, &made).ok();
     assert!(done.stdout.contains("6 synthetic pairs") && done.stderr.contains("not for design"), "{}", done.stderr);
     uplift(at, &made).fails(2, &["manifest.csv already exists"]);
+    let help = uplift(at, &["records", "synthesize", "-h"]).ok().stdout;
+    let words: Vec<&str> = help.split_whitespace().collect();
+    assert!(words.join(" ").contains("(never an input) and remove the records of a replaced set"), "{help}");
     uplift(at, &["records", "synthesize", "-o", "x", "--magnitude", "5"]).fails(2, &["magnitude is 5", "6 to 8"]);
     uplift(at, &["records", "synthesize", "-o", "x", "--count", "-3"]).fails(2, &["-3", "a whole number of pairs"]);
     uplift(at, &["records", "synthesize", "-o", "x", "--vs30", "500:"]).fails(2, &["both ends"]);

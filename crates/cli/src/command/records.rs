@@ -14,6 +14,9 @@ use crate::error::CommandError;
 use crate::show::{print_at_level, print_import, print_record, print_records, print_selection, tell_remarks};
 use crate::terminal::{Terminal, output};
 
+/// What `--force` does to a set of synthetic records.
+const SET_IS_REPLACED: &str = "Overwrite existing outputs (never an input) and remove the records of a replaced set";
+
 #[derive(Debug, Args)]
 pub(super) struct RecordsArguments {
     #[command(subcommand)]
@@ -42,7 +45,10 @@ enum RecordsCommand {
     )]
     AtLevel(AtLevelOptions),
     /// Make synthetic records of a scenario
-    #[command(after_help = "Example:\n  uplift records synthesize -o records/synthetic --count 40 --magnitude 6.5:7")]
+    #[command(
+        mut_arg("force", |force| force.help(SET_IS_REPLACED)),
+        after_help = "Example:\n  uplift records synthesize -o records/synthetic --count 40 --magnitude 6.5:7"
+    )]
     Synthesize(SynthesizeOptions),
 }
 
