@@ -189,6 +189,19 @@ fn a_single_record_has_no_band_in_any_export() {
     assert!(lines.count() > 0 && table.lines().skip(1).all(|line| line.split(',').nth(place) == Some("")), "{table}");
 }
 
+/// The quoted band is of 90 % whatever the bootstrap's are.
+#[test]
+fn each_band_has_its_own_confidence() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-q", "-o", "r.h5", "--set", "bootstrap.confidence=0.8"]).ok();
+    study.uplift(&["bootstrap", "r.h5", "-q", "--replicates", "20"]).ok();
+    study.uplift(&["export", "r.h5", "--json"]).ok();
+    let json: serde_json::Value = serde_json::from_slice(&std::fs::read(study.path().join("r.json")).unwrap()).unwrap();
+    let spectrum = &json["spectra"][0];
+    assert!(json["confidence"] == 0.8 && spectrum["confidence"] == 0.9, "{spectrum}");
+    assert!(spectrum["bands"].as_array().is_some_and(|bands| !bands.is_empty()), "{spectrum}");
+}
+
 #[test]
 fn what_is_no_risk_is_refused() {
     let study = SmallStudy::new();
