@@ -148,6 +148,9 @@ fn all_mistakes_of_all_variants_are_reported_before_anything_is_computed() {
     study.uplift(&["sweep", "study.toml", "--over", "risk.years"]).fails(2, &["write KEY=VALUE"]);
     let both = ["sweep", "study.toml", "--over", "risk.years=40,60", "--set", "risk.years=50"];
     study.uplift(&both).fails(2, &["--over risk.years: --set gives it one value for all variants"]);
+    study.write("cases.csv", "risk.years,name\n40,a\n60,b\n");
+    let both = ["sweep", "study.toml", "--cases", "cases.csv", "--set", "risk.years=50"];
+    study.uplift(&both).fails(2, &["column risk.years: --set gives it one value for all variants"]);
     study.uplift(&["sweep", "study.toml"]).fails(2, &["--over"]);
 }
 

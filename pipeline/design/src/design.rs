@@ -71,7 +71,7 @@ pub struct DesignOptions {
     )]
     pub safety_factor: f64,
     /// Apply the rules to the spectrum without analysing the structure
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["shard", "shards"])]
     pub spectrum_only: bool,
     /// Judge the proxy alone, without the wobbling frame
     #[arg(long)]

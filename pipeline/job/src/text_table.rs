@@ -67,6 +67,10 @@ fn parse_text(bytes: &[u8], texts: &[&str]) -> Result<(DataFrame, Option<(usize,
 /// What the file is instead.
 pub fn refuse_what_is_no_text(bytes: &[u8]) -> Result<(), String> {
     if bytes.starts_with(ZIP) {
+        let head = &bytes[..bytes.len().min(HEAD_BYTES)];
+        if [&b"[Content_Types].xml"[..], b"xl/"].iter().any(|part| head.windows(part.len()).any(|own| own == *part)) {
+            return Err("it is an Excel workbook: save it as \"CSV UTF-8\"".to_owned());
+        }
         return Err("it is a zip archive: `uplift records import` takes one of records".to_owned());
     }
     if bytes.starts_with(HDF5) {
@@ -145,6 +149,8 @@ mod tests {
 
     #[test]
     fn what_is_no_table_is_named() {
+        let workbook = parse(b"PK\x03\x04\x14\x00\x06\x00[Content_Types].xml", &[]).unwrap_err();
+        assert!(workbook.contains("an Excel workbook"), "{workbook}");
         let record = "a title\nwith, a comma\nsecond\nNPTS=  3, DT= .01\n1 2 3\n";
         for (text, kind) in [
             ("kind = \"block\"\nheight_m = 1\n", "a TOML file"),

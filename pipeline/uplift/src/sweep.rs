@@ -227,8 +227,11 @@ fn ready(options: &SweepOptions, variants: &[Variant], folder: &Path) -> Result<
     let keys = variants::keys(variants);
     let is_set = |key: &&String| options.overrides.iter().any(|set| set.split('=').next().map(str::trim) == Some(*key));
     // an empty cell of a table leaves what is set
-    if let Some(key) = keys.iter().find(is_set).filter(|_| options.cases.is_none()) {
-        mistakes.push(format!("--over {key}: --set gives it one value for all variants: leave one of them out"));
+    let is_replaced =
+        |key: &&String| variants.iter().all(|variant| variant.changes.iter().any(|(changed, _)| changed == *key));
+    if let Some(key) = keys.iter().filter(is_set).find(is_replaced) {
+        let place = if options.cases.is_some() { "column" } else { "--over" };
+        mistakes.push(format!("{place} {key}: --set gives it one value for all variants: leave one of them out"));
     }
     if keys.iter().any(|key| key == "output.file") {
         mistakes.push(

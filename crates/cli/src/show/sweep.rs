@@ -105,7 +105,7 @@ fn print_displacements(
     let table = Table::of(rows)
         .left("site", |(site, variant)| if std::ptr::eq(variant, first) { site } else { "" })
         .each(report.keys.iter().enumerate(), |table, (at, key)| {
-            table.right(key, move |(_, variant)| variant.values[at].as_deref().unwrap_or("default"))
+            table.right(key, move |(_, variant)| variant.values[at].as_deref().unwrap_or("study's"))
         })
         .when(risks.len() > 1, |table| table.right("risk", |(_, variant)| risk(variant)))
         .each(shown, |table, place| {

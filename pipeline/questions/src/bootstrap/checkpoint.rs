@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use uplift_job::outputs::beside;
-use uplift_labelled::{LabelledReader, LabelledWriter};
+use uplift_labelled::{LabelledReader, LabelledWriter, hexadecimal};
 use uplift_uniform_risk::consistency::Reweighing;
 
 use super::bands::{StrengthBands, bands_of_numbers, numbers_of_bands};
@@ -47,10 +47,15 @@ pub fn part_path(result: &Path) -> PathBuf {
     beside(result, "bootstrap.part.h5")
 }
 
+/// By what the bootstrap in a file is known again; none in another file, or a damaged one.
+fn fingerprint_in(part: &Path) -> Option<String> {
+    LabelledReader::open(part).ok()?.attribute_text("/", "fingerprint").ok()
+}
+
 /// Finished strengths of all measures in the file of an interrupted bootstrap; none where there is none.
 pub fn finished_strengths(part: &Path) -> Option<u64> {
+    fingerprint_in(part)?;
     let reader = LabelledReader::open(part).ok()?;
-    reader.attribute_text("/", "fingerprint").ok()?;
     let count = |measure: &String| {
         reader.array_u32(&format!("/{measure}/strength")).map_or(0, |strengths| strengths.values.len() as u64)
     };
@@ -88,7 +93,14 @@ impl Checkpoint {
         for count in plan.multiplicities() {
             hash.update(count.to_le_bytes());
         }
-        Self { path: part_path(&stored.path), fingerprint: format!("{:x?}", hash.finalize()) }
+        Self::beside(&stored.path, hexadecimal(&hash.finalize()))
+    }
+
+    /// In its own file where that of the result holds another bootstrap, which may be all that is left of it.
+    fn beside(result: &Path, fingerprint: String) -> Self {
+        let (path, own) = (part_path(result), beside(result, &format!("bootstrap-{}.part.h5", &fingerprint[..8])));
+        let is_of_another = fingerprint_in(&path).is_some_and(|other| other != fingerprint);
+        Self { path: if own.exists() || is_of_another { own } else { path }, fingerprint }
     }
 
     /// Where it is.
