@@ -195,7 +195,7 @@ pub(super) fn cases(path: &Path) -> Result<Vec<Variant>, UpliftError> {
         let plain = name.chars().all(|letter| letter.is_alphanumeric() || "._-".contains(letter));
         if !plain || name.starts_with('.') || name.chars().count() > LONGEST_NAME {
             mistakes.push(format!(
-                "row {}: name {name:?}: letters, digits, points, dashes, and at most {LONGEST_NAME} of them",
+                "row {}: name {name:?}: write up to {LONGEST_NAME} letters, digits, points, dashes, underscores",
                 place + 1
             ));
         }
