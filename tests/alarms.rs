@@ -155,6 +155,9 @@ fn measures_that_disagree_are_raised_wherever_a_spectrum_is() {
     study.uplift(&["bootstrap", "r.h5", "--replicates", "30", "--sizes", "15,30", "-q"]).ok();
     let table = json(&study, &["table", "r.h5", "--measure", "pgv", "--json"]);
     assert!(text(alarm(&table, "measures-disagree"), "what").ends_with(", outside both 90 % bands"), "{table}");
+    // asked for or not, it is the same probability
+    let asked = |more: &[&str]| json(&study, &[&["spectrum", "r.h5", "--json"], more].concat())["alarms"].clone();
+    assert_eq!(asked(&["--poe", "2%"]), asked(&[]));
 }
 
 /// Words of a file of the study that spells its texts as they are, in bytes of two or in a packed sheet.

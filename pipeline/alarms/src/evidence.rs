@@ -18,6 +18,8 @@ pub struct Evidence {
     /// Curves of measures that the study is not analysed by, with the position of the site.
     pub(crate) other_curves: Vec<(usize, IntensityMeasure, HazardCurve)>,
     pub(crate) bands: Option<StoredBands>,
+    /// Position of each probability of the spectra among those of the bands.
+    pub(super) poes_of_bands: Vec<Option<usize>>,
     /// By the measure that records are scaled to.
     pub(crate) consistency: Vec<StoredConsistency>,
 }
@@ -88,12 +90,18 @@ impl Evidence {
                 other_curves.extend(file.mean_curve(name, measure)?.map(|curve| (site, measure, curve)));
             }
         }
+        let all = || (0..spectra.poes.len()).map(Some).collect();
+        let (bands, poes_of_bands) = match file.bands()? {
+            None if file.is_asked() => (file.stored_bands()?, stored_poes(file, &spectra)?),
+            bands => (bands, all()),
+        };
         Ok(Self {
             study,
             spectra,
             other_curves,
             hazard: file.hazard_with_branches(|site| scope.holds_site(site))?,
-            bands: file.bands()?,
+            bands,
+            poes_of_bands,
             consistency: file.consistency()?,
         })
     }
@@ -129,4 +137,13 @@ impl Evidence {
     pub(super) fn target_per_year(&self, poe: usize) -> Result<f64, AlarmsError> {
         Ok(rate_from_probability(self.spectra.poes[poe], self.spectra.years)?)
     }
+}
+
+/// Position of each probability of `spectra` among those of the study of a result.
+fn stored_poes(file: &ResultFile, spectra: &StoredSpectra) -> Result<Vec<Option<usize>>, AlarmsError> {
+    let stored = file.stored_axes()?;
+    let is_same = |a: f64, b: f64| a.to_bits() == b.to_bits();
+    let place =
+        |poe: &f64| stored.poes.iter().position(|own| is_same(*own, *poe) && is_same(stored.years, spectra.years));
+    Ok(spectra.poes.iter().map(place).collect())
 }

@@ -60,7 +60,8 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
             if !is_asked || curves::are_apart(evidence, site) {
                 continue;
             }
-            let side = |of_measure| side(of_measure, evidence.bands.as_ref(), [site, poe]);
+            let bands = evidence.bands.as_ref().zip(evidence.poes_of_bands[poe]);
+            let side = |of_measure| side(of_measure, bands, [site, poe]);
             let (one, other) = (side(pgv), side(pga));
             let Some(gap) = largest_gap(one, other, &strengths) else { continue };
             let banded = one.band_m.is_some() && other.band_m.is_some();
@@ -91,10 +92,10 @@ fn case(evidence: &Evidence, subject: String, gap: Gap, banded: bool) -> Case {
     }
 }
 
-/// The spectrum of a site and probability with its band for all records.
-fn side<'a>(spectra: &'a MeasureSpectra, bands: Option<&'a StoredBands>, [site, poe]: [usize; 2]) -> Side<'a> {
+/// The spectrum of a site and probability with its band for all records, of a probability by its position there.
+fn side<'a>(spectra: &'a MeasureSpectra, bands: Option<(&'a StoredBands, usize)>, [site, poe]: [usize; 2]) -> Side<'a> {
     let band = || {
-        let bands = bands?;
+        let (bands, poe) = bands?;
         let size = (0..bands.sizes.len()).max_by_key(|&size| bands.sizes[size])?;
         let of_measure = bands.of(spectra.measure)?;
         let [lower, _, upper] = &of_measure.plain.limits_m;

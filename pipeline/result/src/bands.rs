@@ -314,10 +314,18 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn bands(&self) -> Result<Option<StoredBands>, ResultError> {
-        if let Some(asked) = &self.asked {
-            return Ok(asked.bands.clone());
+        match &self.asked {
+            Some(asked) => Ok(asked.bands.clone()),
+            None => self.stored_bands(),
         }
-        let axes = self.axes()?;
+    }
+
+    /// The same as the file has them, of the probabilities of its study.
+    ///
+    /// # Errors
+    /// As [`bands`](Self::bands).
+    pub fn stored_bands(&self) -> Result<Option<StoredBands>, ResultError> {
+        let axes = self.stored_axes()?;
         if !self.reader.exists(BANDS.root()) {
             return Ok(None);
         }
