@@ -5,11 +5,12 @@
 
 use std::collections::BTreeSet;
 
+use hdf5::plist::ObjectCopy;
 use hdf5::types::{FloatSize, IntSize, TypeDescriptor};
 use hdf5::{Container, Location, LocationType};
 
 use super::AXES;
-use super::attribute::AttributeValue;
+use super::attribute::{self, AttributeValue};
 use super::checksum::CHECKSUM;
 use super::dimension_scale::{self, RESERVED};
 use super::error::LabelledError;
@@ -92,6 +93,12 @@ impl LabelledWriter {
         let long_name = reader.attribute_text(path, "long_name")?;
         let kind = reader.kind(path)?;
         let unit = if kind == Kind::Text { String::new() } else { reader.unit(path)? };
+        if let Ok(checksum) = reader.attribute_text(path, CHECKSUM)
+            && kind != Kind::Text
+        {
+            self.carry_bytes(reader, path, [("units", &unit), ("long_name", &long_name), (CHECKSUM, &checksum)])?;
+            return self.carry_attributes(reader, path, &DESCRIPTIONS);
+        }
         macro_rules! carry {
             ($read:ident) => {{
                 let array = reader.$read(path)?;
@@ -112,6 +119,37 @@ impl LabelledWriter {
             Kind::I64 | Kind::U64 => return Err(reader.unknown(path)),
         }
         self.carry_attributes(reader, path, &DESCRIPTIONS)
+    }
+
+    /// Carries over an array of numbers as it is compressed, with these attributes.
+    fn carry_bytes(
+        &mut self,
+        reader: &LabelledReader,
+        path: &str,
+        attributes: [(&str, &str); 3],
+    ) -> Result<(), LabelledError> {
+        let source = reader.dataset(path)?;
+        let dims = reader.check(dimension_scale::names(&reader.file, &source), path)?.unwrap_or_default();
+        let dims: Vec<&str> = dims.iter().map(String::as_str).collect();
+        let shape = self.shape(path, &dims)?;
+        if shape != source.shape() {
+            return Err(self.misuse(path, format!("{:?} values for the shape {shape:?} of {dims:?}", source.shape())));
+        }
+        self.prepare(path, &dims)?;
+        let copy = || {
+            // references to axes hold in their own file alone
+            let bare = ObjectCopy::build().copy_without_attr(true).finish()?;
+            source.copy_to_with_props(&self.file, path, Some(&bare), None)?;
+            let dataset = self.file.dataset(path)?;
+            for (name, value) in attributes {
+                attribute::write(&dataset, name, &value.into())?;
+            }
+            dataset.flush()?;
+            Ok(dataset)
+        };
+        let dataset = self.check(copy(), "write", path)?;
+        self.note_chunks(path, &dataset);
+        self.attach(path, &dims, &dataset)
     }
 
     fn carry_attributes(

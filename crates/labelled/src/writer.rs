@@ -27,7 +27,7 @@ const DEFLATE_LEVEL: u8 = 4;
 /// Dropped before, it leaves no trace, and a file that was there already stays as it was.
 pub struct LabelledWriter {
     // Before `place`: the file is closed before it is removed.
-    file: File,
+    pub(super) file: File,
     place: AtomicFile,
     pub(super) axes: BTreeMap<String, Axis>,
     links: BTreeSet<String>,
@@ -378,10 +378,15 @@ impl LabelledWriter {
             Ok(dataset)
         };
         let dataset = self.check(create(), "write", path)?;
+        self.note_chunks(path, &dataset);
+        Ok(dataset)
+    }
+
+    /// Notes an array whose bytes lie in chunks: the seal is of each.
+    pub(super) fn note_chunks(&mut self, path: &str, dataset: &Dataset) {
         if dataset.is_chunked() {
             self.chunks.push(path.to_owned());
         }
-        Ok(dataset)
     }
 
     /// Where the chunks of the array at `path` lie.
