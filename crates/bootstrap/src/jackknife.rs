@@ -4,7 +4,7 @@ use uplift_risk::{PooledDemand, RecordSample, ResamplingTable, StripeWeights};
 
 use crate::{BootstrapError, left_out};
 
-/// Exact ordinates without each of the records in turn, m, `[record, target]`; empty where there is but one record.
+/// Exact ordinates without each of the records in turn, m, `[target, record]`; empty where there is but one record.
 ///
 /// - `targets_per_year`: target rates, 1/yr, `[target]`.
 ///
@@ -18,7 +18,7 @@ pub fn leave_one_out(
     without_each(demand, weights, targets_per_year, &left_out(demand.record_count())?)
 }
 
-/// Exact ordinates of `samples`, the records without a part of them each, m, `[sample, target]`.
+/// Exact ordinates of `samples`, the records without a part of them each, m, `[target, sample]`.
 ///
 /// # Errors
 /// As [`leave_one_out`].

@@ -30,15 +30,8 @@ impl Replicates {
     ) -> Result<Self, BootstrapError> {
         let (targets, samples) = (targets_per_year.len(), plan.samples().len());
         let mut ordinates_m = vec![0.0; sites.len() * targets * samples];
-        let mut of_samples_m = vec![0.0; targets * samples];
-        for (site, weights) in sites.iter().enumerate() {
-            let table = ResamplingTable::new(demand, weights)?;
-            table.ordinates(plan.samples(), targets_per_year, &mut of_samples_m)?;
-            for (index, row_m) in of_samples_m.chunks_exact(targets.max(1)).enumerate() {
-                for (target, &ordinate_m) in row_m.iter().enumerate() {
-                    ordinates_m[(site * targets + target) * samples + index] = ordinate_m;
-                }
-            }
+        for (weights, of_site_m) in sites.iter().zip(ordinates_m.chunks_exact_mut((targets * samples).max(1))) {
+            ResamplingTable::new(demand, weights)?.ordinates(plan.samples(), targets_per_year, of_site_m)?;
         }
         Ok(Self { ordinates_m, targets, sizes: plan.sizes().len(), per_size: plan.replicates() })
     }

@@ -104,7 +104,7 @@ fn leaving_a_record_out_is_a_set_without_it() {
         let mut others = edp_m.clone();
         others.drain(record * 8..record * 8 + 8);
         for (target_index, &target) in TARGETS.iter().enumerate() {
-            assert_eq!(found[record * TARGETS.len() + target_index], plain_ordinate(&others, &weights, target));
+            assert_eq!(found[target_index * RECORDS + record], plain_ordinate(&others, &weights, target));
         }
     }
     let one = PooledDemand::new(&Stripes::new(&LEVELS_CM_S, &edp_m[..8]).unwrap()).unwrap();

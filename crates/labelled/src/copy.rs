@@ -91,43 +91,22 @@ impl LabelledWriter {
     fn carry_array(&mut self, reader: &LabelledReader, path: &str) -> Result<(), LabelledError> {
         reader.require_sound(path)?;
         let long_name = reader.attribute_text(path, "long_name")?;
-        let kind = reader.kind(path)?;
-        let unit = if kind == Kind::Text { String::new() } else { reader.unit(path)? };
-        if let Ok(checksum) = reader.attribute_text(path, CHECKSUM)
-            && kind != Kind::Text
-        {
-            self.carry_bytes(reader, path, [("units", &unit), ("long_name", &long_name), (CHECKSUM, &checksum)])?;
-            return self.carry_attributes(reader, path, &DESCRIPTIONS);
-        }
-        macro_rules! carry {
-            ($read:ident) => {{
-                let array = reader.$read(path)?;
-                let dims: Vec<&str> = array.dims.iter().map(String::as_str).collect();
-                self.$read(path, &dims, &array.values, &unit, &long_name)?;
-            }};
-        }
-        match kind {
+        match reader.kind(path)? {
             Kind::Text => {
                 let array = reader.array_text(path)?;
                 let dims: Vec<&str> = array.dims.iter().map(String::as_str).collect();
                 self.array_text(path, &dims, &array.values, &long_name)?;
             }
-            Kind::F64 => carry!(array_f64),
-            Kind::F32 => carry!(array_f32),
-            Kind::U32 => carry!(array_u32),
-            Kind::U8 => carry!(array_u8),
+            Kind::F64 | Kind::F32 | Kind::U32 | Kind::U8 => self.carry_numbers(reader, path, &long_name)?,
             Kind::I64 | Kind::U64 => return Err(reader.unknown(path)),
         }
         self.carry_attributes(reader, path, &DESCRIPTIONS)
     }
 
-    /// Carries over an array of numbers as it is compressed, with these attributes.
-    fn carry_bytes(
-        &mut self,
-        reader: &LabelledReader,
-        path: &str,
-        attributes: [(&str, &str); 3],
-    ) -> Result<(), LabelledError> {
+    /// Carries over a sound array of numbers as it is compressed.
+    fn carry_numbers(&mut self, reader: &LabelledReader, path: &str, long_name: &str) -> Result<(), LabelledError> {
+        let unit = reader.unit(path)?;
+        let checksum = reader.attribute_text(path, CHECKSUM).or_else(|_| reader.checksum(path))?;
         let source = reader.dataset(path)?;
         let dims = reader.check(dimension_scale::names(&reader.file, &source), path)?.unwrap_or_default();
         let dims: Vec<&str> = dims.iter().map(String::as_str).collect();
@@ -141,7 +120,7 @@ impl LabelledWriter {
             let bare = ObjectCopy::build().copy_without_attr(true).finish()?;
             source.copy_to_with_props(&self.file, path, Some(&bare), None)?;
             let dataset = self.file.dataset(path)?;
-            for (name, value) in attributes {
+            for (name, value) in DESCRIPTIONS.into_iter().zip([unit.as_str(), long_name, &checksum]) {
                 attribute::write(&dataset, name, &value.into())?;
             }
             dataset.flush()?;

@@ -107,7 +107,8 @@ impl LabelledReader {
         Ok(())
     }
 
-    fn checksum(&self, path: &str) -> Result<String, LabelledError> {
+    /// Checksum of the values that an array has.
+    pub(super) fn checksum(&self, path: &str) -> Result<String, LabelledError> {
         let dataset = self.dataset(path)?;
         Ok(match self.kind(path)? {
             Kind::Text => of_values(&self.texts(&dataset, path)?),

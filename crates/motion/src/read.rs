@@ -163,7 +163,7 @@ fn detect(bytes: &[u8], name: &str) -> RecordFormat {
     }
 }
 
-/// What a file is that people give in place of a record; none of one that may be a record.
+/// The kind of a file that is no record; none where it may be one.
 fn other_kind(bytes: &[u8], name: &str) -> Option<&'static str> {
     let is_header = |line: &&[u8]| !line.starts_with(b"#") && !line.trim_ascii().is_empty();
     let header = bytes.split(|&byte| byte == b'\n').find(is_header).unwrap_or_default();

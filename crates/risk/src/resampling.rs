@@ -80,11 +80,11 @@ impl<'a> ResamplingTable<'a> {
         Ok(Self { demand, weights, before, means, per_year: weights.per_year(), row, error })
     }
 
-    /// Exact ordinates of samples, m, `[sample, target]`: 0 where nothing is exceeded so often, +∞ where overturning
+    /// Exact ordinates of samples, m, `[target, sample]`: 0 where nothing is exceeded so often, +∞ where overturning
     /// alone is.
     ///
     /// - `targets_per_year`: target rates, 1/yr, `[target]`.
-    /// - `ordinates_m`: receives the ordinates, `[sample, target]`.
+    /// - `ordinates_m`: receives the ordinates, `[target, sample]`.
     ///
     /// # Errors
     /// A sample of another number of records, or one that leaves a level with records of its own without any; a target
@@ -102,9 +102,10 @@ impl<'a> ResamplingTable<'a> {
         // the exact curve also refuses what does not fit
         let exact = |sample| RiskCurve::resampled(self.demand, self.weights, sample);
         if self.demand.shares().is_some() {
-            for (sample, row_m) in samples.iter().zip(ordinates_m.chunks_exact_mut(targets_per_year.len().max(1))) {
-                let found = exact(sample)?.exact_ordinates(targets_per_year)?;
-                row_m.iter_mut().zip(found).for_each(|(own_m, found)| *own_m = found.displacement_m);
+            for (place, sample) in samples.iter().enumerate() {
+                for (target, found) in exact(sample)?.exact_ordinates(targets_per_year)?.into_iter().enumerate() {
+                    ordinates_m[target * samples.len() + place] = found.displacement_m;
+                }
             }
             return Ok(());
         }
@@ -113,16 +114,15 @@ impl<'a> ResamplingTable<'a> {
             return Err(RiskError::Target { rate });
         }
         let instructions = Instructions::chosen();
-        let targets = targets_per_year.len();
-        for (target, &target_per_year) in targets_per_year.iter().enumerate() {
+        let rows_m = ordinates_m.chunks_exact_mut(samples.len().max(1));
+        for (&target_per_year, row_m) in targets_per_year.iter().zip(rows_m) {
             let near = self.means.partition_point(|&mean| mean <= target_per_year);
-            let rows_m = ordinates_m.chunks_mut(TOGETHER * targets);
-            for (samples, rows_m) in samples.chunks(TOGETHER).zip(rows_m) {
+            for (samples, found_m) in samples.chunks(TOGETHER).zip(row_m.chunks_mut(TOGETHER)) {
                 // where fewer are left, the last is sought more than once
                 let all = std::array::from_fn(|place| &samples[place.min(samples.len() - 1)]);
                 let found = instructions.run(Searches { table: self, samples: all, target_per_year, near });
-                for ((sample, row_m), found) in samples.iter().zip(rows_m.chunks_mut(targets)).zip(found) {
-                    row_m[target] = match found {
+                for ((sample, found_m), found) in samples.iter().zip(found_m).zip(found) {
+                    *found_m = match found {
                         Some(displacement_m) => displacement_m,
                         None => exact(sample)?.exact_ordinate(target_per_year)?.displacement_m,
                     };

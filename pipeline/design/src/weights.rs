@@ -1,4 +1,4 @@
-//! The weights by which the motions of a result bring the hazard of its sites.
+//! Weights that make the motions of a result match the hazard of its sites.
 
 use uplift_result::ResultFile;
 use uplift_risk::RunWeights;

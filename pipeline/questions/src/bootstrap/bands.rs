@@ -87,10 +87,10 @@ pub(super) fn bands_of_strength(
         };
         for poe in 0..targets.len() {
             let estimate_m = measure.exact_m[[site, poe, index]];
-            let without_each_m: Vec<f64> = without_each.iter().skip(poe).step_by(targets.len()).copied().collect();
+            let without_each_m = &without_each[poe * left_out.len()..][..left_out.len()];
             for (size_index, &size) in plan.sizes().iter().enumerate() {
                 let ordinates_m = replicates.ordinates_m(0, poe, size_index);
-                let of_sample = (without_each_m.as_slice(), plan.units_drawn(size));
+                let of_sample = (without_each_m, plan.units_drawn(size));
                 done.bands.push(settings.band(ordinates_m, estimate_m, of_sample));
                 if settings.simultaneous {
                     done.replicates_m.extend_from_slice(ordinates_m);
