@@ -3,7 +3,7 @@
 use numpy::PyArrayDyn;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use uplift_bootstrap::{Band, Interval, Replicates, ResamplingPlan, acceleration, without_each};
+use uplift_bootstrap::{Band, Interval, Replicates, ResamplingPlan, without_each};
 use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 
 use crate::demand::Demand;
@@ -113,30 +113,17 @@ pub(crate) fn bootstrap(
     let per_size = usize::try_from(replicates).unwrap_or(usize::MAX);
     room::<u32>(count(&[sizes.len(), per_size, demand.records()])?)?;
     let plan = py.detach(|| ResamplingPlan::draw(demand.records(), &sizes, per_size, seed)).map_err(refused)?;
-    let left_out = match interval {
-        Interval::Percentile => Vec::new(),
-        Interval::Bca => plan.left_out().map_err(refused)?,
-    };
+    let left_out = interval.left_out(&plan).map_err(refused)?;
     let of_both = |demand: &PooledDemand, weights: &StripeWeights| {
         let replicates = Replicates::from_plan(demand, &[weights], &targets, &plan).map_err(refused)?;
         let estimates = RiskCurve::new(demand, weights).and_then(|curve| curve.exact_ordinates(&targets));
-        let without_each = match interval {
-            Interval::Percentile => Vec::new(),
-            Interval::Bca => without_each(demand, weights, &targets, &left_out).map_err(refused)?,
-        };
+        let without_each = without_each(demand, weights, &targets, &left_out).map_err(refused)?;
         let mut bands = Vec::with_capacity(targets.len() * sizes.len());
         for (target, estimate) in estimates.map_err(refused)?.iter().enumerate() {
-            let without_each_m: Vec<f64> = without_each.iter().skip(target).step_by(targets.len()).copied().collect();
             for (index, size) in sizes.iter().enumerate() {
-                let mut sorted = replicates.ordinates_m(0, target, index).to_vec();
-                sorted.sort_unstable_by(f64::total_cmp);
-                bands.push(match interval {
-                    Interval::Percentile => Band::percentile(&sorted, confidence),
-                    Interval::Bca => {
-                        let acceleration = acceleration(&without_each_m, *size);
-                        Band::bca(&sorted, confidence, estimate.displacement_m, acceleration)
-                    }
-                });
+                let ordinates_m = replicates.ordinates_m(0, target, index);
+                let of_sample = (without_each[target].as_slice(), *size);
+                bands.push(interval.band(ordinates_m, confidence, estimate.displacement_m, of_sample));
             }
         }
         Ok(bands)

@@ -2,6 +2,9 @@
 
 use statrs::distribution::{ContinuousCDF, Normal};
 use uplift_fragility::quantile;
+use uplift_risk::RecordSample;
+
+use crate::{BootstrapError, ResamplingPlan, acceleration};
 
 /// How an interval is read from the replicates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -22,6 +25,38 @@ impl Interval {
         match self {
             Self::Percentile => "percentile",
             Self::Bca => "bca",
+        }
+    }
+
+    /// The samples of which a band asks beside the replicates of `plan`: those without each unit, for BCa.
+    ///
+    /// # Errors
+    /// As [`ResamplingPlan::left_out`].
+    pub fn left_out(self, plan: &ResamplingPlan) -> Result<Vec<RecordSample>, BootstrapError> {
+        match self {
+            Self::Percentile => Ok(Vec::new()),
+            Self::Bca => plan.left_out(),
+        }
+    }
+
+    /// The band of an ordinate at a `confidence` between 0 and 1.
+    ///
+    /// - `replicates_m`: the ordinate of each replicate, m.
+    /// - `estimate_m`: that of all records, m.
+    /// - `without_each_m`: those of [`left_out`](Self::left_out), m.
+    /// - `size`: units in a sample, records or earthquakes.
+    pub fn band(
+        self,
+        replicates_m: &[f64],
+        confidence: f64,
+        estimate_m: f64,
+        (without_each_m, size): (&[f64], u32),
+    ) -> Band {
+        let mut sorted = replicates_m.to_vec();
+        sorted.sort_unstable_by(f64::total_cmp);
+        match self {
+            Self::Percentile => Band::percentile(&sorted, confidence),
+            Self::Bca => Band::bca(&sorted, confidence, estimate_m, acceleration(without_each_m, size)),
         }
     }
 }

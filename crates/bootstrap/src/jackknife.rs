@@ -2,36 +2,27 @@
 
 use uplift_risk::{PooledDemand, RecordSample, ResamplingTable, StripeWeights};
 
-use crate::{BootstrapError, left_out};
+use crate::BootstrapError;
 
-/// Exact ordinates without each of the records in turn, m, `[target, record]`; empty where there is but one record.
+/// Exact ordinates of `samples`, the records without a part of them each, m, `[target][sample]`.
 ///
 /// - `targets_per_year`: target rates, 1/yr, `[target]`.
+/// - `samples`: as [`left_out`](crate::left_out) makes them; without any, the ordinates of each target are none.
 ///
 /// # Errors
 /// Demand and weights with different numbers of levels; a target that is not positive and finite.
-pub fn leave_one_out(
-    demand: &PooledDemand,
-    weights: &StripeWeights,
-    targets_per_year: &[f64],
-) -> Result<Vec<f64>, BootstrapError> {
-    without_each(demand, weights, targets_per_year, &left_out(demand.record_count())?)
-}
-
-/// Exact ordinates of `samples`, the records without a part of them each, m, `[target, sample]`.
-///
-/// # Errors
-/// As [`leave_one_out`].
 pub fn without_each(
     demand: &PooledDemand,
     weights: &StripeWeights,
     targets_per_year: &[f64],
     samples: &[RecordSample],
-) -> Result<Vec<f64>, BootstrapError> {
-    let table = ResamplingTable::new(demand, weights)?;
+) -> Result<Vec<Vec<f64>>, BootstrapError> {
+    if samples.is_empty() {
+        return Ok(vec![Vec::new(); targets_per_year.len()]);
+    }
     let mut ordinates_m = vec![0.0; samples.len() * targets_per_year.len()];
-    table.ordinates(samples, targets_per_year, &mut ordinates_m)?;
-    Ok(ordinates_m)
+    ResamplingTable::new(demand, weights)?.ordinates(samples, targets_per_year, &mut ordinates_m)?;
+    Ok(ordinates_m.chunks_exact(samples.len()).map(<[f64]>::to_vec).collect())
 }
 
 /// What each record has in a number that is nearly a mean over the records, `[record]`: `all + (n − 1)(m − x)`, where

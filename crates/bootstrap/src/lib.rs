@@ -14,7 +14,7 @@
 //!   [`falling`], [`crossing`]: the value at which such a rate meets a target.
 //! - [`simultaneous_bands`]: a band that holds whole spectra.
 //! - [`error_of_median`], [`range_of_interval`]: the two figures of Table 4.1 (Eq. 4.9, 4.10).
-//! - [`leave_one_out`]: the ordinates without each record, for influence and for BCa.
+//! - [`without_each`]: the ordinates without each record, for influence and for BCa.
 //!
 //! One replicate rebuilds the whole spectrum: the same draw serves all strengths, sites, probabilities and intensity
 //! measures (common random numbers), so differences between them are not blurred by the resampling.
@@ -49,7 +49,7 @@ pub use error::BootstrapError;
 pub use falling::{crossing, falling};
 pub use inferred::{InferredLimits, inferred_limits, inferred_mean, inferred_rate, truth_limits};
 pub use interval::{Band, Interval};
-pub use jackknife::{acceleration, contributions, leave_one_out, without_each};
+pub use jackknife::{acceleration, contributions, without_each};
 pub use over_curves::{inferred_limits_over_curves, inferred_mean_over_alternatives, inferred_rate_over_curves};
 pub use plan::ResamplingPlan;
 pub use replicates::Replicates;

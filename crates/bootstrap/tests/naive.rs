@@ -1,9 +1,7 @@
 //! The bootstrap against the plain way: write the drawn records out, count fragilities, integrate, invert, sort.
 #![allow(clippy::unwrap_used)]
 
-use uplift_bootstrap::{
-    Band, BootstrapError, Replicates, ResamplingPlan, leave_one_out, left_out, weighted_replicates,
-};
+use uplift_bootstrap::{Band, BootstrapError, Replicates, ResamplingPlan, left_out, weighted_replicates, without_each};
 use uplift_fragility::Stripes;
 use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_risk::{PooledDemand, RecordSample, RiskCurve, RunWeights, StripeWeights, mean_annual_frequency};
@@ -98,17 +96,20 @@ fn leaving_a_record_out_is_a_set_without_it() {
     let edp_m = demands();
     let demand = PooledDemand::new(&Stripes::new(&LEVELS_CM_S, &edp_m).unwrap()).unwrap();
     let [weights, _] = weights();
-    let found = leave_one_out(&demand, &weights, &TARGETS).unwrap();
-    assert_eq!(found.len(), RECORDS * TARGETS.len());
+    let without_each = |demand: &PooledDemand| {
+        without_each(demand, &weights, &TARGETS, &left_out(demand.record_count()).unwrap()).unwrap()
+    };
+    let found = without_each(&demand);
+    assert!(found.len() == TARGETS.len() && found.iter().all(|of_target| of_target.len() == RECORDS));
     for record in 0..RECORDS {
         let mut others = edp_m.clone();
         others.drain(record * 8..record * 8 + 8);
         for (target_index, &target) in TARGETS.iter().enumerate() {
-            assert_eq!(found[target_index * RECORDS + record], plain_ordinate(&others, &weights, target));
+            assert_eq!(found[target_index][record], plain_ordinate(&others, &weights, target));
         }
     }
     let one = PooledDemand::new(&Stripes::new(&LEVELS_CM_S, &edp_m[..8]).unwrap()).unwrap();
-    assert!(leave_one_out(&one, &weights, &TARGETS).unwrap().is_empty());
+    assert_eq!(without_each(&one), vec![Vec::<f64>::new(); TARGETS.len()]);
 }
 
 #[test]

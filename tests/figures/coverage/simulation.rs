@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use uplift::result::{StoredMeasure, StoredStripes};
-use uplift_bootstrap::{Band, Replicates, ResamplingPlan, inferred_limits};
+use uplift_bootstrap::{Interval, Replicates, ResamplingPlan, inferred_limits, without_each};
 use uplift_fragility::Stripes;
 use uplift_risk::PooledDemand;
 
@@ -101,22 +101,19 @@ fn of_set(
     let targets = &stored.targets_per_year;
     let sites: Vec<_> = measure.weights.iter().collect();
     let replicates = Replicates::from_plan(&demand, &sites, targets, resamples)?;
-    let units = resamples.units();
+    let (units, left_out) = (resamples.units(), resamples.left_out()?);
     let mut found = Vec::new();
     for (site, weights) in sites.into_iter().enumerate() {
         let inferred = inferred_limits(&demand, weights, &units, targets, (&[units.len()], CONFIDENCE))?;
         let ordinates = uplift_risk::RiskCurve::new(&demand, weights)?.exact_ordinates(targets)?;
-        let without_each = uplift_bootstrap::leave_one_out(&demand, weights, targets)?;
+        let without_each = without_each(&demand, weights, targets, &left_out)?;
         for (poe, (inferred, ordinate)) in inferred.iter().zip(&ordinates).enumerate() {
             let ordinate_m = ordinate.displacement_m;
-            let mut sorted = replicates.ordinates_m(site, poe, 0).to_vec();
-            sorted.sort_unstable_by(f64::total_cmp);
-            let without_each_m: Vec<f64> = without_each.iter().skip(poe).step_by(targets.len()).copied().collect();
-            let size = u32::try_from(units.len())?;
-            let acceleration = uplift_bootstrap::acceleration(&without_each_m, size);
-            let [percentile, bca] =
-                [Band::percentile(&sorted, CONFIDENCE), Band::bca(&sorted, CONFIDENCE, ordinate_m, acceleration)]
-                    .map(|band| [band.lower_m, band.upper_m]);
+            let of_sample = (without_each[poe].as_slice(), u32::try_from(units.len())?);
+            let [percentile, bca] = Interval::ALL.map(|interval| {
+                let band = interval.band(replicates.ordinates_m(site, poe, 0), CONFIDENCE, ordinate_m, of_sample);
+                [band.lower_m, band.upper_m]
+            });
             found.push(OfSet { bands_m: [percentile, bca, inferred.truth_m, inferred.prediction_m], ordinate_m });
         }
     }

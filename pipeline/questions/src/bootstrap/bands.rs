@@ -1,7 +1,7 @@
 //! Confidence bands of the spectra: the bootstrap over records (Section 4.5).
 
 use rayon::prelude::*;
-use uplift_bootstrap::{Band, Interval, Replicates, ResamplingPlan, acceleration, simultaneous_bands, without_each};
+use uplift_bootstrap::{Band, Interval, Replicates, ResamplingPlan, simultaneous_bands, without_each};
 use uplift_job::Array;
 use uplift_result::{InferredBands, MeasureBands, StoredSpectraBands};
 use uplift_risk::StripeWeights;
@@ -24,20 +24,6 @@ pub(super) struct BandSettings {
 }
 
 impl BandSettings {
-    /// The band of an ordinate with its replicates.
-    ///
-    /// - `estimate_m`: the ordinate of all records, m.
-    /// - `without_each_m`: that without each unit of the draws, m, which BCa asks for.
-    /// - `size`: units in a sample, records or earthquakes.
-    pub(super) fn band(&self, replicates_m: &[f64], estimate_m: f64, (without_each_m, size): (&[f64], u32)) -> Band {
-        let mut sorted = replicates_m.to_vec();
-        sorted.sort_unstable_by(f64::total_cmp);
-        match self.interval {
-            Interval::Percentile => Band::percentile(&sorted, self.confidence),
-            Interval::Bca => Band::bca(&sorted, self.confidence, estimate_m, acceleration(without_each_m, size)),
-        }
-    }
-
     /// Position of the first strength that counts in Eq. 4.9 and 4.10.
     pub(super) fn first_strength(&self, strengths: &[f64]) -> usize {
         strengths.partition_point(|&strength| strength <= self.strength_above)
@@ -73,25 +59,18 @@ pub(super) fn bands_of_strength(
 ) -> Result<StrengthBands, QuestionsError> {
     let demand = measure.demand(index)?;
     let targets = &stored.targets_per_year;
-    let left_out = match settings.interval {
-        Interval::Percentile => Vec::new(),
-        Interval::Bca => plan.left_out()?,
-    };
+    let BandSettings { confidence, interval, .. } = *settings;
+    let left_out = interval.left_out(plan)?;
     let mut done = StrengthBands { bands: Vec::new(), replicates_m: Vec::new() };
     for (site, weights) in measure.weights.iter().enumerate() {
         let sites: [&StripeWeights; 1] = [weights];
         let replicates = Replicates::from_plan(&demand, &sites, targets, plan)?;
-        let without_each = match settings.interval {
-            Interval::Percentile => Vec::new(),
-            Interval::Bca => without_each(&demand, weights, targets, &left_out)?,
-        };
-        for poe in 0..targets.len() {
+        for (poe, without_each_m) in without_each(&demand, weights, targets, &left_out)?.iter().enumerate() {
             let estimate_m = measure.exact_m[[site, poe, index]];
-            let without_each_m = &without_each[poe * left_out.len()..][..left_out.len()];
             for (size_index, &size) in plan.sizes().iter().enumerate() {
                 let ordinates_m = replicates.ordinates_m(0, poe, size_index);
-                let of_sample = (without_each_m, plan.units_drawn(size));
-                done.bands.push(settings.band(ordinates_m, estimate_m, of_sample));
+                let of_sample = (without_each_m.as_slice(), plan.units_drawn(size));
+                done.bands.push(interval.band(ordinates_m, confidence, estimate_m, of_sample));
                 if settings.simultaneous {
                     done.replicates_m.extend_from_slice(ordinates_m);
                 }
@@ -99,7 +78,7 @@ pub(super) fn bands_of_strength(
         }
     }
     for branches in measure.branches.iter().filter(|branches| !branches.is_empty()) {
-        done.bands.extend(joint_bands(&demand, branches, targets, plan, settings.confidence)?);
+        done.bands.extend(joint_bands(&demand, branches, targets, plan, confidence)?);
     }
     Ok(done)
 }

@@ -84,25 +84,23 @@ pub(super) fn bands_of_site(
     let weighed_anew = |samples: &[RecordSample]| analysis.ordinates(demands, targets_per_year, samples, watch);
     let of_set_m = analysis.ordinates_of_set(demands, targets_per_year)?;
     let drawn = weighed_anew(plan.samples())?;
-    let without_each = match settings.interval {
-        Interval::Percentile => Vec::new(),
-        Interval::Bca => weighed_anew(&plan.left_out()?)?.ordinates_m,
-    };
+    let BandSettings { confidence, interval, .. } = *settings;
+    let left_out = interval.left_out(plan)?;
+    let without_each_m = if left_out.is_empty() { Vec::new() } else { weighed_anew(&left_out)?.ordinates_m };
     let shape = SiteShape { poes: targets_per_year.len(), sizes: plan.sizes().len(), strengths: demands.len() };
     let SiteShape { poes, sizes, strengths } = shape;
-    let units = without_each.len() / (strengths * poes).max(1);
     let of_cell = |cell: usize| {
         let [poe, size, strength] = shape.of_cell(cell);
-        let without_each_m = &without_each[(strength * poes + poe) * units..][..units];
+        let without_each_m = &without_each_m[(strength * poes + poe) * left_out.len()..][..left_out.len()];
         let of_sample = (without_each_m, plan.units_drawn(plan.sizes()[size]));
-        settings.band(replicates_m(&drawn, plan, shape, cell), of_set_m[strength][poe], of_sample)
+        interval.band(replicates_m(&drawn, plan, shape, cell), confidence, of_set_m[strength][poe], of_sample)
     };
     let bands = (0..shape.cells()).into_par_iter().map(of_cell).collect();
     let spectra = if settings.simultaneous { poes * sizes } else { 0 };
     let of_spectrum = |spectrum: usize| {
         let of_strength = |strength| replicates_m(&drawn, plan, shape, spectrum * strengths + strength).to_vec();
         let spectra_m: Vec<Vec<f64>> = (0..strengths).map(of_strength).collect();
-        simultaneous_bands(&spectra_m, settings.confidence)
+        simultaneous_bands(&spectra_m, confidence)
     };
     let simultaneous_m: Vec<Vec<(f64, f64)>> = (0..spectra).into_par_iter().map(of_spectrum).collect();
     Ok(SiteBands {

@@ -49,8 +49,8 @@ pub const CHANGES: [Change; 3] = [
     ("at_strength", "at strength, -", |of| of.strength),
 ];
 
-/// One strength: ordinates without each record `[site][poe, record]`, shares `[site, poe, bin]`.
-type OfStrength = (Vec<Vec<f64>>, Vec<f64>);
+/// One strength: ordinates without each record `[site][poe][record]`, shares `[site, poe, bin]`.
+type OfStrength = (Vec<Vec<Vec<f64>>>, Vec<f64>);
 
 /// Influence of records and intensities on all spectra of `measure`.
 pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> Result<Influence, QuestionsError> {
@@ -76,7 +76,7 @@ pub(super) fn influence_by(stored: &StoredStripes, measure: &StoredMeasure) -> R
         .map_err(|error| uplift_job::in_file(error, &stored.path))?;
     let without_m = (!samples.is_empty()).then(|| {
         Array::from_fn([sites, poes, stored.records.len(), strengths], |[site, poe, record, strength]| {
-            by_strength[strength].0[site][poe * samples.len() + stored.units.of[record]]
+            by_strength[strength].0[site][poe][stored.units.of[record]]
         })
     });
     let shares = Array::from_fn([sites, poes, strengths, bins], |[site, poe, strength, bin]| {
