@@ -4,7 +4,7 @@
 //! together, so that a site is done at once, where plain bands are done a strength after the other.
 
 use rayon::prelude::*;
-use uplift_bootstrap::{Band, Interval, ResamplingPlan, simultaneous_bands};
+use uplift_bootstrap::{Band, ResamplingPlan, simultaneous_bands};
 use uplift_ida::Watch;
 use uplift_job::Array;
 use uplift_result::{InferredBands, StoredRepairedBands};
