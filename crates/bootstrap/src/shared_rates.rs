@@ -1,5 +1,10 @@
 //! The rates that records, or earthquakes, bring where they do not count alike.
 
+// what is not inlined into work is not compiled for the instructions that it is compiled for
+#![allow(clippy::inline_always)]
+
+use uplift_instructions::{Instructions, Vectors, Work};
+
 use crate::SkewedMean;
 use crate::skewed_mean::sums;
 use crate::unit_rates::unit_of;
@@ -26,41 +31,65 @@ pub(crate) struct SharedRates {
     unit_of: Vec<usize>,
     /// Share of each record, `[level, record]`.
     shares: Vec<f64>,
-    /// Sum of the shares of the records of a unit, `[level, unit]`.
+    /// How many units there are.
+    units: usize,
+    /// Sum of the shares of the records of a unit, `[level, unit]`, each level filled up with zeros to whole
+    /// [`LANES`]; so are the other lists of units.
     of_units: Vec<f64>,
     /// By what the deviation of a unit is multiplied, `[level, unit]`.
     leverage: Vec<f64>,
-    /// What each unit carries of λ, 1/yr; none where units count alike.
-    carried: Option<Vec<f64>>,
+    /// What each unit carries of λ, 1/yr.
+    carried: Vec<f64>,
+    /// Whether the scatter is known from as many units as carry λ alike.
+    is_carried: bool,
     /// λ, 1/yr.
     per_year: f64,
     /// The deviation of each unit, 1/yr.
     deviations: Vec<f64>,
+    /// Σ of the second, third and fourth power of the deviations, and of the second and fourth of what units carry.
+    powers: [f64; POWERS],
+    instructions: Instructions,
 }
+
+const POWERS: usize = 5;
+
+/// Units for the processor to do at once.
+const LANES: usize = 8;
 
 impl SharedRates {
     /// Of the records of each unit, `[unit]`, with their `shares` `[level, record]`; nothing is exceeded yet.
     pub(crate) fn new(units: &[Vec<usize>], shares: &[f64]) -> Self {
-        let unit_of = unit_of(units);
+        let (unit_of, row) = (unit_of(units), units.len().max(1).next_multiple_of(LANES));
         let of_level = |level: &[f64]| {
-            let mut of_units = vec![0.0; units.len()];
+            let mut of_units = vec![0.0; row];
             level.iter().zip(&unit_of).for_each(|(share, &unit)| of_units[unit] += share);
             of_units
         };
         let of_units: Vec<f64> = shares.chunks_exact(unit_of.len().max(1)).flat_map(of_level).collect();
-        let (leverage, deviations) = (vec![1.0; of_units.len()], vec![0.0; units.len()]);
-        Self { unit_of, shares: shares.to_vec(), of_units, leverage, carried: None, per_year: 0.0, deviations }
+        Self {
+            unit_of,
+            shares: shares.to_vec(),
+            units: units.len(),
+            leverage: vec![1.0; of_units.len()],
+            of_units,
+            carried: vec![0.0; row],
+            is_carried: false,
+            per_year: 0.0,
+            deviations: vec![0.0; row],
+            powers: [0.0; POWERS],
+            instructions: Instructions::chosen(),
+        }
     }
 
     /// The same, with the scatter known from fewer units than there are.
     pub(crate) fn with_effective_units(mut self) -> Self {
-        self.carried = Some(vec![0.0; self.deviations.len()]);
+        self.is_carried = true;
         self
     }
 
     /// The same of units of which one may have a level nearly alone.
     pub(crate) fn with_leverage(mut self) -> Self {
-        let alike = 1.0 - 1.0 / self.deviations.len() as f64;
+        let alike = 1.0 - 1.0 / self.units as f64;
         // of a level that a unit has alone nothing is known without it: its ratio is its own
         let of = |&share: &f64| if share < 1.0 - 1e-9 { alike / (1.0 - share) } else { 1.0 };
         self.leverage = self.of_units.iter().map(of).collect();
@@ -70,7 +99,7 @@ impl SharedRates {
     /// To how many units that count alike they amount: one over the mean of Σ p² over the levels, p being the share of
     /// a unit.
     pub(crate) fn equivalent_units(&self) -> f64 {
-        let levels = self.of_units.len() / self.deviations.len().max(1);
+        let levels = self.of_units.len() / self.deviations.len();
         let found = levels as f64 / self.of_units.iter().map(|share| share * share).sum::<f64>();
         // 12 units that count alike are 12, whatever rounding leaves
         if (found - found.round()).abs() < 1e-9 * found { found.round() } else { found }
@@ -83,55 +112,69 @@ impl SharedRates {
 
     /// Just these runs are exceeded: of the record, at the level, whose stripe weighs so much, 1/yr.
     pub(crate) fn start(&mut self, runs: impl Iterator<Item = (usize, usize, f64)>) {
-        let units = self.deviations.len();
-        let mut of_levels = vec![0.0; self.of_units.len() / units.max(1)];
+        let row = self.deviations.len();
+        let mut of_levels = vec![0.0; self.of_units.len() / row];
         self.per_year = 0.0;
         self.deviations.fill(0.0);
         for (record, level, per_year) in runs {
             let (own, unit) = (per_year * self.share(record, level), self.unit_of[record]);
             of_levels[level] += own;
-            self.deviations[unit] += own * units as f64 * self.leverage[level * units + unit];
+            self.deviations[unit] += own * self.units as f64 * self.leverage[level * row + unit];
         }
-        self.carried.iter_mut().for_each(|carried| carried.fill(0.0));
-        for (level, own) in of_levels.into_iter().enumerate() {
-            self.all_deviate(level, own);
-        }
+        self.carried.fill(0.0);
+        self.all_deviate(0, &of_levels);
     }
 
     /// The run of `record` at `level`, whose stripe weighs `per_year`, 1/yr, is exceeded too; negative where it is
     /// exceeded no more.
     pub(crate) fn add(&mut self, record: usize, level: usize, per_year: f64) {
-        let (own, units, unit) = (per_year * self.share(record, level), self.deviations.len(), self.unit_of[record]);
-        self.deviations[unit] += own * units as f64 * self.leverage[level * units + unit];
-        self.all_deviate(level, own);
+        let (own, row, unit) = (per_year * self.share(record, level), self.deviations.len(), self.unit_of[record]);
+        self.deviations[unit] += own * self.units as f64 * self.leverage[level * row + unit];
+        self.all_deviate(level, &[own]);
     }
 
-    /// λ grows by `own`, 1/yr, at `level`: every unit deviates by its share of that.
-    fn all_deviate(&mut self, level: usize, own: f64) {
-        let units = self.deviations.len();
-        self.per_year += own;
-        let (of_level, leverage) = (&self.of_units[level * units..][..units], &self.leverage[level * units..][..units]);
-        for (carried, share) in self.carried.iter_mut().flatten().zip(of_level) {
-            *carried += own * share;
-        }
-        let own = own * units as f64;
-        for ((deviation, share), leverage) in self.deviations.iter_mut().zip(of_level).zip(leverage) {
-            *deviation -= own * share * leverage;
-        }
+    /// λ grows by so much each, 1/yr, at the levels from the `first` on: every unit deviates by its share of that.
+    fn all_deviate(&mut self, first: usize, of_levels: &[f64]) {
+        self.instructions.run(AllDeviate { rates: self, first, of_levels });
     }
 
     /// The rate of all records, 1/yr, with the scatter of the units.
     pub(crate) fn mean(&self) -> SkewedMean {
-        let units = self.deviations.len() as f64;
-        let powers = sums(&self.deviations, |own| {
-            let square = own * own;
-            [square, own * square, square * square]
-        });
-        let mean = SkewedMean::new(self.per_year, powers.map(|sum| sum / units), self.deviations.len());
-        match &self.carried {
-            Some(carried) => mean.carried_by(carried),
-            None => mean,
+        let [second, third, fourth, carried @ ..] = self.powers;
+        let moments = [second, third, fourth].map(|sum| sum / self.units as f64);
+        let mean = SkewedMean::new(self.per_year, moments, self.units);
+        if self.is_carried { mean.carried_by(carried) } else { mean }
+    }
+}
+
+/// See [`SharedRates::all_deviate`].
+struct AllDeviate<'a> {
+    rates: &'a mut SharedRates,
+    first: usize,
+    of_levels: &'a [f64],
+}
+
+impl Work for AllDeviate<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vectors>(self, _: V) -> Self::Output {
+        let SharedRates { units, of_units, leverage, carried, deviations, per_year, .. } = self.rates;
+        let rows = of_units.chunks_exact(deviations.len()).zip(leverage.chunks_exact(deviations.len()));
+        for (own, (shares, leverage)) in self.of_levels.iter().zip(rows.skip(self.first)) {
+            *per_year += own;
+            let all = own * *units as f64;
+            for (((deviation, carried), share), leverage) in
+                deviations.iter_mut().zip(carried.iter_mut()).zip(shares).zip(leverage)
+            {
+                *carried += own * share;
+                *deviation -= all * share * leverage;
+            }
         }
+        self.rates.powers = sums([deviations, carried], |[deviation, carried]| {
+            let (square, of_carried) = (deviation * deviation, carried * carried);
+            [square, deviation * square, square * square, of_carried, of_carried * of_carried]
+        });
     }
 }
 

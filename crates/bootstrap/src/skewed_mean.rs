@@ -1,5 +1,8 @@
 //! What a mean over records says of the mean over all records there could be, where the records scatter unevenly.
 
+// what is not inlined into work is not compiled for the instructions that it is compiled for
+#![allow(clippy::inline_always)]
+
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -64,13 +67,9 @@ impl SkewedMean {
         }
     }
 
-    /// The same of units that carry as much as `carried` says, of each: they amount to (Σ a²)²/Σ a⁴ that carry alike.
+    /// The same of units of which each carries an a, from Σ a² and Σ a⁴: they amount to (Σ a²)²/Σ a⁴ that carry alike.
     #[must_use]
-    pub fn carried_by(self, carried: &[f64]) -> Self {
-        let [second, fourth] = sums(carried, |own| {
-            let square = own * own;
-            [square, square * square]
-        });
+    pub fn carried_by(self, [second, fourth]: [f64; 2]) -> Self {
         let effective = second * second / fourth;
         // nothing is carried where nothing is exceeded
         Self { effective_units: if effective.is_nan() { self.effective_units } else { effective }, ..self }
@@ -182,24 +181,27 @@ impl StudentQuantiles {
     }
 }
 
-/// Sums over all `values` of the `terms` of each, several side by side for the processor to do at once.
-pub(crate) fn sums<const N: usize>(values: &[f64], terms: impl Fn(f64) -> [f64; N]) -> [f64; N] {
+/// Sums over all places of the `terms` of the `values` there, several side by side for the processor to do at once.
+#[inline(always)]
+pub(crate) fn sums<const M: usize, const N: usize>(
+    values: [&[f64]; M],
+    terms: impl Fn([f64; M]) -> [f64; N],
+) -> [f64; N] {
     const LANES: usize = 4;
     let mut lanes = [[0.0; LANES]; N];
-    let chunks = values.chunks_exact(LANES);
-    let rest = chunks.remainder();
-    let mut add = |lane: usize, value: f64| {
+    let parts = values.map(<[f64]>::as_chunks::<LANES>);
+    let mut add = |lane: usize, value: [f64; M]| {
         for (lanes, term) in lanes.iter_mut().zip(terms(value)) {
             lanes[lane] += term;
         }
     };
-    for chunk in chunks {
-        for (lane, &value) in chunk.iter().enumerate() {
-            add(lane, value);
+    for place in 0..parts[0].0.len() {
+        for lane in 0..LANES {
+            add(lane, parts.map(|(chunks, _)| chunks[place][lane]));
         }
     }
-    for (lane, &value) in rest.iter().enumerate() {
-        add(lane, value);
+    for lane in 0..parts[0].1.len() {
+        add(lane, parts.map(|(_, rest)| rest[lane]));
     }
     lanes.map(|lanes| lanes.iter().sum())
 }
@@ -247,13 +249,15 @@ pub(crate) mod tests {
     #[test]
     fn units_that_carry_more_leave_fewer_degrees_of_freedom() {
         let alike = of(&[1.0, 2.0, 3.0, 4.0]);
-        assert_eq!(alike.carried_by(&[0.3; 4]).degrees_of_freedom(4), [3, 3]);
-        let one = alike.carried_by(&[6.0, 2.0, 1.0, 1.0]);
+        let carried_by =
+            |each: [f64; 4]| alike.carried_by([2, 4].map(|power| each.iter().map(|own| own.powi(power)).sum()));
+        assert_eq!(carried_by([0.3; 4]).degrees_of_freedom(4), [3, 3]);
+        let one = carried_by([6.0, 2.0, 1.0, 1.0]);
         assert!((one.effective_units - 1764.0 / 1314.0).abs() < 1e-12);
-        let three = alike.carried_by(&[2.0, 2.0, 2.0, 1.0]);
+        let three = carried_by([2.0, 2.0, 2.0, 1.0]);
         let found = [one.degrees_of_freedom(4), three.degrees_of_freedom(4), three.degrees_of_freedom(8)];
         assert_eq!(found, [[3, 1], [3, 2], [7, 5]]);
-        assert_eq!(alike.carried_by(&[0.0; 4]), alike);
+        assert_eq!(carried_by([0.0; 4]), alike);
     }
 
     #[test]

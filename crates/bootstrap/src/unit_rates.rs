@@ -34,7 +34,7 @@ impl UnitRates {
     pub(crate) fn start(&mut self, runs: impl Iterator<Item = (usize, f64)>) {
         self.rates.fill(0.0);
         runs.for_each(|(record, per_year)| self.rates[self.unit_of[record]] += per_year * self.per_record);
-        self.sums = sums(&self.rates, |own| {
+        self.sums = sums([&self.rates], |[own]| {
             let square = own * own;
             [own, square, own * square, square * square]
         });

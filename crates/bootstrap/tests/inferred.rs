@@ -83,10 +83,10 @@ fn deviates(
     };
     let deviation =
         |unit: &Vec<usize>| unit.iter().map(|&record| rate(record) - mean).sum::<f64>() * share * leverage(unit);
-    let carried: Vec<f64> = units.iter().map(|unit| mean * unit.len() as f64).collect();
+    let carried = [2, 4].map(|power| units.iter().map(|unit| (mean * unit.len() as f64).powi(power)).sum());
     let moment = |power: i32| units.iter().map(|unit| deviation(unit).powi(power)).sum::<f64>() / units.len() as f64;
     let skewed = SkewedMean::new(mean, [2, 3, 4].map(moment), units.len());
-    let skewed = if is_alike { skewed } else { skewed.carried_by(&carried) };
+    let skewed = if is_alike { skewed } else { skewed.carried_by(carried) };
     let wider = (1.0 + units.len() as f64 / size as f64).sqrt();
     let place = |size: usize| {
         let deviate = skewed.deviate(target, size);

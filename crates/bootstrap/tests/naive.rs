@@ -101,11 +101,11 @@ fn leaving_a_record_out_is_a_set_without_it() {
     };
     let found = without_each(&demand);
     assert!(found.len() == TARGETS.len() && found.iter().all(|of_target| of_target.len() == RECORDS));
-    for record in 0..RECORDS {
-        let mut others = edp_m.clone();
-        others.drain(record * 8..record * 8 + 8);
-        for (target_index, &target) in TARGETS.iter().enumerate() {
-            assert_eq!(found[target_index][record], plain_ordinate(&others, &weights, target));
+    for (target, of_target) in TARGETS.iter().zip(&found) {
+        for (record, found_m) in of_target.iter().enumerate() {
+            let mut others = edp_m.clone();
+            others.drain(record * 8..record * 8 + 8);
+            assert_eq!(*found_m, plain_ordinate(&others, &weights, *target));
         }
     }
     let one = PooledDemand::new(&Stripes::new(&LEVELS_CM_S, &edp_m[..8]).unwrap()).unwrap();

@@ -35,7 +35,7 @@ impl ReplicateWeights {
         Self { scale: UnitScale::new(stripes), record_count, replicates: 0, weights, first: Vec::new() }
     }
 
-    /// Weighs replicates by their shares, `[replicate, level, record]`, as [`RunWeights::new`](crate::RunWeights::new)
+    /// Weighs replicates by their shares, `[replicate][level, record]`, as [`RunWeights::new`](crate::RunWeights::new)
     /// does.
     ///
     /// # Errors
@@ -43,16 +43,15 @@ impl ReplicateWeights {
     ///
     /// # Panics
     /// If there are more than [`REPLICATES_AT_ONCE`], which is a bug of the caller.
-    pub fn weigh(&mut self, shares: &[f64]) -> Result<(), RiskError> {
-        let (levels, records) = (self.scale.level_count(), self.record_count);
-        let of_replicates: Vec<&[f64]> = shares.chunks(levels * records).collect();
-        self.replicates = of_replicates.len();
+    pub fn weigh(&mut self, shares: &[&[f64]]) -> Result<(), RiskError> {
+        let records = self.record_count;
+        self.replicates = shares.len();
         assert!(self.replicates <= REPLICATES_AT_ONCE, "{} replicates of {REPLICATES_AT_ONCE}", self.replicates);
-        of_replicates.iter().try_for_each(|shares| self.scale.check(shares, records))?;
+        shares.iter().try_for_each(|shares| self.scale.check(shares, records))?;
         let scale = &self.scale;
         self.weights.fill(|record, level| {
             let of = |shares: &&[f64]| scale.units(level, shares[level * records + record]);
-            std::array::from_fn(|replicate| of_replicates.get(replicate).map_or(0, of))
+            std::array::from_fn(|replicate| shares.get(replicate).map_or(0, of))
         });
         Ok(())
     }
@@ -86,11 +85,11 @@ impl ReplicateWeights {
         }
         let limits =
             targets_per_year.iter().map(|&target| self.scale.limit(target)).collect::<Result<Vec<_>, RiskError>>()?;
-        let (runs, demands_m, stretches) = (demand.runs(), demand.edp_m(), demand.stretches());
+        let (demands_m, stretches) = (demand.edp_m(), demand.stretches());
         self.first.resize(targets, 0);
         for (target, (&limit, first)) in limits.iter().zip(&mut self.first).enumerate() {
             let (asked, near) = ((limit, self.replicates), first.saturating_sub(MARGIN));
-            let found = stretches.crossings(runs, &self.weights, asked, near);
+            let found = stretches.crossings(&self.weights, asked, near);
             let found = &found[..self.replicates];
             for (replicate, &position) in found.iter().enumerate() {
                 ordinates_m[replicate * targets + target] = demands_m.get(position).copied().unwrap_or(0.0);

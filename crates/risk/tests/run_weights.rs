@@ -51,8 +51,8 @@ fn refuses_weights_of_other_records_or_levels() {
         assert!(matches!(error, RiskError::Count { .. }), "{error}");
     }
     let mut weights = ReplicateWeights::new(&stripes, 2);
-    assert!(matches!(weights.weigh(&[0.5; 5]), Err(RiskError::Count { found: 5, expected: 6, .. })));
-    weights.weigh(&[0.5; 6]).unwrap();
+    assert!(matches!(weights.weigh(&[&[0.5; 5]]), Err(RiskError::Count { found: 5, expected: 6, .. })));
+    weights.weigh(&[&[0.5; 6]]).unwrap();
     assert!(matches!(weights.ordinates(&pool, &[0.0], &mut [0.0]), Err(RiskError::Target { .. })));
 }
 
@@ -134,7 +134,7 @@ proptest! {
     fn many_at_once_are_each_alone(case in case(), targets in prop::collection::vec(1e-4..1.0_f64, 0..4)) {
         let (pool, stripes) = (case.pool(), case.stripes());
         let mut together = ReplicateWeights::new(&stripes, case.records);
-        together.weigh(&case.shares.concat()).unwrap();
+        together.weigh(&case.shares.iter().map(Vec::as_slice).collect::<Vec<_>>()).unwrap();
         // a target that is met exactly, too
         let first = RunWeights::new(&stripes, &case.shares[0]).unwrap();
         let exact = RiskCurve::weighted(&pool, &first).unwrap().mean_annual_frequency(0.5).unwrap();

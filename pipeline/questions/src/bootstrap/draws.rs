@@ -175,8 +175,9 @@ pub(super) fn announce(
 /// A demand of the result has 8 bytes; a sample 12 bytes a record and some for itself, and 4 more where the draws are
 /// written; a replicate 8 bytes an ordinate of the one site that a thread is at, and where whole spectra are wanted of
 /// all of them, twice while they are put in order or kept. Repaired spectra are made of all demands of a measure, 12
-/// bytes each in the order of their size and as much for their sums, and of all replicates of a site, twice while they
-/// are gathered; of one with weighted hazard curves by each of these, and once more while they are gathered.
+/// bytes each in the order of their size and 16 for their sums, of the weights of 80 replicates by every thread, and of
+/// all replicates of a site, twice while they are gathered; of one with weighted hazard curves by each of these, and
+/// once more while they are gathered.
 pub(super) fn needs(
     stored: &StoredStripes,
     sizes: usize,
@@ -191,13 +192,15 @@ pub(super) fn needs(
     let demands = product(&[8, records, strengths, levels]);
     let draws = product(&[16, samples, records + 8]);
     let branches = stored.measures.iter().flat_map(|measure| &measure.branches).map(Vec::len).max().unwrap_or(0);
-    let at_work = product(&[8, rayon::current_num_threads(), samples, poes, 2 + branches]);
+    let threads = rayon::current_num_threads();
+    let at_work = product(&[8, threads, samples, poes, 2 + branches]);
     let kept = if settings.simultaneous { product(&[16, measures, strengths, sites, poes, samples]) } else { 0 };
     let most_levels = stored.measures.iter().map(|measure| measure.levels.len()).max().unwrap_or(0);
     let repaired = if is_repaired {
         let times = (2 * (1 + usize::from(settings.simultaneous))).max(1 + branches);
         let of_site = product(&[8, strengths, poes, samples, times]);
-        product(&[24, records, strengths, most_levels]).saturating_add(of_site)
+        let weights = product(&[8, 80, threads, records, most_levels]);
+        product(&[28, records, strengths, most_levels]).saturating_add(weights).saturating_add(of_site)
     } else {
         0
     };
