@@ -255,6 +255,10 @@ fn the_quoted_band_is_by_earthquake_where_records_of_one_are_alike() {
     assert!(limits(&many.1).iter().zip(limits(&four.1)).all(|(a, b)| (a - b).abs() <= 1e-5 * b), "{many:?}");
     let said = study.uplift(&["spectrum", "r.h5"]).ok().stdout;
     assert!(said.contains("(90 % band by earthquake)"), "{said}");
+    study.write("block.toml", "kind = \"block\"\nwidth_m = 0.4\nheight_m = 4\nmass_kg = 1000\n");
+    let overturning = |result: &str| study.uplift(&["overturning", "block.toml", "--urs", result, "-q"]).ok().stdout;
+    assert!(overturning("r.h5").contains(")†") && overturning("r.h5").contains("\n† band by earthquake\n"));
+    assert!(!overturning("s.h5").contains('†'));
     let warned = study.uplift(&["warnings", "r.h5"]).ok().stdout;
     assert!(warned.contains("Few earthquakes: 4; below 5 the bands are unreliable."), "{warned}");
     // before anything is computed too, and of a sweep where it is so

@@ -13,6 +13,9 @@ use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 
+/// The mark of a band by earthquake.
+const BY_EARTHQUAKE: &str = "†";
+
 /// How often a structure overturns; in detail its models, fragility and tails.
 pub(crate) fn print_overturning(report: &OverturningReport, terminal: &Terminal) -> Result<(), CommandError> {
     print_in_parts(report, (print_answer, print_details), (&report.alarms, &report.source.result), terminal)
@@ -30,10 +33,13 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
         None => writeln!(out, "{name}: annual rate of overturning (90 % band)")?,
     }
     let sites = report.overturning.first().map_or(&[][..], |found| &found.sites[..]);
+    let shows_bands = !has_frame || sites.len() < 3;
     let cell = |of: &SiteRisk| {
         let [per_year, ..] = risk_cells(&of.risk);
         // a frame has twice as many rows: at many sites the bands are left to the details
-        let band = band_in_cell(of.bands.filter(|_| !has_frame || sites.len() < 3));
+        let bands = of.bands.filter(|_| shows_bands);
+        let mark = bands.filter(|bands| !bands.of_whom().is_empty()).map_or("", |_| BY_EARTHQUAKE);
+        let band = band_in_cell(bands) + mark;
         let per_year = if of.risk.per_year > 0.0 { of.per_year_rounding.marked(text::rate) } else { per_year };
         format!("{per_year}{band}")
     };
@@ -57,6 +63,9 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
     writeln!(out, "{table}")?;
     if let Some(reason) = &report.without_frame {
         writeln!(out, "Frame left out: {reason}")?;
+    }
+    if table.contains(BY_EARTHQUAKE) {
+        writeln!(out, "{BY_EARTHQUAKE} band by earthquake")?;
     }
     if table.contains('*') {
         writeln!(out, "* the last digits are not significant (rounding)")?;
