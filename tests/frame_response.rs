@@ -66,6 +66,23 @@ fn a_block_as_a_frame_is_the_block() {
     }
     assert!((number(&frame, "restitution") / number(&block, "restitution") - 1.0).abs() < 1e-12);
     assert_eq!(run["impacts"], block["impacts"]);
+    // in words of a block
+    let said = shaken(folder.path(), "block.toml", &["--h1", "a.txt"]).ok().stdout;
+    assert!(said.contains("block     block: 1.8 m high, ") && said.contains("under h1: the top moves "), "{said}");
+    assert!(!said.contains("deck") && !said.contains("column"), "{said}");
+}
+
+#[test]
+fn beyond_the_yield_of_its_tendons_a_frame_is_cautioned() {
+    let folder = folder();
+    let weak = |yield_n: &str| HELD.replace("[restrainer.stopper]", &format!("tendon_yield_n = {yield_n}\n$0"));
+    let said = |yield_n: &str| {
+        let text = weak(yield_n).replace("$0", "[restrainer.stopper]");
+        std::fs::write(folder.path().join("weak.toml"), text).unwrap();
+        shaken(folder.path(), "weak.toml", &["--h1", "a.txt", "--scale", "2"]).ok().stdout
+    };
+    let caution = "note      the tendons stay elastic in this model: from ";
+    assert!(said("100").contains(caution) && !said("1e9").contains(caution), "{}", said("100"));
 }
 
 /// Shaking along one line is planar motion in that line; swapping the components reflects the path.

@@ -9,6 +9,7 @@ use uplift_frame::Model;
 
 use super::alarms::print_warnings;
 use super::response::{print_files, print_record};
+use super::structure::BLOCK;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -26,17 +27,16 @@ pub(crate) fn print_frame_response(
         Model::Planar => "planar, in the plane of each component",
         Model::Wobbling => "wobbling, under all components",
     };
+    let (what, height_m) = (&report.name, report.height_m);
+    let system = if report.kind == BLOCK {
+        format!("block     {what}: {height_m} m high")
+    } else {
+        format!("frame     {what}: {} columns, 2h {height_m} m", report.columns)
+    };
     writeln!(
         out,
-        "frame     {}: {} columns, 2h {} m, slenderness {:.4} rad; {model}; restitution {:.4} ({}); uplifts beyond \
-         {:.4} g",
-        report.name,
-        report.columns,
-        report.height_m,
-        report.slenderness_rad,
-        report.restitution,
-        report.restitution_from,
-        report.uplift_acceleration_g
+        "{system}, slenderness {:.4} rad; {model}; restitution {:.4} ({}); uplifts beyond {:.4} g",
+        report.slenderness_rad, report.restitution, report.restitution_from, report.uplift_acceleration_g
     )?;
     for run in &report.runs {
         print_run(&mut out, report, run)?;
@@ -50,12 +50,14 @@ pub(crate) fn print_frame_response(
 
 fn print_run(out: &mut impl Write, report: &FrameResponseReport, run: &FrameRun) -> Result<(), CommandError> {
     let under = run.under;
+    let is_block = report.kind == BLOCK;
+    let moves = if is_block { "top" } else { "deck" };
     if let Some(time_s) = run.time_of_overturning_s {
         writeln!(out, "response  under {under}: overturned, after {time_s:.3} s")?;
     } else if let (Some(uplift_s), Some(peak_s)) = (run.time_of_uplift_s, run.time_of_peak_s) {
         writeln!(
             out,
-            "response  under {under}: the deck moves {} m, a drift of {} %, at {peak_s:.4} s; rotation {} \
+            "response  under {under}: the {moves} moves {} m, a drift of {} %, at {peak_s:.4} s; rotation {} \
              rad; first uplift at {uplift_s:.4} s",
             three_digits(run.peak_displacement_m),
             three_digits(100.0 * run.peak_drift),
@@ -76,11 +78,13 @@ fn print_run(out: &mut impl Write, report: &FrameResponseReport, run: &FrameRun)
             report.uplift_acceleration_g
         )?;
     }
-    let mut forces = vec![
-        format!("deck {:.3} m/s2", run.peak_deck_acceleration_m_s2),
-        format!("base shear {:.3} kN", 1e-3 * run.peak_base_shear_n),
-        format!("with the columns {:.3} kN", 1e-3 * run.peak_base_reaction_n),
-    ];
+    let [shear_kn, reaction_kn] = [run.peak_base_shear_n, run.peak_base_reaction_n].map(|force_n| 1e-3 * force_n);
+    let mut forces = vec![format!("{moves} {:.3} m/s2", run.peak_deck_acceleration_m_s2)];
+    if is_block {
+        forces.push(format!("base shear {reaction_kn:.3} kN"));
+    } else {
+        forces.push(format!("base shear {shear_kn:.3} kN, with the columns {reaction_kn:.3} kN"));
+    }
     if let Some(tendon_n) = run.peak_tendon_n.filter(|tendon_n| tendon_n.is_finite()) {
         forces.push(format!("tendon {:.3} kN", 1e-3 * tendon_n));
     }

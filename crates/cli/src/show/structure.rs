@@ -5,6 +5,9 @@ use uplift::text::{self, per_cent, short, two_digits};
 
 use super::shown_path;
 
+/// The kind of a structure that is one rigid block.
+pub(super) const BLOCK: &str = "block";
+
 /// The structure in words: what is it, and which oscillator is it equivalent to; with its restitution where there is
 /// one to tell.
 pub(super) fn lines(structure: &StructureReport) -> Vec<String> {

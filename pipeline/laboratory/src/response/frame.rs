@@ -9,6 +9,7 @@ use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_motion::Accelerogram;
 use uplift_plausible::{RESTITUTION, USUAL_RESTITUTION};
+use uplift_statics::EventKind;
 use uplift_study::Structure;
 
 use super::{FrameHistory, ResponseOptions, ShakingRecord};
@@ -32,6 +33,8 @@ pub struct FrameResponseReport {
     pub name: String,
     /// The structure file.
     pub structure: PathBuf,
+    /// Kind of structure.
+    pub kind: &'static str,
     /// The model.
     pub model: Model,
     /// What shook it.
@@ -183,6 +186,7 @@ pub(super) fn frame_response(file: &Path, options: &ResponseOptions) -> Result<F
     }
     let report = FrameResponseReport {
         name: structure.name(),
+        kind: structure.description.kind.name(),
         structure: structure.file.clone(),
         model,
         columns: frame.columns().columns(),
@@ -266,6 +270,13 @@ fn notes(
              at impacts that --model planar has; give --h1 and --h2 for motion in plan"
                 .to_owned(),
         );
+    }
+    let is_beyond = |event: &FrameEvent| matches!(event.event, EventKind::TendonYields | EventKind::TendonFails);
+    if let Some(first) = runs.iter().flat_map(|run| &run.events).find(|event| is_beyond(event)) {
+        notes.push(format!(
+            "the tendons stay elastic in this model: from {:.4} s on, beyond their yield, the response is not reliable",
+            first.time_s
+        ));
     }
     let of = |component: &ShakenComponent| (component.shaken_by.samples, component.shaken_by.dt_s.to_bits());
     if components.windows(2).any(|pair| of(&pair[0]) != of(&pair[1])) {
