@@ -138,7 +138,7 @@ fn a_design_has_the_frame_beside_its_proxy() {
     let said = study.uplift(&[&["design", "free.toml", "--urs", "r.h5", "--report", "s.html"], &ask[..]].concat()).ok();
     let (first, rest) = said.stdout.split_once('\n').unwrap();
     let differ = models[0]["check"]["satisfied"] != design["rules"][0]["from_spectrum"]["satisfied"];
-    assert_eq!(first.contains("the verdicts differ"), differ, "{first}");
+    assert_eq!(first.contains("verdicts differ"), differ, "{first}");
     assert!(rest.contains("wobbling frame") && rest.contains("\nequal energy† "), "{rest}");
     assert!(rest.contains("\n† not demand × safety factor: demand rises with capacity\n"), "{rest}");
     let settings = design["own_oscillator"].as_str().unwrap();
@@ -357,7 +357,7 @@ fn wrong_arguments_are_refused_and_figures_are_drawn() {
     let ask = |structure: &str, more: &[&str]| study.uplift(&[&["risk", structure, "--urs", "r.h5"], more].concat());
     ask("square.toml", &["--site", "Here", "--model", "wobbling"]).fails(2, &["rectangular section"]);
     let planar = ask("square.toml", &["--site", "Here", "--plot", "r.svg", "--details"]).ok();
-    assert!(planar.stdout.contains("do not wobble") && !planar.stdout.contains("torsion"), "{}", planar.stdout);
+    assert!(planar.stdout.contains("does not wobble") && !planar.stdout.contains("torsion"), "{}", planar.stdout);
     assert!(planar.stdout.contains("planar frame") && !planar.stdout.contains("wobbling frame"));
     assert!(std::fs::read_to_string(study.path().join("r.svg")).unwrap().contains("displacement of the deck, m"));
     ask("frame.toml", &[]).fails(2, &["choose one: --site Here; the result has Here, There"]);
@@ -367,6 +367,54 @@ fn wrong_arguments_are_refused_and_figures_are_drawn() {
     ask("mass.toml", &["--site", "Here"]).fails(2, &["point-mass", "restrained-frame"]);
     std::fs::remove_dir_all(study.path().join("downloads")).unwrap();
     ask("frame.toml", &["--site", "Here"]).fails(4, &["--manifest"]);
+}
+
+#[test]
+fn a_block_is_told_in_its_own_words_and_both_commands_name_their_restitution() {
+    let study = study(STUDY);
+    study.write("block.toml", "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 1000\n");
+    let ask = |command: &str, more: &[&str]| {
+        let asked = [&[command, "block.toml", "--urs", "r.h5", "--site", "Here", "-q"], more].concat();
+        study.uplift(&asked).ok().stdout
+    };
+    let design = ask("design", &[]);
+    let proxy = " on the equivalent oscillator, restitution 0.95\n          a proxy; the block's own: uplift risk \
+                 block.toml --urs r.h5 --site Here\n";
+    assert!(design.contains(proxy), "{design}");
+    let risk = ask("risk", &["--details"]);
+    for words in [
+        " on block itself, restitution 0.9423\n",
+        "  equivalent oscillator, restitution 0.95: ",
+        "oscillator's restitution 0.95\n",
+        "restitution in a plane   0.9423 (momentum)",
+        "demand of the top: the block, ",
+        "events of the block",
+    ] {
+        assert!(risk.contains(words), "{words}\n{risk}");
+    }
+    assert!(!risk.contains("deck") && !risk.contains("frame") && !risk.contains("columns"), "{risk}");
+}
+
+#[test]
+fn the_restitutions_of_a_frame_and_the_components_that_shake_it_are_named() {
+    let study = study(STUDY);
+    let ask = |command: &str, more: &[&str]| {
+        let asked = [&[command, "frame.toml", "--urs", "r.h5", "--site", "Here", "-q"], more].concat();
+        study.uplift(&asked).ok().stdout
+    };
+    let details = ask("design", &["--details"]);
+    for words in
+        ["oscillator's restitution 0.9\n", "wobbling restitution     1.0000", "restitution in a plane   0.9000"]
+    {
+        assert!(details.contains(words), "{words}\n{details}");
+    }
+    for (command, more) in [("design", &[][..]), ("risk", &[]), ("overturning", &[])] {
+        let said = ask(command, more);
+        assert!(said.contains(", both components (planar: h1)"), "{command}: {said}");
+        let planar = if command == "risk" { ["--model", "planar"].as_slice() } else { &["--proxy"] };
+        let said = ask(command, planar);
+        assert!(said.contains(", component h1"), "{command}: {said}");
+    }
 }
 
 /// The block of docs/frames.md that begins with `$ uplift`.

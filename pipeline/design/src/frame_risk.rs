@@ -20,7 +20,7 @@ use uplift_frame::Model;
 use uplift_ida::Shard;
 use uplift_motion::IntensityMeasure;
 use uplift_risk::PooledDemand;
-use uplift_structure::Rule;
+use uplift_structure::{Kind, Rule};
 use uplift_study::Structure;
 
 pub use demand::{Banded, ModelDemand, RiskPoint};
@@ -31,7 +31,7 @@ use super::collapse::{Collapse, collapse};
 use super::design::{DesignOptions, design};
 use super::hazard::Hazard;
 use super::lognormal::lognormal_bands;
-use super::opening::{Place, check_tables, choose_measure, job_name, study_with_common_records};
+use super::opening::{Place, check_tables, choose_measure, job_name, restitution, study_with_common_records};
 use super::own_frame::loss;
 use super::report::{ReportSource, StructureReport};
 use super::risk::{OVERTURNING_M, own_risk};
@@ -243,11 +243,13 @@ pub fn frame_risk(
     alarms.extend(structure_alarms(structure));
     let counts = (runs_m.len() / levels.len(), pairs.len());
     // what may come from outside the stripes
-    let own = overturning.risks.iter().map(|&risk| ("overturning of the frame", risk));
+    let event =
+        format!("overturning of the {}", if structure.description.kind == Kind::Block { "block" } else { "frame" });
+    let own = overturning.risks.iter().map(|&risk| (event.as_str(), risk));
     let own: Vec<_> = own.map(|event| own_risk(event, (place.name, measure), counts)).collect();
     alarms.extend(own_risk_alarms(&own));
     let mut report = FrameRiskReport {
-        structure: StructureReport::from_structure(structure, None),
+        structure: StructureReport::from_structure(structure, Some(restitution(structure, &source.study))),
         site: place.name.to_owned(),
         im: measure.measure().label(),
         other_measures: design.by_other_measures.iter().map(|of| of.im).collect(),
@@ -397,7 +399,7 @@ fn notes(
         }
     } else if analysis.frame.shape() == uplift_frame::ColumnShape::Rectangle {
         notes.push(
-            "columns of rectangular section do not wobble: the frame is planar, under the components of the study \
+            "a rectangular section does not wobble: the motion is planar, under the components of the study \
              (column_shape = \"cylinder\" wobbles)"
                 .to_owned(),
         );

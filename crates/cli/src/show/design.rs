@@ -1,23 +1,26 @@
 //! A design as an engineer reads it.
 
+mod frame;
+
 use std::io::Write;
+use std::path::Path;
 
 use uplift::alarms::Severity;
 use uplift::structure::{
-    Bands, DemandBands, DemandRounding, DesignReport, EventRisk, ExactDemand, FrameReport, RuleCheck, RuleOutcome,
-    Sensitivity, StructureReport, verdict_word,
+    Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome, Sensitivity,
+    StructureReport, verdict_word,
 };
 use uplift::text::{
-    self, Table, cell_with_band, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short,
-    two_digits,
+    self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short, two_digits,
 };
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
+use self::frame::{print_mark, print_verdicts, rule_cell};
 use super::alarms::print_in_parts;
-use super::shown_path;
-use super::structure::{band_after, band_in_cell, demand_in_words, lines, measure_option, rate, risk_cells};
+use super::structure::{BLOCK, band_after, demand_in_words, lines, rate, record_set, restitution_line, risk_cells};
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
+use super::{shown_path, typed_path};
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 
@@ -39,110 +42,8 @@ fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         print_uncertain_answers(out, uncertainty)?;
     }
     let risk = risk_in_words(report.poe, report.years);
-    writeln!(out, "At        {} by {}, {risk}; {}", report.site, report.spectrum_words(), report.source.record_set)?;
-    Ok(())
-}
-
-/// The verdicts of a wobbling frame and of its proxy, with demand and risk of each.
-fn print_verdicts(out: &mut impl Write, report: &DesignReport, frame: &FrameReport) -> Result<(), CommandError> {
-    let name = &report.structure.name;
-    let wobbling = frame.wobbling();
-    let how_far = match report.frame_over_proxy() {
-        Some(ratio) => format!("the frame moves {ratio:.1} times as far as its proxy"),
-        None if wobbling.demand_m.is_infinite() => "the wobbling frame overturns more often than the target".to_owned(),
-        None => "its proxy has no demand to compare with".to_owned(),
-    };
-    match (report.verdicts_differ(), wobbling.check) {
-        (Some(true), _) => writeln!(out, "Verdict   {name}: the verdicts differ; {how_far}")?,
-        (Some(false), Some(check)) => {
-            writeln!(out, "Verdict   {name}: {} by frame and proxy; {how_far}", verdict_word(check.satisfied))?;
-        }
-        _ => writeln!(out, "Verdict   {name}: no capacity, the force does not fall; {how_far}")?,
-    }
-    for (im, verdict) in report.verdicts_by_other_measures() {
-        writeln!(out, "          {verdict}; frame: {}", measure_option(im))?;
-    }
-    if let Some(settings) = &report.own_oscillator {
-        writeln!(out, "          spectrum of another oscillator; its own: run {settings}")?;
-    }
-    if let Some(capacity_m) = report.structure.capacity_m {
-        let factor = report.required_safety_factor;
-        writeln!(out, "Capacity  {capacity_m:.2} m; safety factor {factor}")?;
-    }
-    let dash = || "-".to_owned();
-    let unsafe_upper_limits = report.unsafe_upper_limits();
-    let verdict = |whose: &str, is_satisfied: bool| {
-        let word = verdict_word(is_satisfied);
-        let is_unsafe = unsafe_upper_limits.iter().any(|(of, _)| *of == whose);
-        if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
-    };
-    let risk = |risk: &EventRisk, band: Option<Bands>| {
-        if risk.per_year > 0.0 { text::rate(risk.per_year) + &band_in_cell(band) } else { risk_cells(risk)[0].clone() }
-    };
-    let demand = |demand_m: f64, bands: Option<&DemandBands>| {
-        if demand_m.is_infinite() {
-            metres_or_overturns(demand_m)
-        } else {
-            cell_with_band(demand_m, bands.map(|of| of.demand_m.quoted()))
-        }
-    };
-    let mut rows: Vec<[String; 5]> = Vec::new();
-    for of in &frame.models {
-        let bands = of.bands.as_ref();
-        rows.push([
-            of.model.to_owned(),
-            demand(of.demand_m, bands),
-            of.check.map_or_else(dash, |check| required(check.required_capacity_m)),
-            of.check.map_or_else(dash, |check| verdict(of.model, check.satisfied)),
-            risk(&of.overturning, bands.and_then(|bands| bands.overturning_per_year)),
-        ]);
-    }
-    if let Some(exact) = &report.exact {
-        let bands = exact.bands.as_ref();
-        let overturning = bands.and_then(|bands| bands.overturning_per_year);
-        rows.push([
-            "proxy oscillator".to_owned(),
-            demand(exact.demand_m, bands),
-            report.own_check.map_or_else(dash, |check| required(check.required_capacity_m)),
-            report.own_check.map_or_else(dash, |check| verdict("proxy", check.satisfied)),
-            risk(&exact.overturning, overturning),
-        ]);
-    }
-    for (rule, check) in report.rules.iter().filter_map(|outcome| Some((outcome.rule, outcome.check()?))) {
-        rows.push([
-            rule_cell(rule),
-            demand(check.demand_m, None),
-            required(check.required_capacity_m),
-            verdict_word(check.satisfied).to_owned(),
-            dash(),
-        ]);
-    }
-    let table = Table::of(&rows)
-        .left("model", |row| &row[0])
-        .right("demand, m", |row| &row[1])
-        .right("requires, m", |row| &row[2])
-        .left("verdict", |row| &row[3])
-        .right("overturns, 1/yr", |row| &row[4]);
-    writeln!(out, "{table}")?;
-    print_mark(out, report)
-}
-
-/// A capacity that is required, m.
-fn required(capacity_m: f64) -> String {
-    if capacity_m.is_finite() { format!("{capacity_m:.2}") } else { "infinite".to_owned() }
-}
-
-/// A rule in a table that has its demand and the capacity that it requires: by equal energy that is not the demand
-/// times the safety factor.
-fn rule_cell(rule: Rule) -> String {
-    if rule == Rule::EqualEnergy { format!("{}†", rule.words()) } else { rule.words().to_owned() }
-}
-
-/// What the mark of [`rule_cell`] means, where it is.
-fn print_mark(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
-    if report.rules.iter().any(|outcome| outcome.rule == Rule::EqualEnergy && outcome.check().is_some()) {
-        writeln!(out, "† not demand × safety factor: demand rises with capacity")?;
-    }
+    let records = record_set(&report.source.record_set, report.frame.is_some());
+    writeln!(out, "At        {} by {}, {risk}; {records}", report.site, report.spectrum_words())?;
     Ok(())
 }
 
@@ -181,7 +82,12 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         let bands = exact.bands.as_ref();
         let of_whom = bands.map_or("", |bands| bands.demand_m.of_whom());
         let demand = demand_in_words(exact.demand_m, bands.map(|bands| bands.demand_m.quoted()), of_whom);
-        let whose = if report.wobbles { "the equivalent oscillator" } else { "the structure itself" };
+        let is_block = report.structure.kind == BLOCK;
+        let whose = match report.structure.restitution {
+            Some(restitution) if is_block => format!("the equivalent oscillator, restitution {restitution}"),
+            _ if report.wobbles => "the equivalent oscillator".to_owned(),
+            _ => "the structure itself".to_owned(),
+        };
         let uplift_m = report.structure.uplift_displacement_m;
         let rests = if exact.demand_m < uplift_m {
             format!(", below its uplift at {} m: at this risk it does not rock", two_digits(uplift_m))
@@ -189,6 +95,11 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
             String::new()
         };
         writeln!(out, "Demand    {demand} on {whose}{rests}")?;
+        if is_block {
+            let [structure, result, site] =
+                [&report.structure.file, &report.source.result, Path::new(&report.site)].map(typed_path);
+            writeln!(out, "          a proxy; the block's own: uplift risk {structure} --urs {result} --site {site}")?;
+        }
         if let Some(risk) = &exact.beyond_capacity {
             let [beyond, ..] = risk_cells(risk);
             let [overturning, ..] = risk_cells(&exact.overturning);
@@ -214,6 +125,9 @@ fn print_details(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     writeln!(out)?;
     for line in lines(&report.structure) {
         writeln!(out, "{line}")?;
+    }
+    for of in report.frame.iter().flat_map(|frame| &frame.models) {
+        writeln!(out, "{}", restitution_line(of.model, of.restitution))?;
     }
     writeln!(
         out,
@@ -329,7 +243,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
             rule_cell(rule),
             metres_or_overturns(check.demand_m),
             format!("{:.4}", check.required_capacity_m),
-            if infinite { "infinite".to_owned() } else { format!("{:.4}", check.capacity_m) },
+            if infinite { "∞".to_owned() } else { format!("{:.4}", check.capacity_m) },
             if infinite { "-".to_owned() } else { format!("{:+.4}", check.margin_m) },
             if infinite { "-".to_owned() } else { format!("{:.2}", check.safety_factor) },
             verdict_word(check.satisfied).to_owned(),

@@ -9,9 +9,23 @@ use uplift::text::{
 
 use super::alarms::print_in_parts;
 use super::shown_path;
-use super::structure::{band_after, demand_in_words, lines, measure_option, risk_cells};
+use super::structure::{
+    BLOCK, WOBBLING, band_after, demand_in_words, lines, measure_option, record_set, restitution_line, risk_cells,
+};
 use crate::error::CommandError;
 use crate::terminal::Terminal;
+
+/// The proxy whose restitution is its own.
+const OSCILLATOR: &str = "equivalent oscillator";
+
+fn is_block(report: &FrameRiskReport) -> bool {
+    report.structure.kind == BLOCK
+}
+
+/// Words of a frame, as they are said of this structure: a block is shaken as a frame of one column without a deck.
+fn own_word(report: &FrameRiskReport, of_frame: &str) -> String {
+    if is_block(report) { of_frame.replace("frame", "block") } else { of_frame.to_owned() }
+}
 
 fn band(of: &Banded, shown: fn(f64) -> String) -> String {
     format!("{} to {}", shown(of.lower), shown(of.upper))
@@ -28,7 +42,12 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     let Banded { value, lower, upper } = frame.demand_m;
     let of_whom = if frame.band_of == Some("earthquakes") { " by earthquake" } else { "" };
     let demand = demand_in_words(value, Some([lower, upper]), of_whom);
-    writeln!(out, "Demand       {demand} on {}, {}", report.structure.name, frame.model)?;
+    let name = &report.structure.name;
+    if is_block(report) && frame.model != WOBBLING {
+        writeln!(out, "Demand       {demand} on {name} itself, restitution {:.4}", report.planar_restitution)?;
+    } else {
+        writeln!(out, "Demand       {demand} on {name}, {}", own_word(report, frame.model))?;
+    }
     if let Some(exceeded) = exceeded(report, value) {
         writeln!(out, "  {exceeded}")?;
     }
@@ -37,7 +56,10 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
             .error
             .as_ref()
             .map_or_else(String::new, |error| format!(" (error {})", relative_error_in_words(error.value)));
-        writeln!(out, "  {}: {}{of}", proxy.model, metres_with_band(proxy.demand_m.value, None))?;
+        let restitution = report.structure.restitution.filter(|_| is_block(report) && proxy.model == OSCILLATOR);
+        let keeps = restitution.map_or_else(String::new, |restitution| format!(", restitution {restitution}"));
+        let demand = metres_with_band(proxy.demand_m.value, None);
+        writeln!(out, "  {}{keeps}: {demand}{of}", own_word(report, proxy.model))?;
     }
     let [per_year, _, return_period] = risk_cells(&report.overturning.risk);
     let band = band_after(report.overturning.bands);
@@ -47,7 +69,7 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     for im in &report.other_measures {
         write!(out, " ({im}: {})", measure_option(im))?;
     }
-    writeln!(out, ", {risk}; {}", report.source.record_set)?;
+    writeln!(out, ", {risk}; {}", record_set(&report.source.record_set, report.direction.is_some()))?;
     Ok(())
 }
 
@@ -58,8 +80,9 @@ fn print_details(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
     }
     writeln!(
         out,
-        "           restitution in a plane   {:.4} ({})",
-        report.planar_restitution, report.planar_restitution_from
+        "{} ({})",
+        restitution_line("planar frame", report.planar_restitution),
+        report.planar_restitution_from
     )?;
     writeln!(
         out,
@@ -84,7 +107,7 @@ fn print_demands(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
     let error =
         |demand: &ModelDemand, shown: fn(&Banded) -> String| demand.error.as_ref().map_or("-".to_owned(), shown);
     let table = Table::of(&report.demands)
-        .left("model", |demand| demand.model)
+        .left("model", |demand| own_word(report, demand.model))
         .right("demand, m", |demand| metres_or_overturns(demand.demand_m.value))
         .right(format!("{:.0} % band", 100.0 * report.confidence), |demand| band(&demand.demand_m, metres_or_overturns))
         .right("error", |demand| error(demand, |error| relative_error_in_words(error.value)))
@@ -94,8 +117,10 @@ fn print_demands(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
         });
     writeln!(
         out,
-        "\nDisplacement demand of the deck: the frame, then its proxies and their errors; bands of errors from {} \
+        "\nDisplacement demand of the {}: the {}, then its proxies and their errors; bands of errors from {} \
          resamples of the records\n{table}",
+        if is_block(report) { "top" } else { "deck" },
+        own_word(report, "frame"),
         report.replicates
     )?;
     Ok(())
@@ -129,13 +154,16 @@ fn print_state(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Com
     let Some(at) = &report.at_demand else {
         return Ok(writeln!(
             out,
-            "\nAt that demand the frame has overturned, or is beyond the law of its restrainers."
+            "\nAt that demand the {} has overturned, or is beyond the law of its restrainers.",
+            own_word(report, "frame")
         )?);
     };
     let mut words = vec![format!("drift {:.2} %", 100.0 * at.drift), format!("rotation {:.4} rad", at.rotation_rad)];
     words.extend(restrainers(at));
-    words.push(format!("moment at the top of a column {} kN m", short(1e-3 * at.top_moment_n_m)));
-    Ok(writeln!(out, "\nAt the demand on the frame: {}", words.join("; "))?)
+    if !is_block(report) {
+        words.push(format!("moment at the top of a column {} kN m", short(1e-3 * at.top_moment_n_m)));
+    }
+    Ok(writeln!(out, "\nAt the demand on the {}: {}", own_word(report, "frame"), words.join("; "))?)
 }
 
 fn print_events(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
@@ -159,7 +187,7 @@ fn print_events(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     if is_repaired {
         header.push("repaired");
     }
-    writeln!(out, "\nAnnual rates of events of the frame\n{}", Table::new(header, rows))?;
+    writeln!(out, "\nAnnual rates of events of the {}\n{}", own_word(report, "frame"), Table::new(header, rows))?;
     if let (Some(theta), Some(beta), Some(per_year)) = (found.theta, found.beta, found.lognormal_per_year) {
         writeln!(
             out,
@@ -175,7 +203,7 @@ fn print_events(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
 fn print_direction(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
     let Some(of) = &report.direction else { return Ok(()) };
     let [low, median, high] = of.ratio;
-    let shown = |ratio: f64| if ratio.is_infinite() { "infinite".to_owned() } else { format!("{ratio:.3}") };
+    let shown = |ratio: f64| if ratio.is_infinite() { "∞".to_owned() } else { format!("{ratio:.3}") };
     writeln!(
         out,
         "\nWobbling over the larger planar peak of the two components, {} runs: median {}, 16 to 84 % {} to {}; \

@@ -8,7 +8,7 @@ use uplift_spectra::Noisy;
 
 use super::alarms::print_in_parts;
 use super::shown_path;
-use super::structure::{band_in_cell, limits, lines, rate, risk_cells};
+use super::structure::{WOBBLING, band_in_cell, limits, lines, rate, record_set, risk_cells};
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use crate::error::CommandError;
 use crate::terminal::Terminal;
@@ -73,11 +73,8 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
     if let Some(uncertainty) = &report.uncertainty {
         print_uncertain_answers(out, uncertainty)?;
     }
-    Ok(writeln!(out, "{}", report.source.record_set)?)
+    Ok(writeln!(out, "{}", record_set(&report.source.record_set, has_frame))?)
 }
-
-/// The model of a frame that is held against the oscillator.
-const WOBBLING: &str = "wobbling frame";
 
 /// How many times as often as its oscillator the wobbling frame overturns, over sites and measures; none where one of
 /// them is never seen to.

@@ -7,6 +7,14 @@ use super::shown_path;
 
 /// The kind of a structure that is one rigid block.
 pub(super) const BLOCK: &str = "block";
+/// The model of a frame that is held against its proxies.
+pub(super) const WOBBLING: &str = "wobbling frame";
+
+/// The restitution of a model of a frame, below the lines of the structure.
+pub(super) fn restitution_line(model: &str, restitution: f64) -> String {
+    let what = if model == WOBBLING { "wobbling restitution" } else { "restitution in a plane" };
+    format!("           {what:<24} {restitution:.4}")
+}
 
 /// The structure in words: what is it, and which oscillator is it equivalent to; with its restitution where there is
 /// one to tell.
@@ -22,7 +30,7 @@ pub(super) fn lines(structure: &StructureReport) -> Vec<String> {
         format!("           strength of the spectrum {:.4}", structure.spectral_strength),
         format!("           uplift displacement      {} m", structure.uplift_displacement_m),
     ];
-    lines.extend(structure.restitution.map(|restitution| format!("           restitution              {restitution}")));
+    lines.extend(structure.restitution.map(|restitution| format!("           oscillator's restitution {restitution}")));
     let stiffness_n_m = structure.post_uplift_stiffness_n_m;
     lines.push(match structure.capacity_m {
         Some(capacity_m) => format!("           displacement capacity    {capacity_m:.4} m"),
@@ -33,6 +41,17 @@ pub(super) fn lines(structure: &StructureReport) -> Vec<String> {
     });
     lines.extend(structure.warnings.iter().map(|warning| format!("warning    {warning}")));
     lines
+}
+
+/// The record set; a wobbling frame takes both components of it, and what moves in a plane that of the study.
+pub(super) fn record_set(words: &str, wobbles: bool) -> String {
+    match words.split_once(", component h").filter(|_| wobbles) {
+        Some((before, rest)) if rest.starts_with(['1', '2']) => {
+            let (component, more) = rest.split_at(1);
+            format!("{before}, both components (planar: h{component}){more}")
+        }
+        _ => words.to_owned(),
+    }
 }
 
 /// How often in a year, as runs count it: none of them is no proof of never.

@@ -306,7 +306,7 @@ fn rules(report: &DesignReport) -> Option<TitledTable> {
         .left("rule", |(of, _)| of.rule.words())
         .right("demand, m", |(_, check)| metres_or_overturns(check.demand_m))
         .right("required capacity, m", |(_, check)| metres_or_overturns(check.required_capacity_m))
-        .right("capacity, m", |(_, check)| if_finite(check.capacity_m, "infinite", metres_or_overturns))
+        .right("capacity, m", |(_, check)| if_finite(check.capacity_m, "∞", metres_or_overturns))
         .right("margin, m", |(_, check)| if_finite(check.margin_m, "–", |margin_m| format!("{margin_m:+.4}")))
         .right("safety factor", |(_, check)| if_finite(check.safety_factor, "–", |factor| format!("{factor:.2}")))
         .right("tendons for it, N/m", |(_, check)| {
