@@ -1,7 +1,7 @@
 //! What alarms are raised from: the spectra of a result with all that the file knows of them.
 
 use uplift_hazard::{HazardCurve, rate_from_probability};
-use uplift_job::text::risk_name;
+use uplift_job::text::{risk_in_words, risk_name};
 use uplift_motion::IntensityMeasure;
 use uplift_result::{MeasureSpectra, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredSpectra};
 use uplift_study::UniformRiskStudy;
@@ -129,8 +129,14 @@ impl Evidence {
 
     /// `Athens, PGV, 2 %`.
     pub(super) fn name(&self, site: usize, measure: IntensityMeasure, poe: usize) -> String {
-        let spectra = &self.spectra;
-        spectrum_name(&spectra.sites[site], measure, (spectra.poes[poe], spectra.years))
+        format!("{}, {}, {}", self.spectra.sites[site], measure.label(), self.risk(poe))
+    }
+
+    /// `2 %`, or `2 % in 100 years` where other years are asked for than those of the study.
+    pub(super) fn risk(&self, poe: usize) -> String {
+        let (probability, years) = (self.spectra.poes[poe], self.spectra.years);
+        let are_of_study = years.to_bits() == self.study.risk.years.to_bits();
+        if are_of_study { risk_name(probability, years) } else { risk_in_words(probability, years) }
     }
 
     /// Target rate of a probability, 1/yr (Eq. 4.8).

@@ -7,7 +7,7 @@ use super::curves;
 use super::evidence::{Evidence, Scope};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
-use uplift_job::text::{per_cent, risk_name, rounded, short, two_digits};
+use uplift_job::text::{per_cent, rounded, short, two_digits};
 use uplift_result::{MeasureSpectra, StoredBands};
 use uplift_risk::{COMPARED_FROM_M, MEASURES_APART, MEASURES_APART_DECISIVE};
 
@@ -55,7 +55,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let mut cases = Vec::new();
     // both measures are looked at, whichever is asked about
     for (site, name) in spectra.sites.iter().enumerate() {
-        for (poe, &probability) in spectra.poes.iter().enumerate() {
+        for poe in 0..spectra.poes.len() {
             let is_asked = scope.site.is_none_or(|wanted| wanted == site) && scope.holds_poe(poe);
             if !is_asked || curves::are_apart(evidence, site) {
                 continue;
@@ -65,7 +65,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
             let (one, other) = (side(pgv), side(pga));
             let Some(gap) = largest_gap(one, other, &strengths) else { continue };
             let banded = one.band_m.is_some() && other.band_m.is_some();
-            let subject = format!("{name}, {}", risk_name(probability, spectra.years));
+            let subject = format!("{name}, {}", evidence.risk(poe));
             cases.push(case(evidence, subject, gap, banded));
         }
     }
