@@ -207,6 +207,12 @@ fn a_capacity_raises_displacements_by_equal_energy() {
     assert!(compared >= 6, "{compared}");
     let said = ask(&study, &["--strength", "0.2", "--capacity-m", "0.5"]).ok().stdout;
     assert!(said.lines().next().unwrap().ends_with("by PGV, capacity 0.5 m"), "{said}");
+    // warnings have the years that are asked for
+    let said = ask(&study, &["--strength", "0.2", "--years", "100"]).ok().stdout;
+    assert!(said.contains(", 2 % in 100 years"), "{said}");
+    // centimetres taken for metres
+    let said = ask(&study, &["--strength", "0.2", "--capacity-m", "120"]).ok().stdout;
+    assert!(said.contains("mistake? spectrum: --capacity-m is 120 m; usual is from 0.01 to 20 m"), "{said}");
     // too small a capacity is overturning in words, and nothing in JSON
     let tiny = ["--strength", "0.05", "--capacity-m", "0.002"];
     assert!(ask(&study, &tiny).ok().stdout.starts_with("overturns  Here, "));

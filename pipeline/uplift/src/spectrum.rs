@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use serde::Serialize;
-use uplift_alarms::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, Scope, alarms_of};
+use uplift_alarms::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, Scope, alarms_of, number_alarms};
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
+use uplift_plausible::USUAL_CAPACITY;
 use uplift_result::ResultFile;
 use uplift_uniform_risk::{AskedRisk, DisplacementOptions, DisplacementReport, at, displacements, site_index};
 
@@ -54,7 +55,8 @@ pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumRepo
     if asked.risk != AskedRisk::default() {
         alarms.sort_by_key(|alarm| (alarm.severity, ![BEYOND_LAST_LEVEL, BELOW_FIRST_LEVEL].contains(&alarm.kind)));
     }
-    Ok(SpectrumReport { found, alarms })
+    let unlikely = number_alarms("spectrum", &[(USUAL_CAPACITY, "--capacity-m", asked.capacity_m)]);
+    Ok(SpectrumReport { found, alarms: [unlikely, alarms].concat() })
 }
 
 /// The `known` strengths, in rising order, between which the `asked` ones are read; none where none are asked for.
