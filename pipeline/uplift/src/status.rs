@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
+use std::fs::DirEntry;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -15,6 +16,7 @@ use uplift_result::{Overview, ResultFile, StoredFinding, is_hdf5};
 use uplift_study::Study;
 
 use crate::error::UpliftError;
+use crate::sweep::{comparison, sweep_beside};
 
 /// What is there of a run: at least one of its parts.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -26,6 +28,9 @@ pub struct StatusReport {
     /// Slices of its table of sites.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub slices: Vec<SlicesStatus>,
+    /// Its sweep, where that is not finished.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sweep: Option<SweepStatus>,
     /// What an interrupted bootstrap of the result has finished.
     pub bootstrap: Option<BootstrapStatus>,
     /// Who is writing the result now.
@@ -39,6 +44,15 @@ pub struct SlicesStatus {
     pub count: usize,
     /// Those that are computed, from 1, ascending.
     pub done: Vec<usize>,
+}
+
+/// The folder of an interrupted sweep.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct SweepStatus {
+    /// The folder.
+    pub folder: PathBuf,
+    /// Variants that have a result.
+    pub variants: usize,
 }
 
 /// The file of an interrupted bootstrap.
@@ -132,6 +146,10 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
             return Err(JobError::input(format!("{} is not an HDF5 file", input.display())).into());
         }
     }
+    let is_sweep = input.extension().is_some_and(|extension| extension == "sweep");
+    if let Some(sweep) = is_sweep.then(|| SweepStatus::read(input)).flatten() {
+        return Ok(StatusReport { sweep: Some(sweep), ..StatusReport::default() });
+    }
     if let Some(bootstrap) = BootstrapStatus::read(input.to_owned()) {
         return Ok(StatusReport { bootstrap: Some(bootstrap), ..StatusReport::default() });
     }
@@ -152,13 +170,14 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
         }
     }
     let (slices, written_by) = (slices_of(&path), ResultLock::holder(&path));
-    if result.is_none() && unfinished.is_empty() && slices.is_empty() && written_by.is_none() {
+    let sweep = SweepStatus::read(&sweep_beside(&path));
+    if result.is_none() && unfinished.is_empty() && slices.is_empty() && sweep.is_none() && written_by.is_none() {
         return Err(
             JobError::input(format!("{}: no result, and no checkpoint of an unfinished run", path.display())).into()
         );
     }
     let bootstrap = BootstrapStatus::read(part_path(&path));
-    Ok(StatusReport { result, unfinished, slices, bootstrap, written_by })
+    Ok(StatusReport { result, unfinished, slices, sweep, bootstrap, written_by })
 }
 
 /// Files named as the shards of the result at `result`, and as the checkpoints and shards of what is asked of it.
@@ -193,7 +212,22 @@ fn slices_of(result: &Path) -> Vec<SlicesStatus> {
 /// What is in the folder of a result, with the name of each.
 fn neighbours(result: &Path) -> impl Iterator<Item = (String, PathBuf)> {
     let entries = std::fs::read_dir(folder_of(result)).into_iter().flatten().flatten();
-    entries.map(|entry| (entry.file_name().to_string_lossy().into_owned(), entry.path()))
+    entries.map(|entry| (name_of(&entry), entry.path()))
+}
+
+fn name_of(entry: &DirEntry) -> String {
+    entry.file_name().to_string_lossy().into_owned()
+}
+
+impl SweepStatus {
+    /// Of the sweep in `folder`: it has results or checkpoints, and no comparison yet.
+    fn read(folder: &Path) -> Option<Self> {
+        let names: Vec<String> = std::fs::read_dir(folder).ok()?.flatten().map(|entry| name_of(&entry)).collect();
+        let is_finished = comparison(folder).exists();
+        let count = |ending: &str| names.iter().filter(|name| name.ends_with(ending)).count();
+        let (variants, begun) = (count(".h5"), count(".h5.part"));
+        (!is_finished && variants + begun > 0).then(|| Self { folder: folder.to_owned(), variants })
+    }
 }
 
 impl BootstrapStatus {

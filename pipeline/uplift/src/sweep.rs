@@ -146,7 +146,17 @@ pub fn sweep_folder(options: &SweepOptions) -> Result<PathBuf, UpliftError> {
         return Ok(folder.clone());
     }
     let study = Study::load(&options.study_file, &options.overrides)?;
-    Ok(outputs::beside(&study.output.file, "sweep"))
+    Ok(sweep_beside(&study.output.file))
+}
+
+/// The folder of a sweep of the study whose result is at `result`.
+pub(crate) fn sweep_beside(result: &Path) -> PathBuf {
+    outputs::beside(result, "sweep")
+}
+
+/// What a sweep writes into its folder at last.
+pub(crate) fn comparison(folder: &Path) -> PathBuf {
+    folder.join("comparison.csv")
 }
 
 /// Runs every variant of a study that has no result yet, and compares their spectra.
@@ -163,7 +173,7 @@ pub fn sweep(options: &SweepOptions, events: &dyn Events) -> Result<SweepReport,
     };
     let study = Study::load(&options.study_file, &options.overrides)?;
     let folder = sweep_folder(options)?;
-    let table = folder.join("comparison.csv");
+    let table = comparison(&folder);
     let ready = ready(options, &variants, &folder)?;
     let inputs: Vec<&Path> = std::iter::once(options.study_file.as_path())
         .chain(ready.iter().filter_map(|variant| variant.options.output.as_deref()))

@@ -3,10 +3,11 @@
 use std::io::Write;
 
 use uplift::result::Overview;
-use uplift::status::{BootstrapStatus, ResultStatus, SlicesStatus, StatusReport, UnfinishedStatus};
+use uplift::status::{BootstrapStatus, ResultStatus, SlicesStatus, StatusReport, SweepStatus, UnfinishedStatus};
 
-use uplift::text::one_line;
+use uplift::text::{counted, one_line};
 
+use super::shown_path;
 use crate::error::CommandError;
 use crate::terminal::output;
 
@@ -32,12 +33,16 @@ pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
         };
         writeln!(out, "slices of the sites: {} of {count}; {missing}", done.len())?;
     }
+    if let Some(SweepStatus { folder, variants }) = &report.sweep {
+        let (folder, variants) = (shown_path(folder).display(), counted(*variants, "variant"));
+        writeln!(out, "{folder}: unfinished sweep, {variants} finished; the same `uplift sweep` resumes it")?;
+    }
     if let Some(BootstrapStatus { file, strengths }) = &report.bootstrap {
         writeln!(
             out,
             "{}: an interrupted bootstrap, {strengths} strengths finished; the same `uplift bootstrap` resumes \
              it",
-            file.display()
+            shown_path(file).display()
         )?;
     }
     if let Some(holder) = &report.written_by {
@@ -53,7 +58,7 @@ fn after(title: &str) -> String {
 
 fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), CommandError> {
     let ResultStatus { created, version, commit, study, title, record_set, .. } = result;
-    let file = result.file.display();
+    let file = shown_path(&result.file).display();
     writeln!(out, "{file}: finished {created}, uplift {version} ({commit})")?;
     writeln!(out, "  study    {study}{}", after(title))?;
     if !result.overrides.is_empty() {
@@ -62,7 +67,7 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
     writeln!(out, "  digest   {}", result.study_digest)?;
     writeln!(out, "  records  {record_set}")?;
     for other in &result.made_of_another {
-        writeln!(out, "  not of it: {} was made of another result of this name", other.display())?;
+        writeln!(out, "  not of it: {} was made of another result of this name", shown_path(other).display())?;
     }
     match &result.content {
         Overview::Displacement { structure, analyses, sets, has_design } => {
@@ -98,14 +103,14 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
 fn print_unfinished(out: &mut impl Write, unfinished: &UnfinishedStatus) -> Result<(), CommandError> {
     let UnfinishedStatus { file, title, shard, shards, done, analyses, is_kept_for_others, damaged_bytes } = unfinished;
     if *is_kept_for_others {
-        let file = file.display();
+        let file = shown_path(file).display();
         return Ok(writeln!(out, "{file}: checkpoint with analyses of other settings")?);
     }
     let what =
         if *shards > 1 { format!("shard {shard} of {shards}") } else { "checkpoint of an unfinished run".to_owned() };
     let share = 100.0 * *done as f64 / (*analyses).max(1) as f64;
     let title = after(title);
-    writeln!(out, "{}: {what}, {done} of {analyses} analyses ({share:.0} %){title}", file.display())?;
+    writeln!(out, "{}: {what}, {done} of {analyses} analyses ({share:.0} %){title}", shown_path(file).display())?;
     if *damaged_bytes > 0 {
         writeln!(out, "  analyses that were cut off or damaged ({damaged_bytes} bytes) will be computed again")?;
     }
