@@ -197,6 +197,33 @@ fn repaired_spectra_are_compared_too() {
 }
 
 #[test]
+fn a_table_that_is_wrong_in_every_cell_shows_its_first_mistakes() {
+    let study = SmallStudy::new();
+    let rows: Vec<String> = (1..=60).map(|row| format!("a{row},b{row}\n")).collect();
+    study.write("cases.csv", &format!("oscillator.restitution,risk.years\n{}", rows.concat()));
+    let said = study.uplift(&["sweep", "study.toml", "--cases", "cases.csv"]).fails(3, &["120 mistakes", "row 1,"]);
+    assert!(said.stderr.contains("\n  … and 110 more") && !said.stderr.contains("row 6,"), "{}", said.stderr);
+    assert_eq!(said.stderr.lines().count(), 12, "{}", said.stderr);
+}
+
+#[test]
+fn an_unfinished_sweep_has_a_status() {
+    let study = SmallStudy::new();
+    let ask = ["sweep", "study.toml", "--over", "oscillator.restitution=0.85,0.95", "-q"];
+    study.uplift(&ask).ok();
+    assert_eq!(study.uplift(&["status", "results/study.sweep"]).code, 4);
+    // as an interruption leaves it
+    std::fs::remove_file(study.path().join("results/study.sweep/comparison.csv")).unwrap();
+    std::fs::remove_file(study.path().join("results/study.sweep/restitution-0.95.h5")).unwrap();
+    let words = "results/study.sweep: unfinished sweep, 1 variant finished; the same `uplift sweep` resumes it\n";
+    for of in ["study.toml", "results/study.sweep"] {
+        assert_eq!(study.uplift(&["status", of]).ok().stdout, words, "{of}");
+    }
+    study.uplift(&ask).ok();
+    study.uplift(&["status", "study.toml"]).fails(4, &["no result"]);
+}
+
+#[test]
 fn nothing_of_others_is_replaced() {
     let study = SmallStudy::new();
     let ask = ["sweep", "study.toml", "-o", "s", "--over", "oscillator.restitution=0.85,0.95", "-q"];

@@ -61,9 +61,14 @@ pub enum UpliftError {
     Statics(#[from] StaticsError),
 }
 
-/// The mistakes of variants, a line each.
+/// Mistakes of variants that are shown: a table can be wrong in every cell.
+const SHOWN: usize = 10;
+
+/// The first mistakes of variants, a line each, and how many there are.
 pub(crate) fn in_variants(mistakes: &[String]) -> String {
-    let lines: Vec<String> = mistakes.iter().map(|mistake| format!("  - {mistake}")).collect();
+    let more = mistakes.len().checked_sub(SHOWN).filter(|more| *more > 0);
+    let shown = mistakes.iter().take(SHOWN).map(|mistake| format!("  - {mistake}"));
+    let lines: Vec<String> = shown.chain(more.map(|more| format!("  … and {more} more"))).collect();
     format!("{} in the variants:\n{}", counted(mistakes.len(), "mistake"), lines.join("\n"))
 }
 
