@@ -10,9 +10,7 @@ use uplift_alarms::{
     study_alarms,
 };
 use uplift_engine::analysis::seconds;
-use uplift_inputs::{
-    OtherHazard, Record, RecordSet, SiteHazard, SiteList, read_hazard, read_other_hazard, read_records,
-};
+use uplift_inputs::{OtherHazard, Record, RecordSet, SiteHazard, SiteList, read_other_hazard, read_records};
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
@@ -23,6 +21,7 @@ use uplift_uniform_risk::{plan_own_stripes, systems, systems_under};
 
 use super::levels::{LevelCheck, LevelEnds, check_levels};
 use super::site_table;
+use super::work::hazard_of;
 use crate::error::StudiesError;
 
 /// Time spent on a measure to see how fast this machine is.
@@ -50,7 +49,7 @@ pub struct Plan {
 /// # Errors
 /// Inputs that cannot be used.
 pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, StudiesError> {
-    let (hazard, mut notes) = read_hazard(study)?;
+    let (hazard, mut notes) = hazard_of(study)?;
     let (other_hazard, other_notes) = read_other_hazard(study)?;
     notes.extend(other_notes);
     let site_list = site_table::read(study, events)?;

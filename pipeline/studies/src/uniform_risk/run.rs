@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use uplift_alarms::alarms;
 use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use uplift_ida::Shard;
-use uplift_inputs::{OtherHazard, RecordSet, SiteHazard, input_checksums, read_hazard, read_other_hazard};
+use uplift_inputs::{OtherHazard, RecordSet, SiteHazard, input_checksums, read_other_hazard};
 use uplift_job::events::Events;
 use uplift_job::study_run::Place;
 use uplift_result::earlier::Earlier;
@@ -21,6 +21,7 @@ use super::earlier::is_of_records;
 use super::plan::tell_mistaken_curves;
 use super::report::{MeasureReport, RunReport};
 use super::site_table::{self, SiteOutput};
+use super::work::hazard_of;
 use super::{Inputs, csv_paths, needs, write_csv, write_result};
 use crate::error::StudiesError;
 
@@ -35,7 +36,7 @@ pub fn run(
     events: &dyn Events,
 ) -> Result<RunReport, StudiesError> {
     let path = place.path;
-    let (hazard, mut notes) = read_hazard(study)?;
+    let (hazard, mut notes) = hazard_of(study)?;
     let (other_hazard, other_notes) = read_other_hazard(study)?;
     notes.extend(other_notes);
     let site_list = site_table::read(study, events)?;

@@ -1,12 +1,14 @@
 //! The stripes of a study as work: records x strengths x levels of each measure.
 
+use std::error::Error;
 use std::path::Path;
 
 use uplift_engine::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
 use uplift_ida::{Cells, Shard, System};
-use uplift_inputs::{RecordSet, motion_keys, read_hazard, read_records};
-use uplift_job::events::Events;
+use uplift_inputs::{RecordSet, SiteHazard, motion_keys, read_hazard, read_records};
+use uplift_job::events::{Events, Silent};
 use uplift_job::text::thousands;
+use uplift_job::{JobError, cause};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::{plan_own_stripes, systems_under};
 
@@ -78,6 +80,26 @@ impl Inputs {
     }
 }
 
+/// The hazard of a study, unless it cannot be read: then the mistakes of the records are said with it, so that nobody
+/// mends the one to be told of the other.
+///
+/// # Errors
+/// Hazard curves that cannot be used.
+pub(super) fn hazard_of(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<String>), StudiesError> {
+    read_hazard(study).map_err(|hazard| {
+        let mistakes = |error: &(dyn Error + 'static)| match cause(error) {
+            Some(JobError::Inputs(mistakes)) => mistakes.clone(),
+            _ => Vec::new(),
+        };
+        let of_hazard = mistakes(&hazard);
+        let of_records = read_records(study, &Silent).err().map(|error| mistakes(&error)).unwrap_or_default();
+        if of_hazard.is_empty() || of_records.is_empty() {
+            return hazard.into();
+        }
+        JobError::Inputs([of_hazard, of_records].concat()).into()
+    })
+}
+
 /// Carries out one shard of the stripes of a study into a file, but for what is known from an `earlier` result.
 ///
 /// # Errors
@@ -89,7 +111,7 @@ pub fn run_shard(
     events: &dyn Events,
 ) -> Result<ShardReport, StudiesError> {
     // a mistake in the hazard is found before, not when the shards are joined
-    read_hazard(study)?;
+    hazard_of(study)?;
     let inputs = Inputs::read(study, events)?;
     events.remark("records", &inputs.records.description);
     needs(study, &inputs.records, None).for_shard(shard).with_rows_of(&[path]).require(path, events)?;
