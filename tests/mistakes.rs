@@ -94,6 +94,10 @@ fn hazard_curves() {
     // the mistakes of several sites at once
     study.write("there-pgv.csv", "iml,poe\n0.005,0.5\n3,1.5\n");
     study.uplift(&["check", "study.toml"]).fails(4, &["Here", "There", "1.5"]);
+    // and those of the records
+    study.write("manifest.csv", "record_id,file_h1,file_h2\na,no.AT2,no.AT2\n");
+    let records = ["check", "study.toml", "--set", "records.manifest=manifest.csv"];
+    study.uplift(&records).fails(4, &["Here", "There", "1.5", "no.AT2"]);
 }
 
 #[test]
@@ -278,6 +282,8 @@ fn files_in_the_wrong_place() {
         (&["run", "r.h5"][..], 3, &["r.h5", "it is a result, not a study", "`uplift status`"][..]),
         (&["check", "r.h5"], 3, &["it is a result, not a study"]),
         (&["run", "block.toml"], 3, &["block.toml", "it is a structure, not a study", "`uplift design`"]),
+        (&["run", "manifest.csv"], 3, &["manifest.csv", "it is a manifest of records, not a study"]),
+        (&["hazard", "show", "study.toml"], 4, &["study.toml: is TOML, not a hazard curve", "`uplift check`"]),
         (&["check", "a.AT2"], 3, &["a.AT2", "it is a record, not a study", "`uplift response`"]),
         (&["design", "study.toml", "--urs", "r.h5"], 3, &["it is a study, not a structure", "`uplift run`"]),
         (&["design", "r.h5", "--urs", "r.h5"], 3, &["it is a result, not a structure", "--urs"]),

@@ -52,6 +52,9 @@ impl Wanted {
             Some(self.refuse("a zip archive", "`uplift records import` takes one of records"))
         } else if begins(&[b"\xff\xfe", b"\xfe\xff"]) {
             Some(Unreadable::Utf16)
+        } else if ends("csv") && bytes.split(|&byte| byte == b'\n').take(HEAD_LINES).any(is_header_of_manifest) {
+            let advice = "a study names it: [records] manifest = \"…\"; `uplift records list` shows its records";
+            Some(self.refuse("a manifest of records", advice))
         } else if ends("at2") || has_head_of_at2(bytes) || begins_with_numbers(bytes) {
             let advice = "`uplift response` shakes a system with it, `uplift records import` makes a manifest of a \
                           folder of records, and a study names that: [records] manifest = \"…\"";
@@ -102,6 +105,15 @@ fn result_of(path: &Path) -> Option<PathBuf> {
     // the program's own tables have two endings
     let shorter = path.with_extension("");
     shorter.extension().map(|_| shorter.with_extension("h5")).filter(|result| result.is_file())
+}
+
+/// Lines among which the header of a manifest is; comments come before it.
+const HEAD_LINES: usize = 20;
+
+/// Whether a line has the columns that every manifest has.
+fn is_header_of_manifest(line: &[u8]) -> bool {
+    let has = |name: &[u8]| line.split(|byte| b",;\t\r\"".contains(byte)).any(|found| found == name);
+    has(b"record_id") && has(b"file_h1")
 }
 
 /// Whether the first line has nothing but numbers, as columns of samples have, and no TOML.

@@ -7,6 +7,7 @@ use uplift_hazard::{
     CsvOptions, Declared, ExportedCurve, ExportedCurves, HazardCurve, SecondColumn, SiteSelection, Statistic, read_csv,
     read_export, table_text,
 };
+use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::text::{counted, distinct};
 use uplift_job::typed::number;
@@ -71,6 +72,10 @@ pub(super) fn read_file(
         }
         Err(error) => error,
     };
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+        let reason = "is TOML, not a hazard curve: give a curve file; `uplift check` reads those of a study";
+        return Err(JobError::input(format!("{}: {reason}", path.display())).into());
+    }
     let text = table_text(path)?;
     // what looks like an export but cannot be read as one is reported as such
     let begins = text.trim_start_matches('\u{feff}').trim_start();
