@@ -19,25 +19,25 @@ pub(super) fn no_result(path: &Path, error: LabelledError) -> ResultError {
             let mut checkpoint = path.as_os_str().to_owned();
             checkpoint.push(".part");
             Some(if Path::new(&checkpoint).exists() {
-                "its run was interrupted: repeat it to resume it; `uplift status FILE` shows how far it is"
+                format!("its run was interrupted: repeat it to resume it; `uplift status {name}` shows how far it is")
             } else {
-                "there is no such file: `uplift run STUDY.toml` writes results, results/STUDY.h5 by default"
+                "there is no such file: `uplift run STUDY.toml` writes results, results/STUDY.h5 by default".to_owned()
             })
         }
         LabelledError::NotHdf5 { .. } if ends("toml") && Study::read(path).is_ok() => {
             return JobError::input(format!("{name}: is a study, not a result: {}", its_result(path))).into();
         }
         LabelledError::NotHdf5 { .. } if ends("toml") => Some(if Structure::load(path).is_ok() {
-            "is a structure, not a result: `uplift design` and `overturning` take it, with --urs RESULT"
+            "is a structure, not a result: `uplift design` and `overturning` take it, with --urs RESULT".to_owned()
         } else {
-            "is a text file, not a result: give the .h5 file that `uplift run` wrote"
+            "is a text file, not a result: give the .h5 file that `uplift run` wrote".to_owned()
         }),
-        LabelledError::NotHdf5 { .. } if ends("part") => Some(
+        LabelledError::NotHdf5 { .. } if ends("part") => Some(format!(
             "holds the finished part of a command that was interrupted, and is no result: repeat the command to resume \
-             it; `uplift status FILE` shows how far it is",
-        ),
+             it; `uplift status {name}` shows how far it is"
+        )),
         LabelledError::NotHdf5 { .. } if ends("csv") => {
-            Some("is a table, not a result: give the .h5 file beside it, which `uplift run` wrote")
+            Some("is a table, not a result: give the .h5 file beside it, which `uplift run` wrote".to_owned())
         }
         _ => None,
     };
