@@ -5,6 +5,7 @@ mod progress;
 mod visible;
 
 use std::borrow::Cow;
+use std::collections::HashSet;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -47,6 +48,8 @@ pub(crate) struct Terminal {
     /// What is said where an interruption cannot wait for the work in hand.
     interruption_message: Arc<Mutex<String>>,
     progress: RwLock<Option<Progress>>,
+    /// Notes that were told: a job of many steps has the same one at each.
+    noted: Mutex<HashSet<String>>,
 }
 
 impl Terminal {
@@ -62,6 +65,7 @@ impl Terminal {
             stop: stop.clone(),
             interruption_message: interruption_message.clone(),
             progress: RwLock::new(None),
+            noted: Mutex::default(),
         };
         let interrupted = move || {
             if stop.swap(true, Ordering::Relaxed) {
@@ -139,6 +143,9 @@ impl Events for Terminal {
     }
 
     fn note(&self, text: &str) {
+        if !self.noted.lock().unwrap_or_else(PoisonError::into_inner).insert(text.to_owned()) {
+            return;
+        }
         self.tell_unless_quiet(&Event::Note { text }, &format!("note: {}", one_line(text)));
     }
 
