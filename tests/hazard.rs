@@ -149,6 +149,9 @@ fn a_hardly_possible_curve_is_warned_of_when_it_is_shown() {
     assert!(!usual.contains("Warnings"), "{usual}");
     // a header without a unit is that of a study, as a check takes it; numbers in m/s are asked about
     study.write("plain.csv", "PGV,rate\n0.001,1.5\n0.01,0.4\n0.1,0.01\n1,1e-5\n3,1e-7\n");
+    study.write("cut.csv", "# IM: PGV [cm/s]\niml,maf\n0.5,0.1\n20,0.01\n");
+    let cut = study.uplift(&["hazard", "show", "cut.csv"]).ok().stdout;
+    assert!(cut.contains("ends at 20 cm/s, exceeded more often than 2 % in 50 years: is it cut short?"), "{cut}");
     let asked = study.uplift(&["hazard", "show", "plain.csv"]).ok().stdout;
     let words = ["PGV [cm/s]", "mistake? plain: the last level is 3 cm/s", "was the level meant in m/s"];
     assert!(words.iter().all(|words| asked.contains(words)), "{asked}");

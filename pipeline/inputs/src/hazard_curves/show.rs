@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 use uplift_hazard::{HazardCurve, rate_from_probability};
 use uplift_job::events::Events;
+use uplift_job::text::{per_cent, rounded};
 use uplift_motion::IntensityMeasure;
 use uplift_study::usual_top_level;
 
@@ -89,7 +90,21 @@ fn warning(curve: &HazardCurve) -> Option<String> {
         let (_, usual) = usual_top_level(measure)?;
         Some(usual.unlikely("the last level", curve.last().im)?.to_string())
     };
-    hardly_possible(curve, measure).map(|found| found.to_string()).or_else(unusual_end)
+    hardly_possible(curve, measure).map(|found| found.to_string()).or_else(unusual_end).or_else(|| cut_short(curve))
+}
+
+/// What to say of a curve that ends before the rarest level of the report, as one does that lost its last rows.
+fn cut_short(curve: &HazardCurve) -> Option<String> {
+    let rarest = PROBABILITIES.into_iter().fold(1.0, f64::min);
+    let rate_per_year = rate_from_probability(rarest, YEARS).ok()?;
+    (curve.last().maf > rate_per_year).then(|| {
+        format!(
+            "the curve ends at {} {}, exceeded more often than {} in {YEARS} years: is it cut short?",
+            rounded(curve.last().im, 4),
+            curve.unit(),
+            per_cent(rarest)
+        )
+    })
 }
 
 fn level(curve: &HazardCurve, probability: f64) -> Option<f64> {
