@@ -1,5 +1,7 @@
 //! Numbers and words as they are typed: what reads the options of jobs on a command line, and an option of many.
 
+use std::ops::RangeInclusive;
+
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
@@ -43,6 +45,17 @@ pub fn number(text: &str) -> Result<f64, String> {
             _ => "write a number, 0.2 or 2e-4, without a unit".to_owned(),
         }
     })
+}
+
+/// Reads a whole number within a range.
+pub fn whole_number<T: TryFrom<u64>>(
+    range: RangeInclusive<u64>,
+) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync {
+    move |text| {
+        let number = text.trim().parse().ok().filter(|number| range.contains(number));
+        let (first, last) = (range.start(), range.end());
+        number.and_then(|number| T::try_from(number).ok()).ok_or(format!("write a whole number, {first} to {last}"))
+    }
 }
 
 /// Several numbers, parted by commas.

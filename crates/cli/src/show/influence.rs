@@ -70,7 +70,7 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, terminal: &Term
                 if row.change_pct.is_finite() { format!("{:+.1}", row.change_pct) } else { "none".to_owned() }
             })
         })
-        .right("at most (strength)", |row| format!("{:+.0} ({:.3})", row.largest_change_pct, row.at_strength));
+        .right("largest (strength)", |row| format!("{:+.0} ({:.3})", row.largest_change_pct, row.at_strength));
     if table.is_empty() {
         writeln!(out, "none: the set has one record, or nothing rocks")?;
         return Ok(());

@@ -7,7 +7,7 @@ use clap::{Args, value_parser};
 use uplift_bootstrap::{Interval, Unit};
 use uplift_job::events::Events;
 use uplift_job::outputs;
-use uplift_job::typed::{RARE, one_of};
+use uplift_job::typed::{RARE, one_of, whole_number};
 use uplift_result::LockedResult;
 use uplift_study::Bootstrap;
 use uplift_uniform_risk::consistency::Reweighing;
@@ -28,10 +28,10 @@ pub struct BootstrapOptions {
     #[arg(skip)]
     pub study: Option<Bootstrap>,
     /// Records in a resample, e.g. 20,40,60 [default: the study's, else 20,40,60,80 and all]
-    #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = whole_number::<u32>(1..=100_000))]
     pub sizes: Option<Vec<u32>>,
     /// Number of resamples of each size [default: the study's, else 1000]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = whole_number::<u64>(1..=1_000_000))]
     pub replicates: Option<u64>,
     /// Random seed [default: the study's]
     #[arg(long, help_heading = RARE, value_parser = value_parser!(u64).range(..=i64::MAX as u64))]
