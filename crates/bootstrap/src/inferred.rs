@@ -4,7 +4,7 @@ use uplift_risk::{PooledDemand, RiskError, SiteWeights};
 
 use crate::inversion::Inversion;
 use crate::rates::Rates;
-use crate::skewed_mean::{SkewedMean, StudentQuantiles};
+use crate::skewed_mean::{SampleQuantiles, SkewedMean, StudentQuantiles};
 
 /// Limits of an ordinate beyond the set that it was computed with.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,13 +92,12 @@ fn bands(
     }
     let most = samples.iter().map(|sample| sample.units).fold(1, usize::max);
     let quantiles = StudentQuantiles::new(confidence, most);
+    let of_samples: Vec<SampleQuantiles> =
+        samples.iter().map(|sample| SampleQuantiles::new(sample.units, sample.wider, &quantiles)).collect();
     let sizes: Vec<f64> = samples.iter().map(|sample| sample.size as f64 / units.len() as f64).collect();
     let mut inversion = Inversion::new(demand, vec![rates]);
     let of_target = |&target: &f64| {
-        let place = |sample: usize, means: &[SkewedMean]| {
-            let Sample { units, wider, .. } = samples[sample];
-            means[0].place(target, (units, wider), &quantiles)
-        };
+        let place = |sample: usize, means: &[SkewedMean]| means[0].place(target, &of_samples[sample]);
         // by the one curve
         let ordinate_m = inversion.ordinates_m(target)[0];
         inversion.limits_m(ordinate_m, &sizes, place)

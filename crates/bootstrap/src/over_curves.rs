@@ -6,7 +6,7 @@ use uplift_risk::{PooledDemand, RiskError, StripeWeights};
 use crate::inferred::{check_target, mean_of};
 use crate::inversion::Inversion;
 use crate::rates::Rates;
-use crate::skewed_mean::{SkewedMean, StudentQuantiles, of_side};
+use crate::skewed_mean::{SampleQuantiles, SkewedMean, StudentQuantiles, of_side};
 use crate::weighted_quantile;
 
 /// Limits of the rate at which `threshold_m` is exceeded, 1/yr, by all records there could be and by one of several
@@ -103,6 +103,8 @@ struct Mixture {
     /// What the band leaves on either side.
     tail: f64,
     quantiles: StudentQuantiles,
+    /// The same for as many units as the set has.
+    of_set: SampleQuantiles,
     /// Student's distributions of 1, 2, … degrees of freedom.
     students: Vec<StudentsT>,
 }
@@ -111,10 +113,12 @@ impl Mixture {
     fn new(weights: impl Iterator<Item = f64> + Clone, units: &[Vec<usize>], confidence: f64) -> Self {
         let total: f64 = weights.clone().sum();
         let students = (1..=units.len().max(1)).map_while(|freedom| StudentsT::new(0.0, 1.0, freedom as f64).ok());
+        let quantiles = StudentQuantiles::new(confidence, units.len());
         Self {
             weights: weights.map(|weight| weight / total).collect(),
             tail: 0.5 * (1.0 - confidence),
-            quantiles: StudentQuantiles::new(confidence, units.len()),
+            of_set: SampleQuantiles::new(units.len(), 1.0, &quantiles),
+            quantiles,
             students: students.collect(),
         }
     }
@@ -136,7 +140,7 @@ impl Mixture {
     /// they are too large for it.
     fn place(&self, means: &[SkewedMean], target_per_year: f64) -> f64 {
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-        for place in means.iter().map(|mean| mean.place(target_per_year, (mean.units, 1.0), &self.quantiles)) {
+        for place in means.iter().map(|mean| mean.place(target_per_year, &self.of_set)) {
             (least, most) = (least.min(place), most.max(place));
         }
         // where all curves agree there is nothing to weigh
@@ -206,7 +210,7 @@ mod tests {
             assert!((found - expected).abs() <= 1e-12 * expected, "{found} {expected}");
         }
         for target in [0.05, 0.2, 0.5, 1.0, 4.0] {
-            let alone = of_curve.place(target, (6, 1.0), &twice.quantiles);
+            let alone = of_curve.place(target, &twice.of_set);
             assert_eq!(twice.place(&[of_curve; 2], target).abs() <= 1.0, alone.abs() <= 1.0, "{target}");
         }
     }

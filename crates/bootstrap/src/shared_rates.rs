@@ -6,7 +6,7 @@
 use uplift_instructions::{Instructions, Vectors, Work};
 
 use crate::SkewedMean;
-use crate::skewed_mean::sums;
+use crate::skewed_mean::{adjustment, sums};
 use crate::unit_rates::unit_of;
 
 /// How units deviate from the rate λ(c) of all of them, summed while the displacement c moves.
@@ -48,6 +48,8 @@ pub(crate) struct SharedRates {
     deviations: Vec<f64>,
     /// Σ of the second, third and fourth power of the deviations, and of the second and fourth of what units carry.
     powers: [f64; POWERS],
+    /// That of the skewness.
+    adjustment: f64,
     instructions: Instructions,
 }
 
@@ -77,6 +79,7 @@ impl SharedRates {
             per_year: 0.0,
             deviations: vec![0.0; row],
             powers: [0.0; POWERS],
+            adjustment: adjustment(units.len()),
             instructions: Instructions::chosen(),
         }
     }
@@ -142,7 +145,7 @@ impl SharedRates {
     pub(crate) fn mean(&self) -> SkewedMean {
         let [second, third, fourth, carried @ ..] = self.powers;
         let moments = [second, third, fourth].map(|sum| sum / self.units as f64);
-        let mean = SkewedMean::new(self.per_year, moments, self.units);
+        let mean = SkewedMean::with_adjustment(self.per_year, moments, (self.units, self.adjustment));
         if self.is_carried { mean.carried_by(carried) } else { mean }
     }
 }

@@ -51,7 +51,16 @@ pub struct SkewedMean {
 
 impl SkewedMean {
     /// From the second, third and fourth power of the deviations of `units` from their `mean`, averaged.
-    pub fn new(mean: f64, [second, third, fourth]: [f64; 3], units: usize) -> Self {
+    pub fn new(mean: f64, moments: [f64; 3], units: usize) -> Self {
+        Self::with_adjustment(mean, moments, (units, adjustment(units)))
+    }
+
+    /// The same with the [`adjustment`] of the skewness worked out before.
+    pub(crate) fn with_adjustment(
+        mean: f64,
+        [second, third, fourth]: [f64; 3],
+        (units, adjustment): (usize, f64),
+    ) -> Self {
         let n = units as f64;
         let is_scattered = units > 1 && second > (ROUNDING * mean).powi(2);
         if !is_scattered {
@@ -60,7 +69,7 @@ impl SkewedMean {
         Self {
             mean,
             deviation: (second * n / (n - 1.0)).sqrt(),
-            skewness: adjustment(units) * third / (second * second.sqrt()),
+            skewness: adjustment * third / (second * second.sqrt()),
             kurtosis: fourth / (second * second),
             units,
             effective_units: n,
@@ -78,13 +87,17 @@ impl SkewedMean {
     /// How far the mean of `units` such units lies above `value`, as the deviate of a normal variable; infinite where
     /// they do not scatter.
     pub fn deviate(&self, value: f64, units: usize) -> f64 {
+        self.deviate_by_root(value, (units as f64).sqrt())
+    }
+
+    /// The same of the root of the number of units.
+    fn deviate_by_root(&self, value: f64, root: f64) -> f64 {
         /// A division takes as long as all else.
         const THIRD: f64 = 1.0 / 3.0;
         let difference = self.mean - value;
         if self.deviation == 0.0 {
             return if difference == 0.0 { 0.0 } else { f64::INFINITY.copysign(difference) };
         }
-        let root = (units as f64).sqrt();
         let (t, a) = (difference * (root / self.deviation), self.skewness / root);
         let third = THIRD * a * t;
         t * (1.0 + third * (1.0 + THIRD * third)) + 0.5 * THIRD * a
@@ -108,16 +121,14 @@ impl SkewedMean {
         self.degrees_of_freedom(units).map(|freedom| of_freedom.at(freedom))
     }
 
-    /// Where `value` lies in what the mean of so many `units` leaves open, within quantiles that are so much `wider`:
-    /// within −1 and 1 where it may be the mean of all there could be, above 1 where the mean is too large for it.
-    pub(crate) fn place(&self, value: f64, (units, wider): (usize, f64), of_freedom: &StudentQuantiles) -> f64 {
-        let deviate = self.deviate(value, units);
-        // with fewer degrees of freedom a quantile is larger
-        let least = of_freedom.at(units.saturating_sub(1)) * wider;
-        if deviate.abs() <= least {
-            return deviate / least;
+    /// Where `value` lies in what the mean of a sample leaves open: within −1 and 1 where it may be the mean of all
+    /// there could be, above 1 where the mean is too large for it.
+    pub(crate) fn place(&self, value: f64, sample: &SampleQuantiles) -> f64 {
+        let deviate = self.deviate_by_root(value, sample.root);
+        if deviate.abs() <= sample.least {
+            return deviate / sample.least;
         }
-        deviate / (of_side(self.quantiles(of_freedom, units), deviate) * wider)
+        deviate / (of_side(self.quantiles(&sample.of_freedom, sample.units), deviate) * sample.wider)
     }
 
     /// The interval of the mean over all units there could be, at the level of `quantiles`; NaN of a single unit. The
@@ -151,7 +162,7 @@ pub(crate) fn of_side<T>([below, above]: [T; 2], deviate: f64) -> T {
 }
 
 /// What the skewness of a sample is too small by.
-fn adjustment(units: usize) -> f64 {
+pub(crate) fn adjustment(units: usize) -> f64 {
     let n = units as f64;
     if units > 2 { (n * (n - 1.0)).sqrt() / (n - 2.0) } else { 0.0 }
 }
@@ -181,6 +192,27 @@ impl StudentQuantiles {
     }
 }
 
+/// The quantiles by which the mean of a sample is judged.
+#[derive(Debug, Clone)]
+pub(crate) struct SampleQuantiles {
+    units: usize,
+    /// √units.
+    root: f64,
+    of_freedom: StudentQuantiles,
+    /// By what they are wider than those of the truth.
+    wider: f64,
+    /// The least of them: with fewer degrees of freedom a quantile is larger.
+    least: f64,
+}
+
+impl SampleQuantiles {
+    /// Of so many `units`, and so much `wider`.
+    pub(crate) fn new(units: usize, wider: f64, of_freedom: &StudentQuantiles) -> Self {
+        let least = of_freedom.at(units.saturating_sub(1)) * wider;
+        Self { units, root: (units as f64).sqrt(), of_freedom: of_freedom.clone(), wider, least }
+    }
+}
+
 /// Sums over all places of the `terms` of the `values` there, several side by side for the processor to do at once.
 #[inline(always)]
 pub(crate) fn sums<const M: usize, const N: usize>(
@@ -196,8 +228,10 @@ pub(crate) fn sums<const M: usize, const N: usize>(
         }
     };
     for place in 0..parts[0].0.len() {
+        // values of a whole chunk first: the compiler makes no vectors otherwise
+        let chunk = parts.map(|(chunks, _)| chunks[place]);
         for lane in 0..LANES {
-            add(lane, parts.map(|(chunks, _)| chunks[place][lane]));
+            add(lane, chunk.map(|chunk| chunk[lane]));
         }
     }
     for lane in 0..parts[0].1.len() {
@@ -265,13 +299,10 @@ pub(crate) mod tests {
         let found = of(&[0.1, 0.2, 0.25, 0.4, 2.0, 0.3]);
         let quantiles = StudentQuantiles::new(0.9, 5);
         let [low, high] = found.interval(&quantiles);
-        assert!(
-            (found.place(high, (6, 1.0), &quantiles) + 1.0).abs() < 1e-9,
-            "{}",
-            found.place(high, (6, 1.0), &quantiles)
-        );
+        let sample = SampleQuantiles::new(6, 1.0, &quantiles);
+        assert!((found.place(high, &sample) + 1.0).abs() < 1e-9, "{}", found.place(high, &sample));
         // the lower limit is not negative, and lies further from the mean than Student's would not
-        assert!(low >= 0.0 && found.place(low, (6, 1.0), &quantiles) <= 1.0 + 1e-9);
+        assert!(low >= 0.0 && found.place(low, &sample) <= 1.0 + 1e-9);
         assert!(high - found.mean > found.mean - low, "{low} {high}");
     }
 

@@ -1,7 +1,7 @@
 //! The rates that single records, or earthquakes of equally many, bring.
 
 use crate::SkewedMean;
-use crate::skewed_mean::sums;
+use crate::skewed_mean::{adjustment, sums};
 
 /// The rates of the units above a displacement that moves, with the sums that their mean and scatter need. All units
 /// are of equally many records.
@@ -15,6 +15,8 @@ pub(crate) struct UnitRates {
     rates: Vec<f64>,
     /// Σ W^p for p from 1 to 4.
     sums: [f64; 4],
+    /// That of the skewness.
+    adjustment: f64,
 }
 
 impl UnitRates {
@@ -27,6 +29,7 @@ impl UnitRates {
             per_record: 1.0 / records as f64,
             rates: vec![0.0; units.len()],
             sums: [0.0; 4],
+            adjustment: adjustment(units.len()),
         }
     }
 
@@ -66,7 +69,7 @@ impl UnitRates {
     /// The rate of all records, 1/yr, with the scatter of the units.
     pub(crate) fn mean(&self) -> SkewedMean {
         let (mean, units) = (self.sums[0] / self.rates.len() as f64, self.rates.len());
-        SkewedMean::new(mean, self.central(mean).map(|sum| sum / units as f64), units)
+        SkewedMean::with_adjustment(mean, self.central(mean).map(|sum| sum / units as f64), (units, self.adjustment))
     }
 
     /// Σ (W − mean)^p for p from 2 to 4, by the binomial theorem.

@@ -5,6 +5,11 @@
 //! with these sums an ordinate of any oscillator is found by few additions (`stretches.rs`). Weights are whole numbers,
 //! so the ordinates are those of [`RiskCurve::weighted`](crate::RiskCurve::weighted), to the bit.
 
+// what is not inlined into work is not compiled for the instructions that it is compiled for
+#![allow(clippy::inline_always)]
+
+use uplift_instructions::{Instructions, Vectors, Work};
+
 use crate::run_weights::UnitScale;
 use crate::stretches::{LANES, LaneWeights};
 use crate::{PooledDemand, RiskError, StripeWeights};
@@ -48,11 +53,7 @@ impl ReplicateWeights {
         self.replicates = shares.len();
         assert!(self.replicates <= REPLICATES_AT_ONCE, "{} replicates of {REPLICATES_AT_ONCE}", self.replicates);
         shares.iter().try_for_each(|shares| self.scale.check(shares, records))?;
-        let scale = &self.scale;
-        self.weights.fill(|record, level| {
-            let of = |shares: &&[f64]| scale.units(level, shares[level * records + record]);
-            std::array::from_fn(|replicate| shares.get(replicate).map_or(0, of))
-        });
+        Instructions::chosen().run(Weighing { scale: &self.scale, shares, records, weights: &mut self.weights });
         Ok(())
     }
 
@@ -97,5 +98,26 @@ impl ReplicateWeights {
             *first = found.iter().copied().min().unwrap_or(0);
         }
         Ok(())
+    }
+}
+
+/// See [`ReplicateWeights::weigh`].
+struct Weighing<'a> {
+    scale: &'a UnitScale,
+    shares: &'a [&'a [f64]],
+    records: usize,
+    weights: &'a mut LaneWeights,
+}
+
+impl Work for Weighing<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vectors>(self, _: V) -> Self::Output {
+        let Self { scale, shares, records, weights } = self;
+        weights.fill(|record, level| {
+            let of = |shares: &&[f64]| scale.units(level, shares[level * records + record]);
+            std::array::from_fn(|replicate| shares.get(replicate).map_or(0, of))
+        });
     }
 }

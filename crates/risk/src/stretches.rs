@@ -77,6 +77,7 @@ impl LaneWeights {
     }
 
     /// Takes the weight of each record at each level.
+    #[inline(always)]
     pub(crate) fn fill(&mut self, weights: impl Fn(usize, usize) -> [u64; LANES]) {
         let rows = self.own.chunks_exact_mut(self.row).zip(self.running.chunks_exact_mut(self.row));
         for (record, (own, running)) in rows.enumerate() {
