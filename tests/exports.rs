@@ -83,7 +83,7 @@ fn influence_and_efficiency_are_exported_once_they_are_there() {
     }
 
     // the influence is of the probabilities of the study, the efficiency of the stripes
-    study.uplift(&[&EXPORT[..], &["--poe", "0.05", "--force"]].concat()).ok();
+    study.uplift(&[&EXPORT[..], &["--poe", "0.05"]].concat()).ok();
     let asked = json(&study);
     assert_eq!(asked["influence"], Value::Array(Vec::new()));
     assert_eq!(asked["efficiency"], some["efficiency"]);
@@ -136,7 +136,7 @@ fn repaired_spectra_are_exported_where_there_are_some() {
     }
 
     // of other probabilities they are made again, and without a repair nothing is said of them
-    study.uplift(&[&EXPORT[..], &["--poe", "0.02,0.05,0.3", "--force"]].concat()).ok();
+    study.uplift(&[&EXPORT[..], &["--poe", "0.02,0.05,0.3"]].concat()).ok();
     study.uplift(&["run", "study.toml", "-o", "plain/r.h5", "-q", "--set", "consistency.repair=\"none\""]).ok();
     study.uplift(&[&["export", "plain/r.h5"], &EXPORT[2..]].concat()).ok();
     for (folder, is_repaired) in [("", true), ("plain", false)] {
@@ -158,24 +158,6 @@ fn what_has_one_hazard_curve_is_exported_as_ever() {
     study.uplift(&EXPORT).ok();
     assert!(json(&study).get("consistency").is_none());
     assert!(!sheets(&study).contains("Consisten") && !matlab_has(&study, "consisten"));
-}
-
-#[test]
-fn an_export_of_another_risk_is_not_overwritten() {
-    let study = SmallStudy::new();
-    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
-    for format in ["--csv", "--json", "--mat", "--xlsx", "--web"] {
-        let export = |more: &[&str]| study.uplift(&[&["export", "r.h5", format], more].concat());
-        export(&[]).ok();
-        export(&[]).ok();
-        for other in [["--poe", "0.03"], ["--return-period", "475"], ["--years", "100"]] {
-            export(&other).fails(2, &["r.", "is of another risk: give another name (-o), or --force"]);
-        }
-        export(&["--poe", "0.03", "--force"]).ok();
-        export(&["--poe", "0.03"]).ok();
-        export(&["--poe", "0.04"]).fails(2, &["is of another risk"]);
-        export(&[]).fails(2, &["is of another risk"]);
-    }
 }
 
 #[test]

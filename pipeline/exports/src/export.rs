@@ -18,7 +18,6 @@ use serde::Serialize;
 
 use shake_table::TestsExport;
 pub use source::Export;
-use source::asked_of;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind, beside};
@@ -114,15 +113,19 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
     let file = |format: &ExportFormat| {
         options.output.clone().unwrap_or_else(|| beside(&options.result, format.extension(kind)))
     };
-    let output = |path: PathBuf, kind| Output::new(path, kind).with_result(&options.result);
-    let mut outputs: Vec<Output> = formats.iter().map(|format| output(file(format), format.kind(kind))).collect();
+    let output = |format: &ExportFormat| Output::new(file(format), format.kind(kind)).with_result(&options.result);
+    let mut outputs: Vec<Output> = formats.iter().map(output).collect();
     // answers about structures are no ordinates: they have a table of their own
     let has_findings = formats.contains(&ExportFormat::Csv) && !result.findings()?.is_empty();
     let findings = has_findings.then(|| match &options.output {
         Some(table) => table.with_extension(FINDINGS),
         None => beside(&options.result, FINDINGS),
     });
-    outputs.extend(findings.iter().map(|table| output(table.clone(), OutputKind::Table(findings::FIRST_COLUMN))));
+    outputs.extend(
+        findings
+            .iter()
+            .map(|table| Output::new(table, OutputKind::Table(findings::FIRST_COLUMN)).with_result(&options.result)),
+    );
     if kind == Kind::ShakeTable {
         if options.risk != AskedRisk::default() {
             return Err(JobError::Usage(
@@ -141,8 +144,6 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
         });
     }
     let result = at(result, &options.risk)?;
-    let asked = asked_of(&result)?;
-    let outputs: Vec<Output> = outputs.into_iter().map(|output| output.with_asked(asked.clone())).collect();
     outputs::check(&outputs, &[&options.result], options.overwriting.force)?;
     let result = resampled(result, events)?;
     let export = Export::from_file(&result)?;

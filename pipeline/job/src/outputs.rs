@@ -22,8 +22,6 @@ const FILE_ENDINGS: [&str; 13] =
     ["h5", "toml", "csv", "json", "geojson", "mat", "xlsx", "svg", "png", "html", "xml", "txt", "AT2"];
 /// Bytes of a file in which this program names itself, where it wrote it.
 const HEAD: u64 = 4096;
-/// What a file says before the question that it answers.
-const ASKED: &[u8] = b"; asked for ";
 
 /// How this program names itself in a JSON file, but for spaces.
 const JSON_MARK: &[u8] = b"\"provenance\":\"uplift";
@@ -79,13 +77,12 @@ pub struct Output {
     path: PathBuf,
     kind: OutputKind,
     result: Option<String>,
-    asked: Option<String>,
 }
 
 impl Output {
     /// A file of some kind at `path`.
     pub fn new(path: impl Into<PathBuf>, kind: OutputKind) -> Self {
-        Self { path: path.into(), kind, result: None, asked: None }
+        Self { path: path.into(), kind, result: None }
     }
 
     /// Where it is written.
@@ -99,13 +96,6 @@ impl Output {
         // a name with other characters may stand there in other words
         let plain = |name: &&str| name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"._- ".contains(&byte));
         self.result = result.file_name().and_then(|name| name.to_str()).filter(plain).map(str::to_owned);
-        self
-    }
-
-    /// The same with what the result is asked for, as [`asked`] says it; none of what it holds itself.
-    #[must_use]
-    pub fn with_asked(mut self, asked: Option<String>) -> Self {
-        self.asked = asked;
         self
     }
 
@@ -150,11 +140,7 @@ impl Output {
         }
         let words = told.unwrap_or(head);
         let other = self.result.as_ref().filter(|result| !names_result(&words, result));
-        if let Some(result) = other {
-            return Some(format!("{name} is not of {result}: give another name, or --force to replace it"));
-        }
-        let is_same = self.asked.as_ref().map_or(!contains(&words, ASKED), |asked| contains(&words, asked.as_bytes()));
-        (!is_same).then(|| format!("{name} is of another risk: give another name (-o), or --force to replace it"))
+        other.map(|result| format!("{name} is not of {result}: give another name, or --force to replace it"))
     }
 }
 
@@ -294,11 +280,6 @@ pub fn beside(result: &Path, ending: &str) -> PathBuf {
     let mut name = result.file_name().unwrap_or_default().to_owned();
     name.push(format!(".{ending}"));
     result.with_file_name(name)
-}
-
-/// What a file says that is of another question than its result: `; asked for 10 % in 50 years;`.
-pub fn asked(question: &str) -> String {
-    format!("{}{question};", String::from_utf8_lossy(ASKED))
 }
 
 /// What this program says of itself in a file.

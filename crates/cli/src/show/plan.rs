@@ -40,13 +40,11 @@ pub(crate) fn print_plan(plan: &Plan, terminal: &Terminal) -> Result<(), Command
             writeln!(out, "  Proposed: [{section}] {key}")?;
         }
     }
-    // why a run would be refused, the last note, is an error
-    let notes = &head.notes[..head.notes.len() - usize::from(head.would_replace)];
-    for note in room.tight.iter().chain(notes) {
+    for note in room.tight.iter().chain(&head.notes) {
         writeln!(out, "Note      {note}")?;
     }
-    if room.cannot.is_empty() && !head.would_replace {
-        writeln!(out, "\nThe study can be run.")?;
+    if room.cannot.is_empty() {
+        writeln!(out, "\n{}", conclusion(plan))?;
     }
     Ok(())
 }
@@ -87,6 +85,16 @@ fn print_details(out: &mut impl Write, plan: &Plan) -> Result<(), CommandError> 
         }
     }
     Ok(())
+}
+
+/// Whether it can be run.
+fn conclusion(plan: &Plan) -> &'static str {
+    let head = plan.head();
+    if head.would_replace {
+        "A run would be refused, since its result file belongs to another study: see the last note."
+    } else {
+        "The study can be run."
+    }
 }
 
 /// How far down and up the levels of a measure reach.

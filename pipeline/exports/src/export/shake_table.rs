@@ -31,7 +31,7 @@ impl TestsExport {
     pub(super) fn from_file(file: &ResultFile) -> Result<Self, ExportsError> {
         let (head, table) = (file.head()?, file.shake_table()?);
         let name = file.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let provenance = provenance_of(&head, &name, None);
+        let provenance = provenance_of(&head, &name);
         Ok(Self { alarms: alarms(file)?, head, table, file: name, provenance })
     }
 

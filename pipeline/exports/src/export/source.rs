@@ -5,8 +5,6 @@ use std::ops::Range;
 use uplift_alarms::alarms;
 use uplift_hazard::return_period_from_probability;
 use uplift_job::alarm::Alarm;
-use uplift_job::outputs::asked;
-use uplift_job::text::risks_in_words;
 use uplift_result::declared::Quantity;
 use uplift_result::{
     CONSISTENCY, Fit, Head, MeasureSpectra, ResultFile, Spectrum, SpreadOver, StoredBands, StoredConsistency,
@@ -79,7 +77,7 @@ impl Export {
         }
         let head = file.head()?;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let provenance = provenance_of(&head, &name, asked_of(file)?.as_deref());
+        let provenance = provenance_of(&head, &name);
         let return_period = |&poe: &f64| Ok(return_period_from_probability(poe, spectra.years)?);
         Ok(Self {
             return_periods: spectra.poes.iter().map(return_period).collect::<Result<_, ExportsError>>()?,
@@ -139,23 +137,13 @@ impl Export {
     }
 }
 
-/// What the result is asked for in place of the risks of its study, as outputs say it.
-pub(super) fn asked_of(file: &ResultFile) -> Result<Option<String>, ExportsError> {
-    if !file.is_asked() {
-        return Ok(None);
-    }
-    let axes = file.axes()?;
-    Ok(Some(asked(&risks_in_words(&axes.poes, axes.years, ", "))))
-}
-
-/// One line: program, time, file, what it was asked for, records.
-pub(super) fn provenance_of(head: &Head, file: &str, asked: Option<&str>) -> String {
+/// One line: program, time, file, records.
+pub(super) fn provenance_of(head: &Head, file: &str) -> String {
     format!(
-        "uplift {} ({}), {}; result {file}{} study digest {}; records: {}",
+        "uplift {} ({}), {}; result {file}; study digest {}; records: {}",
         head.version,
         head.commit,
         head.created,
-        asked.unwrap_or(";"),
         head.study_digest(),
         head.record_set
     )

@@ -15,7 +15,7 @@ use uplift_job::text::finite;
 use uplift_result::ResultFile;
 use uplift_uniform_risk::{QuotedUnits, StoredStripes};
 
-use super::source::{asked_of, provenance_of};
+use super::source::provenance_of;
 use crate::error::ExportsError;
 
 /// What the page takes for such a file, and which version of it.
@@ -94,7 +94,7 @@ pub(super) fn web(file: &ResultFile) -> Result<Value, ExportsError> {
     study.output.file = PathBuf::from(&name);
     Ok(json!({
         "format": FORMAT,
-        "provenance": provenance_of(&head, &name, asked_of(file)?.as_deref()),
+        "provenance": provenance_of(&head, &name),
         "record_set": head.record_set,
         "synthetic": head.synthetic,
         "records": stripes.records,

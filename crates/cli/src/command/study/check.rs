@@ -33,11 +33,5 @@ pub(crate) fn check(arguments: &CheckArguments, terminal: &Terminal) -> Result<(
     let plan = plan(&study, &run_options(&arguments.study, None, false), terminal)
         .map_err(|error| if is_stopped(&error) { CommandError::Interrupted(STOPPED) } else { error.into() })?;
     if arguments.json { print_json(&plan) } else { print_plan(&plan, terminal) }?;
-    let head = plan.head();
-    head.room.refuse(terminal)?;
-    // as the run itself ends; the reason is the last note
-    match head.notes.last().filter(|_| head.would_replace) {
-        Some(reason) => Err(CommandError::Usage(reason.clone())),
-        None => Ok(()),
-    }
+    Ok(plan.head().room.refuse(terminal)?)
 }
