@@ -93,7 +93,7 @@ fn an_extrapolated_curve_is_named_by_check_and_run_alike() {
     let run = study.uplift(&["warnings", "r.h5"]).ok().stdout;
     for words in [
         "1 hazard curve extrapolated (Here, PGV, spans 0.5 to 60 cm/s, the levels 5 to 100)",
-        "displacements may be too small (the hazard curve ends at 60 cm/s, at 74.2 % of the target rate, and is \
+        "displacements may be too large (the hazard curve ends at 60 cm/s, at 74.2 % of the target rate, and is \
          extrapolated)",
         "Use a hazard curve down to 4.0e-6 per year, and raise pgv.levels_cm_s",
     ] {
@@ -154,6 +154,10 @@ fn a_curve_much_shorter_than_the_default_levels_has_those_that_it_covers_named()
     study.write("here-pgv.csv", "iml,maf\n2,0.4\n10,0.01\n300,1e-6\n");
     let levels = "begins at 2 cm/s, the levels at 0.5 cm/s. In [pgv] write: levels_cm_s = [\"2:0.5:20\", \"25:5:200\"]";
     study.uplift(&check).fails(4, &["Here", levels, "risk.extrapolate = \"loglog\""]);
+    // to leave levels out would leave out most of the risk
+    study.write("here-pgv.csv", "iml,maf\n0.3,2\n2,0.4\n10,0.01\n");
+    let longer = "this one ends at 1.0e-2 per year, and the study asks for 4.0e-4";
+    study.uplift(&check).fails(4, &["ends at 10 cm/s, the levels at 200 cm/s", longer]);
     // in m/s, and read as cm/s: as good a curve as one that ends soon
     study.write("here-pgv.csv", "iml,maf\n0.005,2\n0.01,0.4\n0.1,0.01\n1.5,1e-5\n");
     study.uplift(&check).fails(

@@ -120,7 +120,8 @@ impl UpperEnd<'_> {
             severity: severity(most.max(beyond)),
             badness: most.max(beyond),
             subject: name.to_owned(),
-            what: format!("displacements may be too small ({why})"),
+            // a straight line beyond a curve that bends down has too much hazard
+            what: format!("displacements may be too {} ({why})", if is_extrapolated { "large" } else { "small" }),
             what_to_do: if end.im > last {
                 let enough = curve.im_at_rate(enough_per_year).map_or(end.im, |im| rounded_up(im).min(end.im));
                 format!("Raise the last of {} to {enough}", levels_key(measure))

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_hazard::{CsvCurve, CsvOptions, HazardCurve, SecondColumn, read_path};
+use uplift_hazard::{CsvCurve, CsvOptions, HazardCurve, SecondColumn, rate_from_probability, read_path};
 use uplift_job::JobError;
 use uplift_job::checksum::checksum_of_file;
-use uplift_job::text::{counted, rounded};
+use uplift_job::text::{counted, rate, rounded};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_risk::StripeWeights;
 use uplift_study::{
@@ -274,6 +274,13 @@ impl SiteReader<'_> {
         Ok(ReadCurve { curve: read.curve, checksum, dropped_certain: read.dropped_certain })
     }
 
+    /// The smallest rate that the study asks for, 1/yr; none is infinite.
+    fn least_rate_per_year(&self) -> f64 {
+        let risk = &self.study.risk;
+        let rates = risk.poe.iter().filter_map(|&poe| rate_from_probability(poe, risk.years).ok());
+        rates.fold(f64::INFINITY, f64::min)
+    }
+
     fn weights(
         &self,
         curve: &HazardCurve,
@@ -311,10 +318,32 @@ impl SiteReader<'_> {
                 return format!("{name}: {reason}{dropped}");
             };
             let (section, key) = levels_place(self.measure);
+            // levels up to there would leave out most of the risk
+            let least_per_year = self.least_rate_per_year();
+            let is_too_short = most > last && curve.last().maf > least_per_year;
+            let (so, remedy) = if is_too_short {
+                let rates = [curve.last().maf, least_per_year].map(rate);
+                (
+                    "Use",
+                    format!(
+                        "a longer curve, or risk.extrapolate = \"loglog\": this one ends at {} per year, and the study \
+                         asks for {}",
+                        rates[0], rates[1]
+                    ),
+                )
+            } else {
+                let levels = within.levels.to_string();
+                (
+                    "In",
+                    format!(
+                        "[{section}] write: {key} = {levels}. Or use a longer curve, or risk.extrapolate = \"loglog\""
+                    ),
+                )
+            };
             let therefore = usual_top_level(self.measure)
                 .and_then(|(_, usual)| usual.unlikely("its last level", last))
                 .map_or_else(
-                    || ". In".to_owned(),
+                    || format!(". {so}"),
                     |unlikely| {
                         let units: Vec<String> =
                             self.file.other_units().map(|unit| format!("\"{}\"", unit.symbol())).collect();
@@ -322,15 +351,12 @@ impl SiteReader<'_> {
                         let line = curve_line(self.measure, !self.file.branches.is_empty(), &unit);
                         format!(
                             ": {unlikely}. If so, write {line} (and in the head of the file, if it says another), or \
-                             convert numbers in any other unit. If not, in"
+                             convert numbers in any other unit. If not, {}",
+                            so.to_lowercase()
                         )
                     },
                 );
-            format!(
-                "{name}: the curve {span}{therefore} [{section}] write: {key} = {}. Or use a longer curve, or \
-                 risk.extrapolate = \"loglog\"",
-                within.levels
-            )
+            format!("{name}: the curve {span}{therefore} {remedy}")
         })
     }
 }
