@@ -278,7 +278,8 @@ fn limits_of_size() {
     assert_eq!(tiny["rules"][0]["from_spectrum"]["satisfied"], false);
     let tiny = ["design", "tiny.toml", "--urs", "r.h5"];
     let shown = study.uplift(&tiny).ok().stdout;
-    for words in ["Verdict   tiny, capacity 0.01 m: NOT satisfied", "Demand    overturns on the structure", "synthetic"]
+    for words in
+        ["Verdict   tiny, capacity 0.01 m: NOT satisfied", "Demand    overturns on the equivalent", "synthetic"]
     {
         assert!(shown.contains(words), "{words}: {shown}");
     }

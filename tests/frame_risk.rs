@@ -378,9 +378,12 @@ fn a_block_is_told_in_its_own_words_and_both_commands_name_their_restitution() {
         study.uplift(&asked).ok().stdout
     };
     let design = ask("design", &[]);
-    let proxy = " on the equivalent oscillator, restitution 0.95\n          a proxy; the block's own: uplift risk \
-                 block.toml --urs r.h5 --site Here\n";
+    let proxy = " on the equivalent oscillator, restitution 0.95\n          for that of the block itself:\n";
     assert!(design.contains(proxy), "{design}");
+    let printed = design.lines().find_map(|line| line.trim().strip_prefix("uplift ")).unwrap();
+    assert!(printed.contains(" --measure pgv --poe "), "{printed}");
+    let own = study.uplift(&printed.split(' ').collect::<Vec<_>>()).ok().stdout;
+    assert!(own.contains(" on block itself, restitution 0.9423\n"), "{own}");
     let risk = ask("risk", &["--details"]);
     for words in [
         " on block itself, restitution 0.9423\n",

@@ -99,5 +99,5 @@ pub(crate) fn shown_path(path: &Path) -> &Path {
 pub(crate) fn typed_path(path: &Path) -> String {
     let shown = shown_path(path).display().to_string();
     let is_plain = shown.chars().all(|own| own.is_alphanumeric() || "/._-+,@:\\".contains(own));
-    if is_plain { shown } else { format!("'{shown}'") }
+    if is_plain { shown } else { format!("'{}'", shown.replace('\'', r"'\''")) }
 }

@@ -4,7 +4,7 @@ mod risk;
 mod table;
 mod visible;
 
-pub use risk::{kind_of_risks, per_cent, risk_in_words, risk_name, risks_in_words, rounded, share};
+pub use risk::{kind_of_risks, per_cent, risk_in_words, risk_name, risk_option, risks_in_words, rounded, share};
 pub use table::{Table, TableOf};
 pub use uplift_plausible::counted;
 pub use visible::{is_obeyed, one_line, visible};

@@ -11,14 +11,17 @@ use uplift::structure::{
     StructureReport, verdict_word,
 };
 use uplift::text::{
-    self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short, two_digits,
+    self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, risk_option, short,
+    two_digits,
 };
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
 use self::frame::{print_mark, print_verdicts, rule_cell};
 use super::alarms::print_in_parts;
-use super::structure::{BLOCK, band_after, demand_in_words, lines, rate, record_set, restitution_line, risk_cells};
+use super::structure::{
+    BLOCK, band_after, demand_in_words, lines, measure_option, rate, record_set, restitution_line, risk_cells,
+};
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use super::{shown_path, typed_path};
 use crate::error::CommandError;
@@ -85,8 +88,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         let is_block = report.structure.kind == BLOCK;
         let whose = match report.structure.restitution {
             Some(restitution) if is_block => format!("the equivalent oscillator, restitution {restitution}"),
-            _ if report.wobbles => "the equivalent oscillator".to_owned(),
-            _ => "the structure itself".to_owned(),
+            _ => "the equivalent oscillator".to_owned(),
         };
         let uplift_m = report.structure.uplift_displacement_m;
         let rests = if exact.demand_m < uplift_m {
@@ -98,7 +100,9 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         if is_block {
             let [structure, result, site] =
                 [&report.structure.file, &report.source.result, Path::new(&report.site)].map(typed_path);
-            writeln!(out, "          a proxy; the block's own: uplift risk {structure} --urs {result} --site {site}")?;
+            let (measure, risk) = (measure_option(report.im), risk_option(report.poe, report.years));
+            writeln!(out, "          for that of the block itself:")?;
+            writeln!(out, "          uplift risk {structure} --urs {result} --site {site} {measure} {risk}")?;
         }
         if let Some(risk) = &exact.beyond_capacity {
             let [beyond, ..] = risk_cells(risk);
@@ -196,7 +200,7 @@ fn print_rules(out: &mut impl Write, report: &DesignReport) -> Result<(), Comman
         writeln!(
             out,
             "\nThe rules of equal displacement and equal energy do not apply: the force rises after uplift, and there \
-             is no capacity\nto exceed. The demand on the structure itself is the one above."
+             is no capacity\nto exceed. The demand on the oscillator is the one above."
         )?;
         return Ok(());
     }

@@ -11,6 +11,7 @@ use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::{ColumnsOf, write_table};
+use uplift_job::text::risk_in_words;
 use uplift_result::ResultFile;
 use uplift_statics::selection::{select, stopper_yield_force_n};
 use uplift_statics::{Candidate, Imperfections, Limits, Ranking, StaticsError, Target, TendonPath};
@@ -307,8 +308,11 @@ fn target_of(
                 .into());
             };
             let words = format!(
-                "a capacity of {required_m:.4} m: {} times the demand at {}, {:.4} in {} years, by {}",
-                design.safety_factor, found.site, found.poe, found.years, found.im
+                "a capacity of {required_m:.4} m: {} times the demand at {}, {}, by {}",
+                design.safety_factor,
+                found.site,
+                risk_in_words(found.poe, found.years),
+                found.im
             );
             let (target, told, _) = capacity(words, required_m)?;
             let told = StackTarget { demand_m: Some(required_m / design.safety_factor), ..told };
