@@ -81,7 +81,7 @@ fn beyond_the_yield_of_its_tendons_a_frame_is_cautioned() {
         std::fs::write(folder.path().join("weak.toml"), text).unwrap();
         shaken(folder.path(), "weak.toml", &["--h1", "a.txt", "--scale", "2"]).ok().stdout
     };
-    let caution = "note      the tendons stay elastic in this model: from ";
+    let caution = "note      tendons stay elastic in this model: from ";
     assert!(said("100").contains(caution) && !said("1e9").contains(caution), "{}", said("100"));
 }
 

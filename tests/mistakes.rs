@@ -276,6 +276,7 @@ fn files_in_the_wrong_place() {
     std::fs::copy(repository().join("configs/structures/block.toml"), study.path().join("block.toml")).unwrap();
     study.write("a.AT2", &at2(&[0.0, 0.1, 0.2], 3));
     study.write("manifest.csv", "record_id,file_h1,file_h2\na,a.AT2,a.AT2\n");
+    study.write("marked.csv", "\u{feff}record_id,file_h1,file_h2\na,a.AT2,a.AT2\n");
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     std::fs::create_dir(study.path().join("results")).unwrap();
     for (arguments, code, words) in [
@@ -284,6 +285,8 @@ fn files_in_the_wrong_place() {
         (&["run", "block.toml"], 3, &["block.toml", "it is a structure, not a study", "`uplift design`"]),
         (&["run", "manifest.csv"], 3, &["manifest.csv", "it is a manifest of records, not a study"]),
         (&["hazard", "show", "study.toml"], 4, &["study.toml: is TOML, not a hazard curve", "`uplift check`"]),
+        (&["hazard", "show", "nothing.toml"], 4, &["nothing.toml", "there is no such file"]),
+        (&["run", "marked.csv"], 3, &["marked.csv", "it is a manifest of records, not a study"]),
         (&["check", "a.AT2"], 3, &["a.AT2", "it is a record, not a study", "`uplift response`"]),
         (&["design", "study.toml", "--urs", "r.h5"], 3, &["it is a study, not a structure", "`uplift run`"]),
         (&["design", "r.h5", "--urs", "r.h5"], 3, &["it is a result, not a structure", "--urs"]),

@@ -10,7 +10,8 @@ use crate::BootstrapError;
 /// - `samples`: as [`left_out`](crate::left_out) makes them; without any, the ordinates of each target are none.
 ///
 /// # Errors
-/// Demand and weights with different numbers of levels; a target that is not positive and finite.
+/// Where there are samples: demand and weights with different numbers of levels; a target that is not positive and
+/// finite.
 pub fn without_each(
     demand: &PooledDemand,
     weights: &StripeWeights,

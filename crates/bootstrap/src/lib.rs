@@ -57,4 +57,4 @@ pub use simultaneous::simultaneous_bands;
 pub use skewed_mean::{SkewedMean, StudentQuantiles};
 pub use unit::{Unit, is_too_narrow, units, units_in_sample};
 pub use weighted::weighted_quantile;
-pub use weighted_replicates::{left_out, left_out_together, weighted_replicates};
+pub use weighted_replicates::{SORTED_AT_ONCE, left_out, left_out_together, weighted_replicates};

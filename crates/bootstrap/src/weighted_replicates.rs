@@ -4,8 +4,8 @@ use uplift_risk::{
     PooledDemand, REPLICATES_AT_ONCE, RecordSample, ReplicateWeights, RiskCurve, RiskError, StripeWeights,
 };
 
-/// Samples among which those that are alike are sought together.
-const SORTED_AT_ONCE: usize = 8 * REPLICATES_AT_ONCE;
+/// Samples that are weighed before the first ordinate: those among them that are alike are sought together.
+pub const SORTED_AT_ONCE: usize = 8 * REPLICATES_AT_ONCE;
 
 /// Exact ordinates of some samples, each with weights of its own, at one site, m, `[strength, target, sample]`.
 ///

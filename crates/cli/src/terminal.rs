@@ -143,7 +143,9 @@ impl Events for Terminal {
     }
 
     fn note(&self, text: &str) {
-        if !self.noted.lock().unwrap_or_else(PoisonError::into_inner).insert(text.to_owned()) {
+        let is_known = !self.noted.lock().unwrap_or_else(PoisonError::into_inner).insert(text.to_owned());
+        // programs that read events get all of them
+        if is_known && self.form != Form::Json {
             return;
         }
         self.tell_unless_quiet(&Event::Note { text }, &format!("note: {}", one_line(text)));

@@ -220,13 +220,13 @@ fn name_of(entry: &DirEntry) -> String {
 }
 
 impl SweepStatus {
-    /// Of the sweep in `folder`: it has results or checkpoints, and no comparison yet.
+    /// Of the sweep in `folder`: it has checkpoints, or results and no comparison yet.
     fn read(folder: &Path) -> Option<Self> {
         let names: Vec<String> = std::fs::read_dir(folder).ok()?.flatten().map(|entry| name_of(&entry)).collect();
-        let is_finished = comparison(folder).exists();
         let count = |ending: &str| names.iter().filter(|name| name.ends_with(ending)).count();
         let (variants, begun) = (count(".h5"), count(".h5.part"));
-        (!is_finished && variants + begun > 0).then(|| Self { folder: folder.to_owned(), variants })
+        let is_unfinished = begun > 0 || (variants > 0 && !comparison(folder).exists());
+        is_unfinished.then(|| Self { folder: folder.to_owned(), variants })
     }
 }
 

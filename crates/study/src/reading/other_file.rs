@@ -112,8 +112,9 @@ const HEAD_LINES: usize = 20;
 
 /// Whether a line has the columns that every manifest has.
 fn is_header_of_manifest(line: &[u8]) -> bool {
+    let line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line);
     let has = |name: &[u8]| line.split(|byte| b",;\t\r\"".contains(byte)).any(|found| found == name);
-    has(b"record_id") && has(b"file_h1")
+    has(b"record_id") && has(b"file_h1") && has(b"file_h2")
 }
 
 /// Whether the first line has nothing but numbers, as columns of samples have, and no TOML.

@@ -72,11 +72,11 @@ pub(super) fn read_file(
         }
         Err(error) => error,
     };
+    let text = table_text(path)?;
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         let reason = "is TOML, not a hazard curve: give a curve file; `uplift check` reads those of a study";
         return Err(JobError::input(format!("{}: {reason}", path.display())).into());
     }
-    let text = table_text(path)?;
     // what looks like an export but cannot be read as one is reported as such
     let begins = text.trim_start_matches('\u{feff}').trim_start();
     let an_export =

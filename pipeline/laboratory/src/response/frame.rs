@@ -272,10 +272,11 @@ fn notes(
         );
     }
     let is_beyond = |event: &FrameEvent| matches!(event.event, EventKind::TendonYields | EventKind::TendonFails);
-    if let Some(first) = runs.iter().flat_map(|run| &run.events).find(|event| is_beyond(event)) {
+    let beyond = runs.iter().flat_map(|run| &run.events).filter(|event| is_beyond(event)).map(|event| event.time_s);
+    if let Some(first_s) = beyond.reduce(f64::min) {
         notes.push(format!(
-            "the tendons stay elastic in this model: from {:.4} s on, beyond their yield, the response is not reliable",
-            first.time_s
+            "tendons stay elastic in this model: from {first_s:.4} s on they are beyond yield, and the response is not \
+             reliable"
         ));
     }
     let of = |component: &ShakenComponent| (component.shaken_by.samples, component.shaken_by.dt_s.to_bits());

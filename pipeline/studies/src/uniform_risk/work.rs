@@ -80,8 +80,7 @@ impl Inputs {
     }
 }
 
-/// The hazard of a study, unless it cannot be read: then the mistakes of the records are said with it, so that nobody
-/// mends the one to be told of the other.
+/// The hazard of a study. Where it cannot be read, mistakes of the records are reported with it, all at once.
 ///
 /// # Errors
 /// Hazard curves that cannot be used.

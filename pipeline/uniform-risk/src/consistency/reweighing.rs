@@ -1,20 +1,17 @@
 //! The spectra of a repaired set for other samples of its records: each gets weights of its own, solved again.
 
 use rayon::prelude::*;
-use uplift_bootstrap::weighted_replicates;
+use uplift_bootstrap::{SORTED_AT_ONCE, weighted_replicates};
 use uplift_consistency::{Exponents, Repaired, Scratch, Solver};
 use uplift_hazard::HazardCurve;
 use uplift_ida::Watch;
 use uplift_job::JobError;
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
-use uplift_risk::{PooledDemand, REPLICATES_AT_ONCE, RecordSample, RiskCurve, RunWeights};
+use uplift_risk::{PooledDemand, RecordSample, RiskCurve, RunWeights};
 
 use super::{BranchFindings, Finding, Question};
 use crate::error::UniformRiskError;
-
-/// Samples that a thread weighs before another look at whoever may stop it.
-const PORTION: usize = 8 * REPLICATES_AT_ONCE;
 
 /// The repaired analyses of a result, with all that weighs their records anew.
 pub struct Reweighing {
@@ -168,7 +165,8 @@ impl<'a> RepairedAnalysis<'a> {
             watch.finished(samples.len() as u64);
             Ok(done)
         };
-        let portions: Vec<Reweighed> = samples.par_chunks(PORTION).map(of_portion).collect::<Result<_, _>>()?;
+        // after each a thread looks at whoever may stop it
+        let portions: Vec<Reweighed> = samples.par_chunks(SORTED_AT_ONCE).map(of_portion).collect::<Result<_, _>>()?;
         Ok(Reweighed::joined(portions, demands.len() * targets_per_year.len()))
     }
 }
