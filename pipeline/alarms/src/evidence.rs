@@ -58,8 +58,8 @@ impl Scope {
 }
 
 /// `Athens, PGV, 2 %`.
-pub fn spectrum_name(site: &str, measure: IntensityMeasure, (poe, years): (f64, f64)) -> String {
-    format!("{site}, {}, {}", measure.label(), risk_name(poe, years))
+pub fn spectrum_name(site: &str, measure: IntensityMeasure, risk: &str) -> String {
+    format!("{site}, {}, {risk}", measure.label())
 }
 
 /// One spectrum within a scope.
@@ -129,7 +129,7 @@ impl Evidence {
 
     /// `Athens, PGV, 2 %`.
     pub(super) fn name(&self, site: usize, measure: IntensityMeasure, poe: usize) -> String {
-        format!("{}, {}, {}", self.spectra.sites[site], measure.label(), self.risk(poe))
+        spectrum_name(&self.spectra.sites[site], measure, &self.risk(poe))
     }
 
     /// `2 %`, or `2 % in 100 years` where other years are asked for than those of the study.

@@ -274,11 +274,23 @@ impl SiteReader<'_> {
         Ok(ReadCurve { curve: read.curve, checksum, dropped_certain: read.dropped_certain })
     }
 
-    /// The smallest rate that the study asks for, 1/yr; none is infinite.
-    fn least_rate_per_year(&self) -> f64 {
+    /// What to do about a curve that is shorter than the levels, which go up to `most`, beside writing the `levels`
+    /// that it covers: the first word, and the rest.
+    fn remedy(&self, curve: &HazardCurve, most: f64, levels: &str) -> (&'static str, String) {
         let risk = &self.study.risk;
         let rates = risk.poe.iter().filter_map(|&poe| rate_from_probability(poe, risk.years).ok());
-        rates.fold(f64::INFINITY, f64::min)
+        let (end, least_per_year) = (curve.last(), rates.fold(f64::INFINITY, f64::min));
+        // levels up to there would leave out most of the risk
+        if most > end.im && end.maf > least_per_year {
+            let rest = format!(
+                "a longer curve, or risk.extrapolate = \"loglog\": this one ends at {} per year, and the study asks \
+                 for {}",
+                rate(end.maf),
+                rate(least_per_year)
+            );
+            return ("Use", rest);
+        }
+        ("In", format!("{levels}. Or use a longer curve, or risk.extrapolate = \"loglog\""))
     }
 
     fn weights(
@@ -318,28 +330,7 @@ impl SiteReader<'_> {
                 return format!("{name}: {reason}{dropped}");
             };
             let (section, key) = levels_place(self.measure);
-            // levels up to there would leave out most of the risk
-            let least_per_year = self.least_rate_per_year();
-            let is_too_short = most > last && curve.last().maf > least_per_year;
-            let (so, remedy) = if is_too_short {
-                let rates = [curve.last().maf, least_per_year].map(rate);
-                (
-                    "Use",
-                    format!(
-                        "a longer curve, or risk.extrapolate = \"loglog\": this one ends at {} per year, and the study \
-                         asks for {}",
-                        rates[0], rates[1]
-                    ),
-                )
-            } else {
-                let levels = within.levels.to_string();
-                (
-                    "In",
-                    format!(
-                        "[{section}] write: {key} = {levels}. Or use a longer curve, or risk.extrapolate = \"loglog\""
-                    ),
-                )
-            };
+            let (so, remedy) = self.remedy(curve, most, &format!("[{section}] write: {key} = {}", within.levels));
             let therefore = usual_top_level(self.measure)
                 .and_then(|(_, usual)| usual.unlikely("its last level", last))
                 .map_or_else(

@@ -156,7 +156,7 @@ fn of_ends(study: &UniformRiskStudy, measure: &MeasurePlan, spectra: &[Tails<'_>
             extrapolate: study.risk.extrapolate,
             target_per_year: rate_from_probability(tails.poe, study.risk.years)?,
         };
-        let name = spectrum_name(&tails.site.site, measure.measure, (tails.poe, study.risk.years));
+        let name = spectrum_name(&tails.site.site, measure.measure, &risk_name(tails.poe, study.risk.years));
         cases.lower.extend(below_first_case((measure, curve), &name, &tails.lower));
         cases.upper.extend(end.case(&name, &tails.upper)?);
     }
