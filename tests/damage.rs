@@ -222,13 +222,43 @@ fn torture_full_disks() {
             Some(0) => written += 1,
             Some(4) => {
                 failed += 1;
-                assert_eq!(std::fs::read(&path).unwrap(), sound, "{blocks} blocks: {said}");
+                // the new result, where only its tables found no room
+                let is_kept = std::fs::read(&path).unwrap() == sound || said.contains("r.h5 is whole");
+                assert!(is_kept, "{blocks} blocks: {said}");
             }
             code => panic!("{blocks} blocks: {code:?} {said}"),
         }
     }
-    println!("330 full disks: {failed} failed and kept the earlier result, {written} had room");
+    println!("330 full disks: {failed} failed and kept a whole result, {written} had room");
     assert!(failed > 50 && written > 50, "{failed} failed, {written} had room");
+}
+
+/// A disk with room for the result but not for its table: the result is there, and what writes the table is said and
+/// computes nothing anew.
+#[cfg(unix)]
+#[test]
+fn a_result_without_room_for_its_tables_is_whole() {
+    let (study, _) = study_with_result();
+    let size = |name: &str| std::fs::metadata(study.path().join(name)).unwrap().len();
+    let [result, table] = ["r.h5", "r.urs.csv"].map(size);
+    assert!(table > result + 8192, "{table} and {result} bytes");
+    // between the two, as the shell counts
+    let blocks = u64::midpoint(table, result) / 512;
+    let limit = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" run study.toml -o r.h5");
+    for name in ["r.h5", "r.urs.csv"] {
+        std::fs::remove_file(study.path().join(name)).unwrap();
+    }
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-c", &limit]).arg(command(study.path()).get_program()).current_dir(study.path());
+    let done = shell.env("UPLIFT_CACHE", "").env("UPLIFT_LIMITS", "warn").output().unwrap();
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert_eq!(done.status.code(), Some(4), "{said}");
+    assert!(said.contains("r.h5 is whole: --again writes") && said.contains("r.urs.csv: cannot write"), "{said}");
+    study.uplift(&["verify", "r.h5"]).ok();
+
+    let again = study.uplift(&["run", "study.toml", "-o", "r.h5", "--again"]).ok();
+    assert!(again.stderr.contains("26,748 of 26,748 analyses resumed"), "{}", again.stderr);
+    assert!(!study.path().join("r.part.h5").exists() && study.path().join("r.urs.csv").exists());
 }
 
 /// A file may bear a seal and yet be one from which HDF5 does not return (docs/testing.md): `verify` gives up in time.
@@ -244,7 +274,7 @@ fn torture_a_seal_over_what_hdf5_cannot_read() {
     let seal = uplift_labelled::hexadecimal(&Sha256::digest(&bytes));
     bytes.extend(format!("\nuplift: SHA-256 of everything before this line: {seal}\n").into_bytes());
     std::fs::write(study.path().join("r.h5"), &bytes).unwrap();
-    study.uplift(&["verify", "r.h5"]).fails(4, &["r.h5: HDF5 has not read its arrays within 60 s"]);
+    study.uplift(&["verify", "r.h5"]).fails(4, &["r.h5 is damaged: HDF5 has not read its arrays within 60 s"]);
 }
 
 /// The checkpoint of a bootstrap that was interrupted, damaged in each of `flips` copies: the bands that are made of it
