@@ -35,6 +35,8 @@ pub struct Unlikely {
     pub value: f64,
     /// What is usual.
     pub usual: Range,
+    /// Of what is no input itself, the inputs that it follows from: `width_m or height_m`.
+    pub inputs: Option<&'static str>,
 }
 
 impl Range {
@@ -53,14 +55,23 @@ impl Range {
 
     /// What is to be said of `value` where this is the usual range and it lies outside.
     pub fn unlikely(&self, name: &'static str, value: f64) -> Option<Unlikely> {
-        (!self.contains(value)).then_some(Unlikely { name, value, usual: *self })
+        (!self.contains(value)).then_some(Unlikely { name, value, usual: *self, inputs: None })
     }
 }
 
 impl Unlikely {
+    /// The same of a number that nobody gives, but that follows from `inputs`: these can be corrected.
+    #[must_use]
+    pub fn from_inputs(self, inputs: &'static str) -> Self {
+        Self { inputs: Some(inputs), ..self }
+    }
+
     /// `correct gravity_m_s2, or leave it if it is meant`; of `the largest of strengths.values` and of `mass_kg over a
     /// volume` the key alone.
     pub fn what_to_do(&self) -> String {
+        if let Some(inputs) = self.inputs {
+            return format!("correct {inputs}, or leave them if they are meant");
+        }
         let key = self.name.rsplit(" of ").next().unwrap_or(self.name);
         let key = key.split(" over ").next().unwrap_or(key);
         format!("correct {key}, or leave it if it is meant")
@@ -86,7 +97,7 @@ impl std::error::Error for Implausible {}
 
 impl fmt::Display for Unlikely {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { name, value, usual } = self;
+        let Self { name, value, usual, .. } = self;
         write!(formatter, "{name} is {}{}; usual is {usual}", short_number(*value), after_value(usual.unit))
     }
 }
@@ -127,6 +138,13 @@ mod tests {
             let told = RANGE.unlikely(name, 0.1).map(|found| found.what_to_do());
             assert_eq!(told, Some(format!("correct {key}, or leave it if it is meant")));
         }
+    }
+
+    #[test]
+    fn what_is_no_input_is_not_to_be_corrected() {
+        let found = RANGE.unlikely("the rotation", 0.1).map(|found| found.from_inputs("width_m or height_m"));
+        let told = found.map(|found| found.what_to_do());
+        assert_eq!(told.as_deref(), Some("correct width_m or height_m, or leave them if they are meant"));
     }
 
     #[test]

@@ -43,7 +43,7 @@ fn wider_than_tall(structure: &Structure) -> Option<Alarm> {
         _ => false,
     };
     let what = structure.system.warnings().iter().find(is_wide)?;
-    let what_to_do = "Correct the width and the height, or leave them if they are meant";
+    let what_to_do = "Correct width and height if they are exchanged";
     Some(Alarm::new(
         Severity::Mistake,
         "unlikely-number",

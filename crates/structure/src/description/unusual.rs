@@ -11,7 +11,7 @@ use super::{Kind, StructureDescription};
 pub(super) fn unlikely(of: &StructureDescription) -> Vec<Unlikely> {
     // what may be absent is no mistake of unit
     let given = |value: Option<f64>| value.filter(|value| *value > 0.0);
-    let quantities: [(&'static str, Option<f64>, Range); 15] = [
+    let quantities: [(&'static str, Option<f64>, Range); 14] = [
         ("width_m", of.width_m, USUAL_LENGTH),
         ("height_m", of.height_m, USUAL_LENGTH),
         ("centre_height_m", of.centre_height_m, USUAL_LENGTH),
@@ -26,13 +26,16 @@ pub(super) fn unlikely(of: &StructureDescription) -> Vec<Unlikely> {
         ("moment_of_inertia_kg_m2 over mass_kg × R²", inertia_ratio(of), USUAL_INERTIA),
         ("gravity_m_s2", of.gravity_m_s2, USUAL_GRAVITY),
         ("restitution", of.restitution, USUAL_RESTITUTION),
-        ("the rotation at the displacement capacity (over the height)", rotation_rad(of), USUAL_ROTATION),
     ];
     let mut found: Vec<Unlikely> =
         quantities.into_iter().filter_map(|(name, value, usual)| usual.unlikely(name, value?)).collect();
     found.extend(
         deck_share(of).and_then(|share| USUAL_DECK.unlikely("deck_mass_kg over the mass of the columns", share)),
     );
+    found.extend(rotation_rad(of).and_then(|(rotation_rad, inputs)| {
+        let found = USUAL_ROTATION.unlikely("the rotation at the displacement capacity", rotation_rad)?;
+        Some(found.from_inputs(inputs))
+    }));
     found.extend(bulk_kg_m3(of).and_then(|(name, bulk)| USUAL_BULK.unlikely(name, bulk)));
     found
 }
@@ -70,10 +73,12 @@ fn bulk_kg_m3(of: &StructureDescription) -> Option<(&'static str, f64)> {
 }
 
 /// The rotation at which a frame with tendons or curved ends has lost its stability, rad. A body that is held by
-/// nothing but its weight has its slenderness for it, and is judged by that.
-fn rotation_rad(of: &StructureDescription) -> Option<f64> {
-    if !matches!(of.kind, Kind::RestrainedFrame | Kind::CurvedFrame) {
-        return None;
-    }
-    Some(three_digits(of.resolve().ok()?.capacity_m()? / of.geometry().ok()?.height_m()))
+/// nothing but its weight has its slenderness for it, and is judged by that. With the inputs that it follows from.
+fn rotation_rad(of: &StructureDescription) -> Option<(f64, &'static str)> {
+    let inputs = match of.kind {
+        Kind::RestrainedFrame => "width_m, height_m or the tendons",
+        Kind::CurvedFrame => "curvature_radius_m, extended_width_m or height_m",
+        Kind::PointMass | Kind::Block | Kind::Body | Kind::Frame => return None,
+    };
+    Some((three_digits(of.resolve().ok()?.capacity_m()? / of.geometry().ok()?.height_m()), inputs))
 }
