@@ -59,9 +59,10 @@ pub(crate) use validate::print_validation;
 pub(crate) use verify::print_verified;
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::Serialize;
+pub(crate) use uplift::text::{shown_path, typed_path};
 
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output, visible_json};
@@ -89,15 +90,3 @@ fn print_more(out: &mut impl Write, terminal: &Terminal) -> Result<(), CommandEr
 
 /// What an asterisk says of a number of displacement spectra and their designs.
 const ROUNDING_DECIDES: &str = "*: the last digits are not significant (rounding, docs/method.md, section 1.5)";
-
-/// A path as short as the user would type it.
-pub(crate) fn shown_path(path: &Path) -> &Path {
-    std::env::current_dir().ok().and_then(|folder| path.strip_prefix(folder).ok()).unwrap_or(path)
-}
-
-/// The same as a shell takes it.
-pub(crate) fn typed_path(path: &Path) -> String {
-    let shown = shown_path(path).display().to_string();
-    let is_plain = shown.chars().all(|own| own.is_alphanumeric() || "/._-+,@:\\".contains(own));
-    if is_plain { shown } else { format!("'{}'", shown.replace('\'', r"'\''")) }
-}

@@ -14,7 +14,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     for consistency in &evidence.consistency {
         for (site, name) in evidence.spectra.sites.iter().enumerate() {
             if let Some(times) = missed(evidence, scope, consistency, site) {
-                cases.push(case(consistency, site, name, times));
+                cases.push(case(evidence, consistency, (site, name), times));
             }
         }
     }
@@ -66,7 +66,7 @@ pub(super) fn without_repair(evidence: &Evidence, scope: &Scope) -> Option<Alarm
                     badness: consistency.max[site],
                     subject: format!("{name} by {}", consistency.scaled_to.label()),
                     what: "no weights match both hazard curves: no repaired spectrum".to_owned(),
-                    what_to_do: "See why: uplift consistency RESULT --details".to_owned(),
+                    what_to_do: format!("See why: uplift consistency {} --details", evidence.result),
                 });
             }
         }
@@ -108,8 +108,8 @@ pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alar
 }
 
 /// `times` the level of the other measure do the records bring.
-fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) -> Case {
-    let StoredConsistency { scaled_to, other, u_m, .. } = consistency;
+fn case(evidence: &Evidence, consistency: &StoredConsistency, (site, name): (usize, &str), times: f64) -> Case {
+    let StoredConsistency { scaled_to, other, .. } = consistency;
     let (scaled_to, other) = (scaled_to.label(), other.label());
     let is_repaired = consistency.is_repaired(site);
     Case {
@@ -117,13 +117,29 @@ fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) ->
         badness: times.ln().abs(),
         subject: format!("{name} by {scaled_to}"),
         what: format!("scaled records have {} times the site's {other}", in_words(consistency, site, times)),
-        what_to_do: match u_m {
-            Some(_) if is_repaired => {
-                let key = consistency.scaled_to.key();
-                format!("Use: uplift spectrum RESULT --repaired --measure {key}")
-            }
-            Some(_) => "See what is missing: uplift consistency RESULT --details".to_owned(),
-            None => "Repair: uplift consistency RESULT --repair".to_owned(),
-        },
+        what_to_do: remedy(&evidence.result, consistency, site),
     }
+}
+
+/// What mends the spectrum of a site whose records miss its hazard of the other measure.
+fn remedy(result: &str, consistency: &StoredConsistency, site: usize) -> String {
+    match &consistency.u_m {
+        Some(_) if consistency.is_repaired(site) => {
+            let key = consistency.scaled_to.key();
+            format!("Use: uplift spectrum {result} --repaired --measure {key}")
+        }
+        Some(_) => format!("See what is missing: uplift consistency {result} --details"),
+        None => format!("Repair: uplift consistency {result} --repair"),
+    }
+}
+
+/// The same where a spectrum by PGV and one by PGA disagree because the records miss the hazard at a `site`; none where
+/// they have it by both measures.
+pub(super) fn remedy_of_gap(evidence: &Evidence, site: usize) -> Option<String> {
+    let misses =
+        |of: &&StoredConsistency| of.bias[site].is_finite() && of.verdict[site].as_str() == Verdict::Inconsistent.key();
+    let worst = |of: &&StoredConsistency| of.bias[site].ln().abs();
+    let all = evidence.consistency.iter().filter(misses);
+    let consistency = all.max_by(|a, b| worst(a).total_cmp(&worst(b)))?;
+    Some(remedy(&evidence.result, consistency, site))
 }

@@ -1,7 +1,7 @@
 //! What alarms are raised from: the spectra of a result with all that the file knows of them.
 
 use uplift_hazard::{HazardCurve, rate_from_probability};
-use uplift_job::text::{risk_in_words, risk_name};
+use uplift_job::text::{risk_in_words, risk_name, typed_path};
 use uplift_motion::IntensityMeasure;
 use uplift_result::{MeasureSpectra, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredSpectra};
 use uplift_study::UniformRiskStudy;
@@ -11,6 +11,8 @@ use crate::error::AlarmsError;
 /// The spectra of a result, its study, hazard and bands.
 #[derive(Debug, Clone)]
 pub struct Evidence {
+    /// The result, as it is typed in a command.
+    pub(super) result: String,
     pub(crate) study: UniformRiskStudy,
     pub(crate) spectra: StoredSpectra,
     /// By measure, as the spectra; weighted curves of the sites alone that are asked about.
@@ -96,6 +98,7 @@ impl Evidence {
             bands => (bands, all()),
         };
         Ok(Self {
+            result: typed_path(file.path()),
             study,
             spectra,
             other_curves,

@@ -3,8 +3,8 @@
 
 use uplift_motion::IntensityMeasure;
 
-use super::curves;
 use super::evidence::{Evidence, Scope};
+use super::{consistency, curves};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
 use uplift_job::text::{per_cent, rounded, short, two_digits};
@@ -66,13 +66,13 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
             let Some(gap) = largest_gap(one, other, &strengths) else { continue };
             let banded = one.band_m.is_some() && other.band_m.is_some();
             let subject = format!("{name}, {}", evidence.risk(poe));
-            cases.push(case(evidence, subject, gap, banded));
+            cases.push(case(evidence, (site, subject), gap, banded));
         }
     }
     Alarm::from_cases("measures-disagree", cases)
 }
 
-fn case(evidence: &Evidence, subject: String, gap: Gap, banded: bool) -> Case {
+fn case(evidence: &Evidence, (site, subject): (usize, String), gap: Gap, banded: bool) -> Case {
     let times = gap.ratio.max(1.0 / gap.ratio);
     let [larger, smaller] = if gap.ratio > 1.0 { ["PGA", "PGV"] } else { ["PGV", "PGA"] };
     let allowed = match &evidence.bands {
@@ -88,7 +88,8 @@ fn case(evidence: &Evidence, subject: String, gap: Gap, banded: bool) -> Case {
             if times < 1e6 { two_digits(times) } else { short(times) },
             rounded(evidence.spectra.strengths[gap.strength], 4)
         ),
-        what_to_do: "Choose between them: uplift measures RESULT".to_owned(),
+        what_to_do: consistency::remedy_of_gap(evidence, site)
+            .unwrap_or_else(|| format!("Choose between them: uplift measures {}", evidence.result)),
     }
 }
 

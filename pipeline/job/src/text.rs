@@ -2,10 +2,12 @@
 
 mod risk;
 mod table;
+mod typed;
 mod visible;
 
 pub use risk::{kind_of_risks, per_cent, risk_in_words, risk_name, risk_option, risks_in_words, rounded, share};
 pub use table::{Table, TableOf};
+pub use typed::{shown_path, typed, typed_path};
 pub use uplift_plausible::counted;
 pub use visible::{is_obeyed, one_line, visible};
 
