@@ -2,7 +2,7 @@
 
 use uplift_inputs::at_level::{far_factors, relative_factors};
 use uplift_job::alarm::{Alarm, Severity};
-use uplift_job::text::records_in_words;
+use uplift_job::text::{counted, records_in_words};
 use uplift_motion::IntensityMeasure;
 use uplift_result::{Kind, ResultFile};
 use uplift_risk::FEW_RECORDS;
@@ -131,7 +131,11 @@ pub fn few(records: usize, pairs: usize) -> Option<Alarm> {
             "Few records",
             format!(
                 "{are} ({FEW_RECORDS} advised)",
-                are = if pairs < records { format!("{pairs} pairs, {records} records") } else { records.to_string() }
+                are = if pairs < records {
+                    format!("{}, {}", counted(pairs, "pair"), counted(records, "record"))
+                } else {
+                    records.to_string()
+                }
             ),
             "",
         )

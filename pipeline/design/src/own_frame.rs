@@ -13,7 +13,7 @@ use uplift_frame::{ColumnShape, Model, RockingFrame};
 use uplift_ida::{Peaks, Plan, ShakenFrame, StripeRecord, System};
 use uplift_inputs::{Record, RecordSet, rocking_frame};
 use uplift_job::checksum::motion_key;
-use uplift_job::text::thousands;
+use uplift_job::text::{cost_in_words, counted};
 use uplift_motion::{Accelerogram, IntensityMeasure, RecordPair};
 use uplift_risk::{PooledDemand, SiteWeights, StripeWeights};
 use uplift_statics::RestrainedColumns;
@@ -282,11 +282,11 @@ impl OwnFrame {
         let of = |plan: Plan<'a>, what: &str, motions: &'a [String]| {
             let label = format!("{}, {}", measure.label(), plan.systems().first().map_or("", System::kind));
             let axes = plan.axes();
-            let text =
-                format!("{} {what} x {} levels = {} analyses", axes.motions, axes.scales, thousands(plan.analyses()));
+            let factors = [counted(axes.motions, what), counted(axes.scales, "level")];
+            let text = cost_in_words(&factors, plan.analyses());
             LabelledPlan { remark: Some((label.clone(), text)), label, plan, motions, known: None }
         };
-        Ok([of(wobbling, "pairs", &self.pairs.keys), of(planar, "records", &records.motions)])
+        Ok([of(wobbling, "pair", &self.pairs.keys), of(planar, "record", &records.motions)])
     }
 
     /// What the stripes of [`plans`](Self::plans) came to, of the wobbling model alone where the planar one was not

@@ -27,7 +27,7 @@ use branches::Branches;
 use uplift_engine::analysis::LabelledPlan;
 use uplift_job::JobError;
 use uplift_job::alarm::Severity;
-use uplift_job::text::thousands;
+use uplift_job::text::{counted, thousands};
 use uplift_uniform_risk::{Stripes, at_most_per_year, plan_stripes};
 
 /// The structures that one may be, as the oscillators that are shaken.
@@ -131,10 +131,10 @@ impl<'a> Uncertain<'a> {
         let axes = plan.axes();
         let whose = if self.branches.is_none() { "structures of each record" } else { "structures" };
         let cost = format!(
-            "{label}: {} {whose} x {} records x {} levels, {} analyses",
+            "{label}: {} {whose} x {} x {}, {} analyses",
             thousands(axes.systems as u64),
-            axes.motions,
-            axes.scales,
+            counted(axes.motions, "record"),
+            counted(axes.scales, "level"),
             thousands(plan.analyses())
         );
         let remark = Some(("uncertainty".to_owned(), cost));

@@ -147,9 +147,16 @@ pub fn bytes(number: u64) -> String {
     }
 }
 
-/// "60 records of 30 pairs", where pairs have several; else "30 records".
+/// "60 records of 30 pairs", where pairs have several; else "30 records", "1 record".
 pub fn records_in_words(records: usize, pairs: usize) -> String {
-    if pairs < records { format!("{records} records of {pairs} pairs") } else { format!("{records} records") }
+    let of_pairs = if pairs < records { format!(" of {}", counted(pairs, "pair")) } else { String::new() };
+    counted(records, "record") + &of_pairs
+}
+
+/// What a plan costs: `30 pairs x 26 levels = 780 analyses`.
+pub fn cost_in_words(factors: &[String], analyses: u64) -> String {
+    let plural = if analyses == 1 { "analysis" } else { "analyses" };
+    format!("{} = {} {plural}", factors.join(" x "), thousands(analyses))
 }
 
 /// A whole number with its thousands set apart.
@@ -174,6 +181,15 @@ mod tests {
         assert_eq!(thousands(2_370_375), "2,370,375");
         assert_eq!(thousands(12), "12");
         assert_eq!(metres(f64::INFINITY), "censored");
+    }
+
+    #[test]
+    fn one_is_no_plural() {
+        let told = [(60, 30), (30, 30), (2, 1), (1, 1)].map(|(records, pairs)| records_in_words(records, pairs));
+        assert_eq!(told, ["60 records of 30 pairs", "30 records", "2 records of 1 pair", "1 record"]);
+        let factors = |counts: [usize; 2]| [counted(counts[0], "pair"), counted(counts[1], "level")];
+        assert_eq!(cost_in_words(&factors([30, 26]), 780), "30 pairs x 26 levels = 780 analyses");
+        assert_eq!(cost_in_words(&factors([1, 1]), 1), "1 pair x 1 level = 1 analysis");
     }
 
     #[test]

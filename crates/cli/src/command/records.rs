@@ -82,7 +82,7 @@ fn import(options: &ImportOptions, terminal: &Terminal) -> Result<(), CommandErr
 fn synthesize(options: &SynthesizeOptions, terminal: &Terminal) -> Result<(), CommandError> {
     let report = records::synthesize(options, terminal)?;
     if !terminal.is_quiet() {
-        writeln!(output(), "{} synthetic pairs: {}", report.pairs, report.manifest.display())?;
+        writeln!(output(), "{}: {}", counted(report.pairs, "synthetic pair"), report.manifest.display())?;
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use uplift::response::{FrameResponseReport, FrameRun};
-use uplift::text::three_digits;
+use uplift::text::{counted, three_digits};
 use uplift_frame::Model;
 
 use super::alarms::print_warnings;
@@ -31,7 +31,7 @@ pub(crate) fn print_frame_response(
     let system = if report.kind == BLOCK {
         format!("block     {what}: {height_m} m high")
     } else {
-        format!("frame     {what}: {} columns, 2h {height_m} m", report.columns)
+        format!("frame     {what}: {}, 2h {height_m} m", counted(report.columns as usize, "column"))
     };
     writeln!(
         out,
@@ -83,7 +83,7 @@ fn print_run(out: &mut impl Write, report: &FrameResponseReport, run: &FrameRun)
     if is_block {
         forces.push(format!("base shear {reaction_kn:.3} kN"));
     } else {
-        forces.push(format!("base shear {shear_kn:.3} kN, with the columns {reaction_kn:.3} kN"));
+        forces.push(format!("base shear {shear_kn:.3} kN by the deck, {reaction_kn:.3} kN by deck and columns"));
     }
     if let Some(tendon_n) = run.peak_tendon_n.filter(|tendon_n| tendon_n.is_finite()) {
         forces.push(format!("tendon {:.3} kN", 1e-3 * tendon_n));

@@ -90,7 +90,7 @@ fn print_best(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), Com
     )?;
     let table = Table::of(report.stacks.iter().take(3))
         .left("stack", stack_name)
-        .right("miss, %", |stack| format!("{:+.1}", 100.0 * stack.miss))
+        .right("off target, %", |stack| format!("{:+.1}", 100.0 * stack.miss))
         .right("T, kN", |stack| kilo(stack.tendon_n))
         .right("of stroke, %", |stack| format!("{:.0}", 100.0 * stack.stroke_share))
         .right("u_cap, m", |stack| metres_or("none", stack.capacity_m));
@@ -158,7 +158,7 @@ fn stacks(stacks: &[Candidate]) -> TableOf<&Candidate> {
     };
     Table::of(stacks)
         .left("stack", stack_name)
-        .right("miss, %", |stack| format!("{:+.1}", 100.0 * stack.miss))
+        .right("off target, %", |stack| format!("{:+.1}", 100.0 * stack.miss))
         .right("secant, kN/m", |stack| format!("{:.0}", 1e-3 * stack.secant_n_m))
         .right("u, m", |stack| format!("{:.4}", stack.at_m))
         .right("T, kN", |stack| kilo(stack.tendon_n))

@@ -5,7 +5,7 @@ use uplift_frame::{ColumnShape, FrameError, Model, RockingFrame};
 use uplift_ida::{Peaks, StripeRecord, System};
 use uplift_inputs::rocking_frame;
 use uplift_job::checksum::motion_key;
-use uplift_job::text::{counted, thousands};
+use uplift_job::text::{cost_in_words, counted};
 use uplift_motion::{Component, Direction, Horizontal, RecordPair};
 use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_stripes, shaken_upwards, stripes_of};
@@ -106,7 +106,7 @@ impl FrameAnalysis {
         let (set, at) = (&self.records.set, (plan.measure, &plan.levels[..]));
         let mut plans = Vec::new();
         if !self.wobbling.is_empty() {
-            plans.push(labelled(self.pairs.shaking(set, at, &self.wobbling)?, "pairs", &self.pairs.keys));
+            plans.push(labelled(self.pairs.shaking(set, at, &self.wobbling)?, "pair", &self.pairs.keys));
         }
         let of_pair = |(index, pair): (usize, &'a RecordPair)| {
             let intensity = self.pairs.amplitude(set, plan.measure, index);
@@ -115,13 +115,13 @@ impl FrameAnalysis {
         let components = self.pairs.all.iter().enumerate().flat_map(of_pair).collect();
         let stripes = stripes_of(at, components, &self.planar, true)?;
         let stripes = shaken_upwards(stripes, self.pairs.verticals(set, 2))?;
-        plans.push(labelled(stripes, "components", &self.component_keys));
+        plans.push(labelled(stripes, "component", &self.component_keys));
         if self.is_rotated() {
             let stripes = in_the_plane_of_records(set, at, &self.planar)?;
-            plans.push(labelled(stripes, "rotated records", &self.records.motions));
+            plans.push(labelled(stripes, "rotated record", &self.records.motions));
         }
         let oscillators = plan_stripes(&self.study, plan, &self.records.set, &self.oscillators)?;
-        plans.push(labelled(oscillators, "records", &self.records.motions));
+        plans.push(labelled(oscillators, "record", &self.records.motions));
         Ok(Work::new(title, plans))
     }
 
@@ -170,12 +170,7 @@ impl FrameAnalysis {
 fn labelled<'a>(plan: uplift_ida::Plan<'a>, what: &str, motions: &'a [String]) -> LabelledPlan<'a> {
     let label = plan.systems().first().map_or("", System::kind).to_owned();
     let axes = plan.axes();
-    let text = format!(
-        "{} {what} x {} x {} levels = {} analyses",
-        axes.motions,
-        counted(axes.systems, "system"),
-        axes.scales,
-        thousands(plan.analyses())
-    );
+    let factors = [counted(axes.motions, what), counted(axes.systems, "system"), counted(axes.scales, "level")];
+    let text = cost_in_words(&factors, plan.analyses());
     LabelledPlan { remark: Some((label.clone(), text)), label, plan, motions, known: None }
 }

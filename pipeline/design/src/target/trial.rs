@@ -367,9 +367,10 @@ impl<'a> Trials<'a> {
         let (axes, structures) = (plan.axes(), self.per_record());
         let whose = if self.is_of_each_record() { "structures of each record" } else { "structures" };
         Some(format!(
-            "{values} values x {structures} {whose} x {} records x {} levels, {} analyses",
-            axes.motions,
-            axes.scales,
+            "{} x {structures} {whose} x {} x {}, {} analyses",
+            counted(values, "value"),
+            counted(axes.motions, "record"),
+            counted(axes.scales, "level"),
             thousands(plan.analyses())
         ))
     }

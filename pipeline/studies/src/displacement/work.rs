@@ -7,7 +7,7 @@ use uplift_ida::{Shard, System};
 use uplift_inputs::{RecordSets, read_record_sets};
 use uplift_job::checksum::motion_key;
 use uplift_job::events::Events;
-use uplift_job::text::thousands;
+use uplift_job::text::{cost_in_words, counted};
 use uplift_spectra::{MotionSet, NUDGES};
 use uplift_study::DisplacementStudy;
 
@@ -68,13 +68,12 @@ impl KeyedMotions<'_> {
         let mut plans = Vec::new();
         for (set, motions) in self.motions.iter().zip(&self.keys) {
             let plan = set.plan(&ways, self.structures, with_free_vibration(study))?;
-            let text = format!(
-                "{} motions x {} scalings x {} structures = {} analyses",
-                motions.len(),
-                ways.len(),
-                self.structures.len(),
-                thousands(plan.analyses())
-            );
+            let factors = [
+                counted(motions.len(), "motion"),
+                counted(ways.len(), "scaling"),
+                counted(self.structures.len(), "structure"),
+            ];
+            let text = cost_in_words(&factors, plan.analyses());
             let remark = Some((format!("{}:", set.name()), text));
             plans.push(LabelledPlan { label: set.name().to_owned(), remark, plan, motions, known: None });
         }

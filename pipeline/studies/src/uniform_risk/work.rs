@@ -7,7 +7,7 @@ use uplift_engine::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
 use uplift_ida::{Cells, Shard, System};
 use uplift_inputs::{RecordSet, SiteHazard, motion_keys, read_hazard, read_records};
 use uplift_job::events::{Events, Silent};
-use uplift_job::text::thousands;
+use uplift_job::text::{cost_in_words, counted};
 use uplift_job::{JobError, cause};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::{plan_own_stripes, systems_under};
@@ -66,13 +66,12 @@ impl Inputs {
                     format!(" ({} motions x {structures} structures)", self.records.records.len() / structures)
                 }
             };
-            let text = format!(
-                "{} records{structures} x {} strengths x {} levels{own}{azimuths} = {} analyses",
-                self.records.records.len(),
-                study.strengths.len(),
-                measure.levels.len(),
-                thousands(plan.analyses())
-            );
+            let factors = [
+                counted(self.records.records.len(), "record") + &structures,
+                counted(study.strengths.len(), "strength"),
+                counted(measure.levels.len(), "level") + own + &azimuths,
+            ];
+            let text = cost_in_words(&factors, plan.analyses());
             let remark = Some((label.clone(), text));
             plans.push(LabelledPlan { label, remark, plan, motions: &self.motions, known });
         }
