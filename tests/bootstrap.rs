@@ -259,6 +259,15 @@ fn the_quoted_band_is_by_earthquake_where_records_of_one_are_alike() {
     let overturning = |result: &str| study.uplift(&["overturning", "block.toml", "--urs", result, "-q"]).ok().stdout;
     assert!(overturning("r.h5").contains(")†") && overturning("r.h5").contains("\n† band by earthquake\n"));
     assert!(!overturning("s.h5").contains('†'));
+    // so does the design of a frame
+    study.write(
+        "frame.toml",
+        "kind = \"frame\"\ncolumns = 3\nwidth_m = 1\nheight_m = 8\ncolumn_mass_kg = 15e3\ndeck_mass_kg = 400e3\n\
+         column_shape = \"cylinder\"\n",
+    );
+    let design = ["design", "frame.toml", "--urs", "r.h5", "--site", "Here", "-q"];
+    let designed = study.uplift(&design).ok().stdout;
+    assert!(designed.contains(")†") && designed.contains("\n† band by earthquake\n"), "{designed}");
     let warned = study.uplift(&["warnings", "r.h5"]).ok().stdout;
     assert!(warned.contains("Few earthquakes: 4; below 5 the bands are unreliable."), "{warned}");
     // before anything is computed too, and of a sweep where it is so

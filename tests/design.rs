@@ -373,10 +373,11 @@ fn differences_from_the_study_are_reported() {
     );
     let needed_mm = needed_mm("mm; this structure's is ");
     let settings = found["own_oscillator"].as_str().unwrap();
-    assert!(said.contains(&format!("\n          for its own spectrum run the study with {settings}\n")), "{said}");
-    let run = ["run", "study.toml", "-o", "own.h5", "-q"].into_iter().chain(settings.split(' '));
-    study.uplift(&run.collect::<Vec<_>>()).ok();
-    let own = ["design", "other.toml", "--urs", "own.h5", "--spectrum-only", "--json"];
+    // a command that can be pasted, and replaces nothing
+    let command = format!("run study.toml {settings} -o r-other.h5");
+    assert!(said.contains(&format!("\n          for its own spectrum: uplift {command}\n")), "{said}");
+    study.uplift(&command.split(' ').collect::<Vec<_>>()).ok();
+    let own = ["design", "other.toml", "--urs", "r-other.h5", "--spectrum-only", "--json"];
     let own = study.uplift(&own).json();
     assert!(own["own_oscillator"].is_null() && own["other_oscillator"] == false, "{own}");
     for (factor, is_other) in [(1.004, false), (1.02, true)] {

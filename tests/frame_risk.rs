@@ -139,10 +139,16 @@ fn a_design_has_the_frame_beside_its_proxy() {
     let (first, rest) = said.stdout.split_once('\n').unwrap();
     let differ = models[0]["check"]["satisfied"] != design["rules"][0]["from_spectrum"]["satisfied"];
     assert_eq!(first.contains("verdicts differ"), differ, "{first}");
-    assert!(rest.contains("wobbling frame") && rest.contains("\nequal energy† "), "{rest}");
-    assert!(rest.contains("\n† not demand × safety factor: demand rises with capacity\n"), "{rest}");
+    assert!(rest.contains("wobbling frame") && rest.contains("\nequal energy‡ "), "{rest}");
+    assert!(rest.contains("\n‡ demand rises with the required capacity\n") && !rest.contains('†'), "{rest}");
+    // by which measure stands in the first line
+    assert!(first.starts_with("Verdict   free by PGV: "), "{first}");
     let settings = design["own_oscillator"].as_str().unwrap();
-    assert!(rest.contains(&format!("its own: run {settings}\n")), "{rest}");
+    let command = format!("run study.toml {settings} -o r-free.h5");
+    assert!(rest.contains(&format!("          for its own spectrum: uplift {command}\n")), "{rest}");
+    study.uplift(&command.split(' ').collect::<Vec<_>>()).ok();
+    let own = ["design", "free.toml", "--urs", "r-free.h5", "--site", "Here", "--spectrum-only", "--json"];
+    assert_eq!(study.uplift(&own).json()["other_oscillator"], false);
     let sheet = std::fs::read_to_string(study.path().join("s.html")).unwrap();
     assert!(sheet.contains("The wobbling frame itself") && sheet.contains("required capacity, m"), "{sheet}");
 
@@ -166,6 +172,42 @@ fn a_design_has_the_frame_beside_its_proxy() {
     let files = ["r.h5.design-free.shard-1-of-2", "r.h5.design-free.shard-2-of-2"];
     let whole = json(&study, &[&["design", "free.toml", "--shards", files[0], files[1]], &ask[..]].concat());
     assert_eq!(whole["frame"], design["frame"]);
+}
+
+/// A tendon that is taken as elastic pulls a column back from far beyond its capacity. How often it goes there is said
+/// first by every command, and is the same number.
+#[test]
+fn a_column_that_is_pulled_back_is_told_by_its_capacity() {
+    let study = study(STUDY);
+    std::fs::copy(repository().join("configs/structures/column-dr.toml"), study.path().join("dr.toml")).unwrap();
+    let ask = ["dr.toml", "--site", "Here"];
+    let told = |command: &str| {
+        let all = [&[command][..], &ask].concat();
+        (json(&study, &all), study.uplift(&[&all[..], &["--urs", "r.h5", "-q"]].concat()).ok().stdout)
+    };
+    let [(risk, of_risk), (design, of_design), (overturning, of_overturning)] =
+        ["risk", "design", "overturning"].map(told);
+    let passed = &risk["beyond_limit"]["per_year"];
+    assert_eq!(risk["limit"]["event"], "capacity");
+    assert_eq!(risk["limit"]["displacement_m"], risk["structure"]["capacity_m"]);
+    assert!(number(passed) > 2.0 * number(&risk["overturning"]["per_year"]), "{passed} {}", risk["overturning"]);
+    assert_eq!(&design["frame"]["models"][0]["beyond_limit"]["per_year"], passed);
+    assert_eq!(&design["frame"]["models"][0]["beyond_capacity"]["per_year"], passed);
+    let models = overturning["overturning"].as_array().unwrap();
+    let of_model = |name: &str| models.iter().find(|of| of["model"] == name).map(|of| &of["sites"][0]).unwrap();
+    assert_eq!(&of_model("wobbling frame")["beyond_limit"]["per_year"], passed);
+    // like is compared with like: the oscillator at the same displacement
+    let of_proxy = &of_model("oscillator")["beyond_limit"]["per_year"];
+    assert_eq!(&design["frame"]["proxy_beyond_limit"]["per_year"], of_proxy);
+    let rate = format!("{:.1e}", number(passed));
+    assert!(of_risk.contains(&format!("\nLimit        capacity 0.53 m, passed {rate} per year (")), "{of_risk}");
+    let heading = of_design.lines().find(|line| line.starts_with("model")).unwrap();
+    assert!(heading.ends_with("  passes capacity, 1/yr") && of_design.contains(&format!(" {rate} (")), "{of_design}");
+    let first = of_overturning.lines().next().unwrap();
+    assert!(first.starts_with("dr: the wobbling frame passes its limit, capacity 0.53 m, "), "{first}");
+    for event in ["  wobbling frame  passes capacity  ", "                  overturns        "] {
+        assert!(of_overturning.contains(event), "{of_overturning}");
+    }
 }
 
 /// Overturning of the frame is that of `risk`, at every site.

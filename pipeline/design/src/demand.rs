@@ -8,6 +8,7 @@ use uplift_uniform_risk::{EventRisk, Stripes};
 
 use super::certainty::{DemandBands, Scatter, demand_bands};
 use super::hazard::Hazard;
+use super::limit::{FrameLimit, LimitRisk};
 use super::risk::{OVERTURNING_M, bounded, demand_of, oscillator_capacity_m, risk_of_exceeding};
 use super::sensitivity::{Sensitivity, sensitivity};
 use super::sweep::{OF_STUDY, OWN, Sweep, ZERO_STIFFNESS};
@@ -84,6 +85,16 @@ impl<'a> Shaken<'a> {
     /// How often an oscillator exceeds `threshold_m`.
     fn risk(&self, oscillator: usize, threshold_m: f64) -> Result<EventRisk, DesignError> {
         risk_of_exceeding(&self.demands[oscillator], self.weights, threshold_m, self.years)
+    }
+
+    /// How often the structure's own oscillator moves the structure to `limit`.
+    pub(super) fn beyond_limit(
+        &self,
+        limit: FrameLimit,
+        (hazard, scatter): (&Hazard<'_>, &Scatter),
+    ) -> Result<LimitRisk, DesignError> {
+        let threshold_m = limit.displacement_m / self.system.participation();
+        LimitRisk::new(&self.demands[OWN], (hazard, self.weights.repaired()), scatter, (threshold_m, self.years))
     }
 
     /// Its rate, 1/yr.

@@ -13,6 +13,7 @@ use super::certainty::Bands;
 use super::demand::ExactDemand;
 use super::design::DesignReport;
 use super::frame_risk::{FrameRiskReport, ModelDemand};
+use super::limit::{FrameLimit, LimitEvent};
 use super::overturning::{CollapseReport, OverturningOptions, OverturningReport};
 use super::own_frame::FrameModel;
 use super::target::{TargetBand, TargetOptions, TargetReport};
@@ -47,6 +48,9 @@ impl Question<'_> {
         })
     }
 }
+
+/// What a structure with a capacity does.
+const EXCEEDING: &str = "exceeding the capacity";
 
 /// A number with its band as the records tell it, and again with those of their earthquakes and of the hazard's curves
 /// where these are known.
@@ -147,7 +151,7 @@ impl DesignReport {
                 exact.bands.and_then(|bands| bands.beyond_capacity_per_year),
                 exact.bands.and_then(|bands| bands.overturning_per_year),
             ];
-            rows.extend(exact.beyond_capacity.iter().flat_map(|risk| rate("exceeding the capacity", risk, beyond, at)));
+            rows.extend(exact.beyond_capacity.iter().flat_map(|risk| rate(EXCEEDING, risk, beyond, at)));
             rows.extend(rate("overturning", &exact.overturning, overturning, at));
         }
         rows.extend(self.frame.iter().flat_map(|frame| &frame.models).flat_map(|model| frame_rows(model, at)));
@@ -163,7 +167,7 @@ fn frame_rows(of: &FrameModel, at: [&str; 2]) -> Vec<FindingRow> {
     rows.extend(of.check.map(|check| row("required capacity", check.required_capacity_m)));
     let what = |event: &str| format!("{event}, {}", of.model);
     let beyond = of.bands.and_then(|bands| bands.beyond_capacity_per_year);
-    rows.extend(of.beyond_capacity.iter().flat_map(|risk| rate(&what("exceeding the capacity"), risk, beyond, at)));
+    rows.extend(of.beyond_capacity.iter().flat_map(|risk| rate(&what(EXCEEDING), risk, beyond, at)));
     let overturning = of.bands.and_then(|bands| bands.overturning_per_year);
     rows.extend(rate(&what("overturning"), &of.overturning, overturning, at));
     rows
@@ -200,7 +204,8 @@ impl OverturningReport {
         request.extend(options.restitution.map(|restitution| ("restitution", restitution.to_string())));
         let question =
             Question { inquiry: Inquiry::Overturning, structure, study_digest: &self.source.study_digest, request };
-        let mut rows: Vec<FindingRow> = self.overturning.iter().flat_map(overturning_risks).collect();
+        let mut rows: Vec<FindingRow> =
+            self.overturning.iter().flat_map(|found| overturning_risks(found, self.limit)).collect();
         rows.extend(self.overturning.iter().flat_map(fragility));
         rows.extend(uncertain(self.uncertainty.as_ref()));
         question.answered(rows, self)
@@ -208,11 +213,15 @@ impl OverturningReport {
 }
 
 /// The risk at each site.
-fn overturning_risks(found: &CollapseReport) -> Vec<FindingRow> {
+fn overturning_risks(found: &CollapseReport, limit: Option<FrameLimit>) -> Vec<FindingRow> {
     let mut rows = Vec::new();
     for of in &found.sites {
         let (what, at) = (format!("overturning, {}", found.model), [of.site.as_str(), found.im]);
         rows.extend(rate(&what, &of.risk, of.bands, at));
+        if let (Some(limit), Some(beyond)) = (limit, &of.beyond_limit) {
+            let event = if limit.event == LimitEvent::Capacity { EXCEEDING } else { limit.event.words() };
+            rows.extend(rate(&format!("{event}, {}", found.model), &beyond.risk, beyond.bands, at));
+        }
         rows.extend(of.repaired.iter().flat_map(|risk| rate(&format!("{what}, repaired"), risk, None, at)));
         let row = |rate| FindingRow::new(format!("{what}, lognormal"), rate, "1/yr").at(at[0], at[1]);
         rows.extend(of.lognormal_per_year.iter().flat_map(|rate| banded(&row(*rate), of.lognormal_bands)));

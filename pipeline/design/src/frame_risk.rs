@@ -30,6 +30,7 @@ use super::certainty::{Bands, Scatter, rate_bands};
 use super::collapse::{Collapse, collapse};
 use super::design::{DesignOptions, design};
 use super::hazard::Hazard;
+use super::limit::{FrameLimit, LimitRisk};
 use super::lognormal::lognormal_bands;
 use super::opening::{Place, check_tables, choose_measure, job_name, restitution, study_with_common_records};
 use super::own_frame::loss;
@@ -132,6 +133,10 @@ pub struct FrameRiskReport {
     pub at_demand: Option<StateAtDemand>,
     /// How often each event of the frame happens.
     pub events: Vec<EventReport>,
+    /// What it must not pass before it overturns; none where there is nothing.
+    pub limit: Option<FrameLimit>,
+    /// How often it passes that.
+    pub beyond_limit: Option<LimitRisk>,
     /// How often it overturns.
     pub overturning: FrameOverturning,
     /// What the second component does; none of a planar frame.
@@ -143,6 +148,14 @@ pub struct FrameRiskReport {
     /// What was written.
     #[serde(skip)]
     pub files: Vec<PathBuf>,
+}
+
+impl FrameRiskReport {
+    /// The limit with how often it is passed, where that and not overturning tells how often the frame fails.
+    pub fn governing_limit(&self) -> Option<(FrameLimit, LimitRisk)> {
+        let found = self.limit.zip(self.beyond_limit);
+        found.filter(|(_, beyond)| beyond.governs(&self.overturning.risk))
+    }
 }
 
 /// Overturning of the frame itself.
@@ -237,6 +250,10 @@ pub fn frame_risk(
     let hazard = Hazard::from_file(&file, (place.name, site), (measure, &source.study))?;
     let counted = PooledDemand::new(&Stripes::new(levels, own_m)?)?;
     let bands = rate_bands(&counted, (&hazard, None), scatter, OVERTURNING_M)?;
+    let limit = FrameLimit::of(structure, &analysis.frame);
+    let of_limit =
+        |limit: FrameLimit| LimitRisk::new(&counted, (&hazard, None), scatter, (limit.displacement_m, years));
+    let beyond_limit = limit.map(of_limit).transpose()?;
     let mut of_fit = lognormal_bands((levels, own_m), &[hazard], scatter)?;
     let scope = Scope { measure: Some(measure.measure()), ..Scope::default() };
     let mut alarms = alarms_of_inputs(&file, &scope)?;
@@ -268,6 +285,8 @@ pub fn frame_risk(
         direction: demands.wobbling_m.is_some().then(|| DirectionEffect::from_peaks(&demands.directions_m)),
         notes: notes(&analysis, (structure, &demands), &source, &overturning),
         demands: rows,
+        limit,
+        beyond_limit,
         overturning: FrameOverturning::from_collapse(&overturning, [bands, of_fit.pop().flatten()]),
         alarms: ranked(alarms),
         files: Vec::new(),

@@ -9,6 +9,7 @@ mod error;
 mod finding;
 mod frame_risk;
 mod hazard;
+mod limit;
 mod limits;
 mod lognormal;
 mod models;
@@ -35,6 +36,7 @@ pub use frame_risk::{
     Banded, DirectionEffect, EventReport, FrameOverturning, FrameRiskOptions, FrameRiskReport, ModelDemand, RiskPoint,
     StateAtDemand, frame_model, frame_risk, frame_risk_shard,
 };
+pub use limit::{FrameLimit, LimitEvent, LimitRisk};
 pub use limits::{CAPACITY_SHARE, LimitOptions, LimitState, LimitStripes, independent_records, limit_stripes};
 pub use overturning::{
     CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning, overturning_shard,

@@ -18,12 +18,13 @@ use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
 use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
 use uplift_spectra::NUDGES;
-use uplift_study::Structure;
+use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, StudyOfResult};
 
 use super::certainty::{Scatter, rate_bands};
 use super::collapse::collapse;
 use super::hazard::Hazard;
+use super::limit::{FrameLimit, LimitRisk};
 use super::lognormal::lognormal_bands;
 use super::opening::{check_tables, job_name, site_index, study_with_common_records};
 use super::own_frame::{FramePeaks, of_frame};
@@ -94,19 +95,14 @@ pub fn overturning(
     };
     let mut notes = Vec::new();
     let analysis = OverturningAnalysis::from_structure(structure, &source, options, &mut notes)?;
-    if !source.study.oscillator.free_vibration {
-        notes.push(
-            "the study ends with its records (free_vibration = false); here what falls after their end counts as \
-             overturned"
-                .to_owned(),
-        );
-    }
+    notes.extend(after_the_end(&source.study));
     let name = job_name("overturning", structure);
     let job = ResultJob { result, name: &name };
     let (analysed, checkpoint) = job.results(analysis.work(&name, &factors())?, &options.shards, events)?;
     let OverturningAnalysis { study, records, measures, models, uncertain, .. } = &analysis;
     let repaired = RepairedWeights::from_file(&file)?;
     let scatter = Scatter::from_file(&file)?;
+    let limit = analysis.frame.as_ref().and_then(|(frame, _)| frame.limit);
     let mut analysed = analysed.into_iter();
     let mut found: Vec<(&SpectraOfResult, Vec<Collapses>)> = Vec::new();
     let mut hazards: Vec<Vec<Hazard<'_>>> = Vec::new();
@@ -131,12 +127,17 @@ pub fn overturning(
             };
             let repaired_bands = hazard.iter().zip(&weights).map(of_repaired).collect::<Result<_, _>>()?;
             let lognormal_bands = lognormal_bands((levels, &peaks_m_at(0)), &hazard, &scatter)?;
-            Ok::<_, DesignError>(Collapses { own: at_nudge(0)?, rounded, bands, repaired_bands, lognormal_bands })
+            let limit_m = limit.map(|limit| limit.displacement_m / structure.system.participation());
+            let limit_m = limit_m.filter(|_| matches!(model, System::Oscillator(_)));
+            let beyond_limit = beyond_limit(&demand, (&hazard, &scatter), (limit_m, study.risk.years))?;
+            let own = at_nudge(0)?;
+            Ok::<_, DesignError>(Collapses { own, rounded, bands, beyond_limit, repaired_bands, lognormal_bands })
         });
         found.push((measure, of_models.collect::<Result<_, _>>()?));
         hazards.push(hazard);
     }
-    let asked = FrameSites { sites: &sites, repaired: &repaired, scatter: &scatter, years: study.risk.years };
+    let (sites_of, years) = (&sites[..], study.risk.years);
+    let asked = FrameSites { sites: sites_of, repaired: &repaired, scatter: &scatter, limit, years };
     let of_frame = analysis
         .frame_peaks(&mut analysed)
         .iter()
@@ -164,6 +165,7 @@ pub fn overturning(
         structure: StructureReport::from_structure(structure, None),
         years: study.risk.years,
         models: analysis.models().map(|(model, origin)| ModelReport::from_model(model, origin)).collect(),
+        limit,
         overturning: reports((&found, &of_frame), models, records, &names),
         uncertainty,
         without_frame: analysis.without_frame.clone(),
@@ -219,12 +221,23 @@ fn uncertainty_report(
     Ok(uncertain.report(analyses, results))
 }
 
+/// How often the peaks of a model exceed `limit_m` at each site; nothing without a limit.
+fn beyond_limit(
+    demand: &PooledDemand,
+    (hazard, scatter): (&[Hazard<'_>], &Scatter),
+    (limit_m, years): (Option<f64>, f64),
+) -> Result<Vec<LimitRisk>, DesignError> {
+    let Some(limit_m) = limit_m else { return Ok(Vec::new()) };
+    hazard.iter().map(|hazard| LimitRisk::new(demand, (hazard, None), scatter, (limit_m, years))).collect()
+}
+
 /// By what the peaks of a frame are weighed.
 struct FrameSites<'a> {
     /// Positions of the sites.
     sites: &'a [usize],
     repaired: &'a RepairedWeights,
     scatter: &'a Scatter,
+    limit: Option<FrameLimit>,
     years: f64,
 }
 
@@ -256,10 +269,19 @@ impl FrameSites<'_> {
             };
             let repaired_bands = hazard.iter().zip(&repaired).map(of_repaired).collect::<Result<_, _>>()?;
             let lognormal_bands = lognormal_bands((&levels, peaks_m), &hazard, self.scatter)?;
-            Ok((model, Collapses { own, rounded: Vec::new(), bands, repaired_bands, lognormal_bands }))
+            let limit_m = self.limit.map(|limit| limit.displacement_m);
+            let beyond_limit = beyond_limit(&demand, (&hazard, self.scatter), (limit_m, self.years))?;
+            Ok((model, Collapses { own, rounded: Vec::new(), bands, beyond_limit, repaired_bands, lognormal_bands }))
         };
         peaks.each().map(of_model).collect()
     }
+}
+
+/// What counts after the end of a record, where the study does not look at it.
+fn after_the_end(study: &UniformRiskStudy) -> Option<String> {
+    let note = "the study ends with its records (free_vibration = false); here what falls after their end counts as \
+                overturned";
+    (!study.oscillator.free_vibration).then(|| note.to_owned())
 }
 
 /// What the numbers rest on.

@@ -22,6 +22,7 @@ use uplift_uniform_risk::{EventRisk, SpectraOfResult, seen, shaken_upwards, stri
 
 use super::certainty::{DemandBands, Scatter, demand_bands};
 use super::hazard::Hazard;
+use super::limit::{FrameLimit, LimitRisk};
 use super::opening::{Place, ShakenRecords};
 use super::risk::{OVERTURNING_M, bounded, own_risk, risk_of_exceeding};
 use super::rules::OwnCheck;
@@ -70,6 +71,13 @@ pub(super) fn falls(falling: &[String]) -> Option<String> {
 pub struct FrameReport {
     /// Levels at which it was shaken, in the unit of the measure.
     pub levels: Vec<f64>,
+    /// Levels of the study.
+    #[serde(skip)]
+    pub levels_of_study: usize,
+    /// What it must not pass before it overturns; none where there is nothing.
+    pub limit: Option<FrameLimit>,
+    /// How often its proxy, the equivalent oscillator, moves as far as that.
+    pub proxy_beyond_limit: Option<LimitRisk>,
     /// Nonlinear time histories.
     pub analyses: u64,
     /// Wobbling under both components, then in the plane of the study's component.
@@ -89,6 +97,8 @@ pub struct FrameModel {
     pub bands: Option<DemandBands>,
     /// The displacement capacity is exceeded; none for a structure without one.
     pub beyond_capacity: Option<EventRisk>,
+    /// It passes the limit of the frame; none of one without.
+    pub beyond_limit: Option<LimitRisk>,
     /// It overturns.
     pub overturning: EventRisk,
     /// The capacity held against the demand; none for a structure without one.
@@ -99,6 +109,12 @@ impl FrameReport {
     /// The wobbling frame.
     pub fn wobbling(&self) -> &FrameModel {
         &self.models[0]
+    }
+
+    /// The limit, where passing it and not overturning tells how often the frame fails.
+    pub fn governing_limit(&self) -> Option<FrameLimit> {
+        let governs = |of: &FrameModel| of.beyond_limit.is_some_and(|limit| limit.governs(&of.overturning));
+        self.limit.filter(|_| self.models.iter().any(governs))
     }
 }
 
@@ -198,6 +214,8 @@ pub(super) struct OwnFrame {
     planar: Vec<System>,
     /// Where the restitution of the wobbling model comes from, and that of the planar one.
     restitution_from: [&'static str; 2],
+    /// What it must not pass before it overturns.
+    pub(super) limit: Option<FrameLimit>,
     pairs: Pairs,
 }
 
@@ -221,6 +239,7 @@ impl OwnFrame {
         let (restitution, restitution_from) =
             own.map_or_else(|| (frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
         Ok(Self {
+            limit: FrameLimit::of(structure, &frame),
             wobbling: vec![wobbling(&frame, structure)],
             planar: vec![planar(&frame, restitution)],
             restitution_from: [
@@ -336,6 +355,8 @@ pub(super) struct FrameQuestion<'a> {
     /// Displacement capacity of the structure, m.
     pub(super) capacity_m: Option<f64>,
     pub(super) safety_factor: f64,
+    pub(super) limit: Option<FrameLimit>,
+    pub(super) proxy_beyond_limit: Option<LimitRisk>,
 }
 
 impl FrameQuestion<'_> {
@@ -356,18 +377,30 @@ impl FrameQuestion<'_> {
             let demand_m = weights.curve(&pool)?.exact_ordinate(self.target_per_year)?.displacement_m;
             let asked = (self.target_per_year, 1.0, self.capacity_m);
             let bands = demand_bands(&pool, (&hazard, repaired.as_ref()), self.scatter, asked)?;
+            let beyond_limit = |limit: FrameLimit| {
+                let asked = (limit.displacement_m, self.years);
+                LimitRisk::new(&pool, (&hazard, repaired.as_ref()), self.scatter, asked)
+            };
             Ok(FrameModel {
                 model,
                 restitution: *restitution,
                 demand_m,
                 bands,
                 beyond_capacity: self.capacity_m.map(risk).transpose()?,
+                beyond_limit: self.limit.map(beyond_limit).transpose()?,
                 overturning: risk(OVERTURNING_M)?,
                 check: self.capacity_m.map(|capacity_m| OwnCheck::new(capacity_m, demand_m, self.safety_factor)),
             })
         };
         let models = peaks.models.iter().map(model).collect::<Result<_, DesignError>>()?;
-        Ok(FrameReport { levels, analyses: peaks.analyses, models })
+        Ok(FrameReport {
+            levels,
+            levels_of_study: of_study.len(),
+            limit: self.limit,
+            proxy_beyond_limit: self.proxy_beyond_limit,
+            analyses: peaks.analyses,
+            models,
+        })
     }
 }
 

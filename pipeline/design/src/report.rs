@@ -74,6 +74,12 @@ pub struct ReportSource {
     /// By what the numbers of the result are known.
     #[serde(skip)]
     pub study_digest: String,
+    /// Its study file as it was given.
+    #[serde(skip)]
+    pub study_file: String,
+    /// What was changed of that for the run.
+    #[serde(skip)]
+    pub overrides: Vec<String>,
     /// Where its records come from, in a line.
     pub record_set: String,
     /// Whether they are synthetic.
@@ -83,9 +89,12 @@ pub struct ReportSource {
 impl ReportSource {
     /// Of the result in `file`, whose study is `source`.
     pub(super) fn read(file: &ResultFile, source: &StudyOfResult) -> Result<Self, DesignError> {
+        let head = file.head()?;
         Ok(Self {
             result: source.path.clone(),
-            study_digest: file.head()?.study_digest(),
+            study_digest: head.study_digest(),
+            study_file: head.study_file,
+            overrides: head.overrides.unwrap_or_default(),
             record_set: source.record_set.clone(),
             synthetic: source.synthetic,
         })

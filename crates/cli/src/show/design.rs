@@ -17,10 +17,11 @@ use uplift::text::{
 use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
-use self::frame::{print_mark, print_verdicts, rule_cell};
+use self::frame::{print_mark, print_own_spectrum, print_verdicts, rule_cell};
 use super::alarms::print_in_parts;
 use super::structure::{
-    BLOCK, band_after, demand_in_words, lines, measure_option, rate, record_set, restitution_line, risk_cells,
+    BLOCK, band_after, demand_in_words, fewer_levels, lines, measure_option, rate, record_set, restitution_line,
+    risk_cells,
 };
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use super::{shown_path, typed_path};
@@ -46,7 +47,15 @@ fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
     }
     let risk = risk_in_words(report.poe, report.years);
     let records = record_set(&report.source.record_set, report.frame.is_some());
-    writeln!(out, "At        {} by {}, {risk}; {records}", report.site, report.spectrum_words())?;
+    let at = match &report.frame {
+        // by which measure stands in the first line, which is of the frame
+        Some(frame) => {
+            let levels = fewer_levels([(frame.levels.len(), frame.levels_of_study, report.im)]);
+            format!("{}, {risk}{levels}", report.site)
+        }
+        None => format!("{} by {}, {risk}", report.site, report.spectrum_words()),
+    };
+    writeln!(out, "At        {at}; {records}")?;
     Ok(())
 }
 
@@ -75,9 +84,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     if let Some(difference) = report.notes.first().filter(|_| report.other_oscillator) {
         writeln!(out, "          {difference}")?;
     }
-    if let Some(settings) = &report.own_oscillator {
-        writeln!(out, "          for its own spectrum run the study with {settings}")?;
-    }
+    print_own_spectrum(out, report)?;
     if !report.assumed.is_empty() {
         writeln!(out, "Assumed   {}: not in the structure file", report.assumed.join(", "))?;
     }

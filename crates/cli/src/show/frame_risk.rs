@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{Banded, FrameRiskReport, ModelDemand, StateAtDemand};
+use uplift::structure::{Banded, Bands, EventRisk, FrameRiskReport, ModelDemand, StateAtDemand};
 use uplift::text::{
     self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short, two_digits,
 };
@@ -61,9 +61,14 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
         let demand = metres_with_band(proxy.demand_m.value, None);
         writeln!(out, "  {}{keeps}: {demand}{of}", own_word(report, proxy.model))?;
     }
-    let [per_year, _, return_period] = risk_cells(&report.overturning.risk);
-    let band = band_after(report.overturning.bands);
-    writeln!(out, "Overturning  {per_year} per year{band}, once in {return_period} years")?;
+    let how_often = |risk: &EventRisk, bands: Option<Bands>| {
+        let [per_year, _, return_period] = risk_cells(risk);
+        format!("{per_year} per year{}, once in {return_period} years", band_after(bands))
+    };
+    if let Some((limit, beyond)) = report.governing_limit() {
+        writeln!(out, "Limit        {}, passed {}", limit.in_words(), how_often(&beyond.risk, beyond.bands))?;
+    }
+    writeln!(out, "Overturning  {}", how_often(&report.overturning.risk, report.overturning.bands))?;
     let risk = risk_in_words(report.poe, report.years);
     write!(out, "At           {} by {}", report.site, report.im)?;
     for im in &report.other_measures {

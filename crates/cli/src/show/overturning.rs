@@ -2,19 +2,19 @@
 
 use std::io::Write;
 
-use uplift::structure::{CollapseReport, OverturningReport, SiteRisk};
-use uplift::text::{self, Table, share};
+use uplift::structure::{Bands, CollapseReport, FrameLimit, LimitRisk, OverturningReport, SiteRisk};
+use uplift::text::{self, Table, share, two_digits};
 use uplift_spectra::Noisy;
 
 use super::alarms::print_in_parts;
 use super::shown_path;
-use super::structure::{WOBBLING, band_in_cell, limits, lines, rate, record_set, risk_cells};
+use super::structure::{
+    WOBBLING, band_in_cell, fewer_levels, limits, lines, marked_band_in_cell, print_by_earthquake, rate, record_set,
+    risk_cells,
+};
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use crate::error::CommandError;
 use crate::terminal::Terminal;
-
-/// The mark of a band by earthquake.
-const BY_EARTHQUAKE: &str = "†";
 
 /// How often a structure overturns; in detail its models, fragility and tails.
 pub(crate) fn print_overturning(report: &OverturningReport, terminal: &Terminal) -> Result<(), CommandError> {
@@ -24,39 +24,45 @@ pub(crate) fn print_overturning(report: &OverturningReport, terminal: &Terminal)
 /// The rate of every site by measure and model, with its band.
 fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
     let has_frame = report.overturning.iter().any(|found| found.model == WOBBLING);
-    let name = &report.structure.name;
-    match frame_over_oscillator(report) {
-        Some(times) => writeln!(
-            out,
-            "{name}: the wobbling frame overturns {times} times as often as its oscillator; annual rates (90 % band)"
-        )?,
-        None => writeln!(out, "{name}: annual rate of overturning (90 % band)")?,
-    }
+    let limit = report.governing_limit();
+    print_headline(out, report, limit)?;
     let sites = report.overturning.first().map_or(&[][..], |found| &found.sites[..]);
+    // a frame has twice as many rows: at many sites the bands are left to the details
     let shows_bands = !has_frame || sites.len() < 3;
-    let cell = |of: &SiteRisk| {
+    let marked = |bands: Option<Bands>| marked_band_in_cell(bands.filter(|_| shows_bands));
+    let overturns = |of: &SiteRisk| {
         let [per_year, ..] = risk_cells(&of.risk);
-        // a frame has twice as many rows: at many sites the bands are left to the details
-        let bands = of.bands.filter(|_| shows_bands);
-        let mark = bands.filter(|bands| !bands.of_whom().is_empty()).map_or("", |_| BY_EARTHQUAKE);
-        let band = band_in_cell(bands) + mark;
         let per_year = if of.risk.per_year > 0.0 { of.per_year_rounding.marked(text::rate) } else { per_year };
-        format!("{per_year}{band}")
+        per_year + &marked(of.bands)
+    };
+    let passes = |of: &LimitRisk| risk_cells(&of.risk)[0].clone() + &marked(of.bands);
+    let cell = |of: &SiteRisk, event: Option<FrameLimit>| match (event, &of.beyond_limit) {
+        (Some(_), Some(limit)) => passes(limit),
+        (Some(_), None) => "-".to_owned(),
+        (None, _) => overturns(of),
     };
     let table = if has_frame {
-        // a row a site and model, a column a measure
+        // a row a site, model and event, a column a measure
         let of_measures: Vec<&[CollapseReport]> = report.overturning.chunks(report.models.len()).collect();
         let models = report.models.len();
-        Table::of((0..sites.len()).flat_map(|site| (0..models).map(move |model| (site, model))))
-            .left("site", |(site, model)| if model == 0 { &sites[site].site } else { "" })
-            .left("model", |(_, model)| report.models[model].model)
-            .each(of_measures, |table, found| table.right(found[0].im, |(site, model)| cell(&found[model].sites[site])))
+        let events: Vec<Option<FrameLimit>> = limit.into_iter().map(Some).chain([None]).collect();
+        let of_model = |site, model| events.iter().enumerate().map(move |(at, event)| (site, model, at, *event));
+        let rows = (0..sites.len()).flat_map(|site| (0..models).flat_map(move |model| of_model(site, model)));
+        Table::of(rows)
+            .left("site", |(site, model, at, _)| if model + at == 0 { &sites[site].site } else { "" })
+            .left("model", |(_, model, at, _)| if at == 0 { report.models[model].model } else { "" })
+            .when(limit.is_some(), |table| {
+                table.left("event", |(.., event)| event.map_or("overturns", |limit| limit.event.words()))
+            })
+            .each(of_measures, |table, found| {
+                table.right(found[0].im, |(site, model, _, event)| cell(&found[model].sites[site], event))
+            })
             .to_string()
     } else {
         Table::of(sites.iter().enumerate())
             .left("site", |(_, of)| &of.site)
             .each(&report.overturning, |table, found| {
-                table.right(format!("{}, {}", found.model, found.im), |(site, _)| cell(&found.sites[site]))
+                table.right(format!("{}, {}", found.model, found.im), |(site, _)| cell(&found.sites[site], None))
             })
             .to_string()
     };
@@ -64,29 +70,57 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
     if let Some(reason) = &report.without_frame {
         writeln!(out, "Frame left out: {reason}")?;
     }
-    if table.contains(BY_EARTHQUAKE) {
-        writeln!(out, "{BY_EARTHQUAKE} band by earthquake")?;
-    }
+    print_by_earthquake(out, &table)?;
     if table.contains('*') {
         writeln!(out, "* the last digits are not significant (rounding)")?;
     }
     if let Some(uncertainty) = &report.uncertainty {
         print_uncertain_answers(out, uncertainty)?;
     }
-    Ok(writeln!(out, "{}", record_set(&report.source.record_set, has_frame))?)
+    // those of the oscillator are those of the study
+    let levels_of = |model: &'static str| report.overturning.iter().filter(move |found| found.model == model);
+    let levels = levels_of(WOBBLING).zip(levels_of("oscillator"));
+    let levels = fewer_levels(levels.map(|(own, all)| (own.levels.len(), all.levels.len(), own.im)));
+    Ok(writeln!(out, "{}{levels}", record_set(&report.source.record_set, has_frame))?)
 }
 
-/// How many times as often as its oscillator the wobbling frame overturns, over sites and measures; none where one of
-/// them is never seen to.
-fn frame_over_oscillator(report: &OverturningReport) -> Option<String> {
+/// Which event the rates are of: where a frame passes its `limit` more often than it overturns, that comes first.
+fn print_headline(
+    out: &mut impl Write,
+    report: &OverturningReport,
+    limit: Option<FrameLimit>,
+) -> Result<(), CommandError> {
+    let name = &report.structure.name;
     let of = |model: &'static str| report.overturning.iter().filter(move |found| found.model == model);
+    if let Some(limit) = limit {
+        let ratio = |of: &SiteRisk| of.beyond_limit.map_or(f64::NAN, |beyond| beyond.risk.per_year) / of.risk.per_year;
+        let how_often = range_of(of(WOBBLING).flat_map(|found| &found.sites).map(ratio))
+            .map_or_else(|| "more often than".to_owned(), |times| format!("{times} times as often as"));
+        let limit = limit.in_words();
+        return Ok(writeln!(
+            out,
+            "{name}: the wobbling frame passes its limit, {limit}, {how_often} it overturns; annual rates (90 % band)"
+        )?);
+    }
     let sites = of(WOBBLING).zip(of("oscillator")).flat_map(|(own, proxy)| own.sites.iter().zip(&proxy.sites));
-    let ratio = |(own, proxy): (&SiteRisk, &SiteRisk)| own.risk.per_year / proxy.risk.per_year;
-    let [least, most] =
-        sites.map(ratio).fold([f64::INFINITY, 0.0], |[least, most], ratio| [least.min(ratio), most.max(ratio)]);
-    // without a frame there is no ratio at all
-    (least > 0.0 && least <= most && most.is_finite()).then(|| {
-        let [least, most] = [least, most].map(|ratio| format!("{ratio:.1}"));
+    let over_oscillator = sites.map(|(own, proxy)| own.risk.per_year / proxy.risk.per_year);
+    match range_of(over_oscillator) {
+        Some(times) => writeln!(
+            out,
+            "{name}: the wobbling frame overturns {times} times as often as its oscillator; annual rates (90 % band)"
+        )?,
+        None => writeln!(out, "{name}: annual rate of overturning (90 % band)")?,
+    }
+    Ok(())
+}
+
+/// `4.5 to 5.1`, over sites and measures; none without ratios, and where one of two events is never seen.
+fn range_of(mut ratios: impl Iterator<Item = f64>) -> Option<String> {
+    let [least, most] = ratios.try_fold([f64::INFINITY, 0.0_f64], |[least, most], ratio| {
+        (ratio > 0.0 && ratio.is_finite()).then(|| [least.min(ratio), most.max(ratio)])
+    })?;
+    (least <= most).then(|| {
+        let [least, most] = [least, most].map(two_digits);
         if least == most { most } else { format!("{least} to {most}") }
     })
 }

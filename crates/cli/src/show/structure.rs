@@ -1,9 +1,12 @@
 //! What a design and an overturning tell alike: the structure, and how often something happens to it.
 
+use std::io::Write;
+
 use uplift::structure::{Bands, EventRisk, StructureReport};
 use uplift::text::{self, per_cent, short, two_digits};
 
 use super::shown_path;
+use crate::error::CommandError;
 
 /// The kind of a structure that is one rigid block.
 pub(super) const BLOCK: &str = "block";
@@ -78,6 +81,39 @@ pub(super) fn band_after(per_year: Option<Bands>) -> String {
 /// The same in the cell of a table, which is narrow.
 pub(super) fn band_in_cell(per_year: Option<Bands>) -> String {
     per_year.map_or_else(String::new, |bands| format!(" ({})", bands.quoted().map(text::rate).join("–")))
+}
+
+/// The mark of a band by earthquake.
+const BY_EARTHQUAKE: &str = "†";
+
+/// The mark behind a band in a cell of a table, of whom it is; nothing behind one by record.
+pub(super) fn mark_of(bands: Option<Bands>) -> &'static str {
+    bands.filter(|bands| !bands.of_whom().is_empty()).map_or("", |_| BY_EARTHQUAKE)
+}
+
+/// As [`band_in_cell`], with the mark of a band by earthquake.
+pub(super) fn marked_band_in_cell(per_year: Option<Bands>) -> String {
+    band_in_cell(per_year) + mark_of(per_year)
+}
+
+/// What that mark means, where the `table` has it.
+pub(super) fn print_by_earthquake(out: &mut impl Write, table: &str) -> Result<(), CommandError> {
+    if table.contains(BY_EARTHQUAKE) {
+        writeln!(out, "{BY_EARTHQUAKE} band by earthquake")?;
+    }
+    Ok(())
+}
+
+/// At how many levels a frame is shaken, by each measure whose study has more: `; frame at 26 of 84 levels (all: uplift
+/// risk)`. Rates from other levels are other numbers.
+pub(super) fn fewer_levels<'a>(of_measures: impl IntoIterator<Item = (usize, usize, &'a str)>) -> String {
+    let fewer: Vec<_> = of_measures.into_iter().filter(|(shaken, all, _)| shaken < all).collect();
+    let named = |(shaken, all, im): &(usize, usize, &str)| match fewer.len() {
+        1 => format!("{shaken} of {all} levels"),
+        _ => format!("{shaken} of {all} {im} levels"),
+    };
+    let each: Vec<String> = fewer.iter().map(named).collect();
+    if each.is_empty() { String::new() } else { format!("; frame at {} (all: uplift risk)", each.join(", ")) }
 }
 
 /// The option by which a structure is judged by another measure.

@@ -79,6 +79,7 @@ impl OwnAnalysis {
         };
         let frame = match (&analysis.frame, of_frame) {
             (Some(frame), Some([Some(wobbling), Some(planar)])) => {
+                let of_proxy = |limit| shaken.beyond_limit(limit, (&hazard, &scatter));
                 let question = FrameQuestion {
                     places: &levels_for(measure, place.site, target_per_year),
                     place,
@@ -89,6 +90,8 @@ impl OwnAnalysis {
                     years,
                     capacity_m: structure.system.capacity_m(),
                     safety_factor: options.safety_factor,
+                    limit: frame.limit,
+                    proxy_beyond_limit: frame.limit.map(of_proxy).transpose()?,
                 };
                 Some(question.answer(&frame.peaks(&wobbling, Some(&planar)))?)
             }

@@ -12,6 +12,7 @@ use uplift_uniform_risk::{EventRisk, SpectraOfResult};
 
 use crate::certainty::Bands;
 use crate::collapse::Collapse;
+use crate::limit::{FrameLimit, LimitRisk};
 use crate::report::{ReportSource, StructureReport};
 use crate::uncertain::UncertaintyReport;
 
@@ -27,6 +28,9 @@ pub struct OverturningReport {
     pub years: f64,
     /// How the structure is modelled.
     pub models: Vec<ModelReport>,
+    /// What a frame must not pass before it overturns; none of a structure that cannot wobble.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit: Option<FrameLimit>,
     /// Fragility and risk, one a measure and model, in this order.
     pub overturning: Vec<CollapseReport>,
     /// The oscillator where its quantities are not known exactly; none where the structure file says that they are.
@@ -42,6 +46,14 @@ pub struct OverturningReport {
     /// What was written.
     #[serde(skip)]
     pub files: Vec<PathBuf>,
+}
+
+impl OverturningReport {
+    /// The limit, where passing it and not overturning tells how often the frame fails.
+    pub fn governing_limit(&self) -> Option<FrameLimit> {
+        let governs = |of: &SiteRisk| of.beyond_limit.is_some_and(|limit| limit.governs(&of.risk));
+        self.limit.filter(|_| self.overturning.iter().flat_map(|found| &found.sites).any(governs))
+    }
 }
 
 /// A model of a structure.
@@ -104,6 +116,9 @@ pub struct SiteRisk {
     pub risk: EventRisk,
     /// Its confidence band by the records; none where no run shows it, and of a single record.
     pub bands: Option<Bands>,
+    /// How often the limit of a frame is passed; none without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beyond_limit: Option<LimitRisk>,
     /// From the counts with repaired weights, by which the records bring the site's hazard; none where the result has
     /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -128,7 +143,9 @@ pub(super) struct Collapses {
     pub(super) rounded: Vec<Collapse>,
     /// How sure its risks are, `[site]`.
     pub(super) bands: Vec<Option<Bands>>,
-    /// The same of those with repaired weights.
+    /// How often the limit of a frame is passed, `[site]`; empty of a model that is not held against one.
+    pub(super) beyond_limit: Vec<LimitRisk>,
+    /// The bands of the risks with repaired weights.
     pub(super) repaired_bands: Vec<Option<Bands>>,
     /// The same of those by the lognormal fragility.
     pub(super) lognormal_bands: Vec<Option<Bands>>,
@@ -171,7 +188,7 @@ impl ModelReport {
 
 impl CollapseReport {
     fn from_collapse(
-        Collapses { own, rounded, bands, repaired_bands, lognormal_bands }: &Collapses,
+        Collapses { own, rounded, bands, beyond_limit, repaired_bands, lognormal_bands }: &Collapses,
         measure: IntensityMeasure,
         model: &'static str,
         records: u32,
@@ -186,6 +203,7 @@ impl CollapseReport {
             site: (*site).to_owned(),
             risk: own.risks[index],
             bands: bands[index],
+            beyond_limit: beyond_limit.get(index).copied(),
             repaired: own.repaired[index],
             repaired_bands: repaired_bands[index],
             lognormal_per_year: own.fitted.as_ref().map(|fitted| fitted[index].per_year),

@@ -206,6 +206,8 @@ impl FrameTarget<'_> {
             years: self.years,
             capacity_m: threshold_m,
             safety_factor: 1.0,
+            limit: None,
+            proxy_beyond_limit: None,
         };
         let report = question.answer(&peaks)?;
         let of = |model: &FrameModel| TargetFrameModel::from_model(model, threshold_m, self.target_per_year);

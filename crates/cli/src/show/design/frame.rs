@@ -1,13 +1,14 @@
 //! What a design says first of a frame that can wobble.
 
 use std::io::Write;
+use std::path::Path;
 
-use uplift::structure::{Bands, DemandBands, DesignReport, EventRisk, FrameReport, verdict_word};
-use uplift::text::{self, Table, cell_with_band, metres_or_overturns};
+use uplift::structure::{DemandBands, DesignReport, EventRisk, FrameReport, LimitRisk, ReportSource, verdict_word};
+use uplift::text::{Table, cell_with_band, metres_or_overturns, typed, typed_path};
 use uplift_structure::Rule;
 
 use crate::error::CommandError;
-use crate::show::structure::{band_in_cell, measure_option, risk_cells};
+use crate::show::structure::{mark_of, marked_band_in_cell, measure_option, print_by_earthquake, risk_cells};
 
 /// The verdicts of a wobbling frame and of its proxy, with demand and risk of each.
 pub(super) fn print_verdicts(
@@ -15,7 +16,7 @@ pub(super) fn print_verdicts(
     report: &DesignReport,
     frame: &FrameReport,
 ) -> Result<(), CommandError> {
-    let name = &report.structure.name;
+    let (name, by) = (&report.structure.name, report.spectrum_words());
     let wobbling = frame.wobbling();
     let how_far = match report.frame_over_proxy() {
         Some(ratio) => format!("the frame moves {ratio:.1} times as far as its proxy"),
@@ -23,18 +24,17 @@ pub(super) fn print_verdicts(
         None => "its proxy has no demand to compare with".to_owned(),
     };
     match (report.verdicts_differ(), wobbling.check) {
-        (Some(true), _) => writeln!(out, "Verdict   {name}: verdicts differ; {how_far}")?,
+        (Some(true), _) => writeln!(out, "Verdict   {name} by {by}: verdicts differ; {how_far}")?,
         (Some(false), Some(check)) => {
-            writeln!(out, "Verdict   {name}: {} by frame and proxy; {how_far}", verdict_word(check.satisfied))?;
+            let verdict = verdict_word(check.satisfied);
+            writeln!(out, "Verdict   {name} by {by}: {verdict} by frame and proxy; {how_far}")?;
         }
-        _ => writeln!(out, "Verdict   {name}: no capacity, the force does not fall; {how_far}")?,
+        _ => writeln!(out, "Verdict   {name} by {by}: no capacity, the force does not fall; {how_far}")?,
     }
     for (im, verdict) in report.verdicts_by_other_measures() {
-        writeln!(out, "          {verdict}; frame: {}", measure_option(im))?;
+        writeln!(out, "          {verdict}; frame not computed: {}", measure_option(im))?;
     }
-    if let Some(settings) = &report.own_oscillator {
-        writeln!(out, "          spectrum of another oscillator; its own: run {settings}")?;
-    }
+    print_own_spectrum(out, report)?;
     if let Some(capacity_m) = report.structure.capacity_m {
         let factor = report.required_safety_factor;
         writeln!(out, "Capacity  {capacity_m:.2} m; safety factor {factor}")?;
@@ -46,14 +46,21 @@ pub(super) fn print_verdicts(
         let is_unsafe = unsafe_upper_limits.iter().any(|(of, _)| *of == whose);
         if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
     };
-    let risk = |risk: &EventRisk, band: Option<Bands>| {
-        if risk.per_year > 0.0 { text::rate(risk.per_year) + &band_in_cell(band) } else { risk_cells(risk)[0].clone() }
+    let limit = frame.governing_limit();
+    // where passing the limit tells how often the frame fails, that and not overturning
+    let risk = |beyond: Option<LimitRisk>, overturning: &EventRisk, bands: Option<&DemandBands>| {
+        let (risk, bands) = match beyond.filter(|_| limit.is_some()) {
+            Some(beyond) => (beyond.risk, beyond.bands),
+            None => (*overturning, bands.and_then(|of| of.overturning_per_year)),
+        };
+        risk_cells(&risk)[0].clone() + &marked_band_in_cell(bands.filter(|_| risk.per_year > 0.0))
     };
     let demand = |demand_m: f64, bands: Option<&DemandBands>| {
         if demand_m.is_infinite() {
             metres_or_overturns(demand_m)
         } else {
-            cell_with_band(demand_m, bands.map(|of| of.demand_m.quoted()))
+            let bands = bands.map(|of| of.demand_m);
+            cell_with_band(demand_m, bands.map(|of| of.quoted())) + mark_of(bands)
         }
     };
     let mut rows: Vec<[String; 5]> = Vec::new();
@@ -64,18 +71,17 @@ pub(super) fn print_verdicts(
             demand(of.demand_m, bands),
             of.check.map_or_else(dash, |check| required(check.required_capacity_m)),
             of.check.map_or_else(dash, |check| verdict(of.model, check.satisfied)),
-            risk(&of.overturning, bands.and_then(|bands| bands.overturning_per_year)),
+            risk(of.beyond_limit, &of.overturning, bands),
         ]);
     }
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();
-        let overturning = bands.and_then(|bands| bands.overturning_per_year);
         rows.push([
             "proxy oscillator".to_owned(),
             demand(exact.demand_m, bands),
             report.own_check.map_or_else(dash, |check| required(check.required_capacity_m)),
             report.own_check.map_or_else(dash, |check| verdict("proxy", check.satisfied)),
-            risk(&exact.overturning, overturning),
+            risk(frame.proxy_beyond_limit, &exact.overturning, bands),
         ]);
     }
     for (rule, check) in report.rules.iter().filter_map(|outcome| Some((outcome.rule, outcome.check()?))) {
@@ -92,9 +98,23 @@ pub(super) fn print_verdicts(
         .right("demand, m", |row| &row[1])
         .right("requires, m", |row| &row[2])
         .left("verdict", |row| &row[3])
-        .right("overturns, 1/yr", |row| &row[4]);
+        .right(format!("{}, 1/yr", limit.map_or("overturns", |limit| limit.event.words())), |row| &row[4])
+        .to_string();
     writeln!(out, "{table}")?;
+    print_by_earthquake(out, &table)?;
     print_mark(out, report)
+}
+
+/// The command that makes the spectrum of the structure's own oscillator, where the result has another: the run of the
+/// result with other settings, beside it.
+pub(super) fn print_own_spectrum(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
+    let Some(settings) = &report.own_oscillator else { return Ok(()) };
+    let ReportSource { result, study_file, overrides, .. } = &report.source;
+    let kept: String = overrides.iter().flat_map(|setting| [" --set ".to_owned(), typed(setting)]).collect();
+    let name = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let own = result.with_file_name(format!("{}-{}.h5", name(result), name(&report.structure.file)));
+    let (study, own) = (typed(study_file), typed_path(&own));
+    Ok(writeln!(out, "          for its own spectrum: uplift run {study}{kept} {settings} -o {own}")?)
 }
 
 /// A capacity that is required, m.
@@ -105,13 +125,13 @@ fn required(capacity_m: f64) -> String {
 /// A rule in a table that has its demand and the capacity that it requires: by equal energy that is not the demand
 /// times the safety factor.
 pub(super) fn rule_cell(rule: Rule) -> String {
-    if rule == Rule::EqualEnergy { format!("{}†", rule.words()) } else { rule.words().to_owned() }
+    if rule == Rule::EqualEnergy { format!("{}‡", rule.words()) } else { rule.words().to_owned() }
 }
 
 /// What the mark of [`rule_cell`] means, where it is.
 pub(super) fn print_mark(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
     if report.rules.iter().any(|outcome| outcome.rule == Rule::EqualEnergy && outcome.check().is_some()) {
-        writeln!(out, "† not demand × safety factor: demand rises with capacity")?;
+        writeln!(out, "‡ demand rises with the required capacity")?;
     }
     Ok(())
 }

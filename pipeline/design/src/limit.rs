@@ -1,0 +1,107 @@
+//! What a frame must not pass before it overturns. A tendon that is taken as elastic pulls a frame back from far beyond
+//! its capacity, so that the frame seldom overturns; how often it fails is then how often it passes this limit.
+
+use serde::Serialize;
+use uplift_frame::RockingFrame;
+use uplift_job::text::to_the_centimetre;
+use uplift_risk::{PooledDemand, RunWeights, SiteWeights};
+use uplift_statics::EventKind;
+use uplift_study::Structure;
+use uplift_uniform_risk::EventRisk;
+
+use super::certainty::{Bands, Scatter, rate_bands};
+use super::hazard::Hazard;
+use super::risk::{bounded, risk_of_exceeding};
+use crate::error::DesignError;
+
+/// From how many times the rate of overturning on passing the limit governs: below, both are within each other's bands.
+const GOVERNS: f64 = 1.25;
+
+/// What a frame passes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LimitEvent {
+    /// Its displacement capacity.
+    Capacity,
+    /// The yield of its tendons.
+    TendonYields,
+    /// Their failure.
+    TendonFails,
+}
+
+impl LimitEvent {
+    /// What the frame does, beside `overturns`.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Capacity => "passes capacity",
+            Self::TendonYields => EventKind::TendonYields.words(),
+            Self::TendonFails => EventKind::TendonFails.words(),
+        }
+    }
+}
+
+/// The first that a frame passes of its displacement capacity and the yield and failure of its tendons.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FrameLimit {
+    /// Which it is.
+    pub event: LimitEvent,
+    /// The displacement of the deck there, m.
+    pub displacement_m: f64,
+}
+
+impl FrameLimit {
+    /// Of the `frame` of a structure; none of one that has neither.
+    pub(super) fn of(structure: &Structure, frame: &RockingFrame) -> Option<Self> {
+        let events = frame.columns().events();
+        let first = |kind| events.iter().find(|event| event.event == kind).map(|event| event.state.displacement_m);
+        let all = [
+            (LimitEvent::Capacity, structure.system.capacity_m()),
+            (LimitEvent::TendonYields, first(EventKind::TendonYields)),
+            (LimitEvent::TendonFails, first(EventKind::TendonFails)),
+        ];
+        let all = all.into_iter().filter_map(|(event, at_m)| Some(Self { event, displacement_m: at_m? }));
+        all.min_by(|a, b| a.displacement_m.total_cmp(&b.displacement_m))
+    }
+
+    /// `capacity 0.53 m`.
+    pub fn in_words(&self) -> String {
+        let at = to_the_centimetre(self.displacement_m);
+        match self.event {
+            LimitEvent::Capacity => format!("capacity {at} m"),
+            LimitEvent::TendonYields => format!("tendon yield at {at} m"),
+            LimitEvent::TendonFails => format!("tendon failure at {at} m"),
+        }
+    }
+}
+
+/// How often the limit of a frame is passed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LimitRisk {
+    /// How often.
+    #[serde(flatten)]
+    pub risk: EventRisk,
+    /// Its confidence band by the records; none where no run shows it, and of a single record.
+    pub bands: Option<Bands>,
+}
+
+impl LimitRisk {
+    /// Of a model whose peaks exceed `threshold_m` where the frame passes its limit.
+    pub(super) fn new(
+        demand: &PooledDemand,
+        (hazard, repaired): (&Hazard<'_>, Option<&RunWeights>),
+        scatter: &Scatter,
+        (threshold_m, years): (f64, f64),
+    ) -> Result<Self, DesignError> {
+        let weights = SiteWeights::new(hazard.mean, repaired);
+        let risk = risk_of_exceeding(demand, &weights, threshold_m, years)?;
+        Ok(Self {
+            risk: bounded(risk, &weights, &scatter.pairs),
+            bands: rate_bands(demand, (hazard, repaired), scatter, threshold_m)?,
+        })
+    }
+
+    /// Whether it, and not `overturning`, tells how often the frame fails.
+    pub fn governs(&self, overturning: &EventRisk) -> bool {
+        self.risk.per_year > GOVERNS * overturning.per_year
+    }
+}
