@@ -177,7 +177,6 @@ fn sync_folder(_: &Path) -> io::Result<()> {
 
 #[cfg(test)]
 pub(crate) mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     pub(crate) fn files_in(folder: &Path) -> Vec<String> {

@@ -159,7 +159,6 @@ fn length(name: &'static str, value_m: f64) -> Result<f64, BlockError> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

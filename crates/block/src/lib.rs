@@ -39,9 +39,6 @@
 //! The motion itself is sensitive: it amplifies roundings along with everything else, and close to a block that just
 //! overturns there are blocks that do not.
 
-// what is not inlined into motions side by side is not compiled for the instructions that they are compiled for
-#![allow(clippy::inline_always)]
-
 pub mod block;
 mod error;
 pub mod excitation;

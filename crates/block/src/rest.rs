@@ -28,7 +28,6 @@ impl RestRule {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used, clippy::print_stdout)]
     use super::*;
     use crate::block::RockingBlock;
     use crate::excitation::Excitation;

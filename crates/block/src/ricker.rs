@@ -150,7 +150,6 @@ impl RickerPulse {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use std::f64::consts::PI;
 

@@ -128,7 +128,6 @@ impl Series {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::print_stdout)]
     use super::*;
 
     fn expanded(x: f64, v: f64, forcing: &Forcing, step_s: f64, p_squared: f64, alpha: f64) -> Series {

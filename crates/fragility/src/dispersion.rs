@@ -103,7 +103,6 @@ pub fn standard_deviation(values: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     const INF: f64 = f64::INFINITY;

@@ -131,7 +131,6 @@ impl EmpiricalFragility {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use proptest::prelude::*;
 

@@ -240,7 +240,7 @@ impl Likelihood {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used, clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     use super::*;
     use proptest::prelude::*;
 

@@ -43,7 +43,6 @@ pub fn lognormal_spread(
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// Records that exceed 1 m from a level of their own on: of a lognormal capacity, their number.

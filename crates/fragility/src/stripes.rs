@@ -191,7 +191,6 @@ pub(crate) fn check_levels(levels: &[f64]) -> Result<(), FragilityError> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

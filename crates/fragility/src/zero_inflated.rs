@@ -52,7 +52,6 @@ pub fn fit_zero_inflated(
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -201,7 +201,6 @@ fn unit(vector: [f64; 2]) -> Option<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::pulse::PulseShape;
 

@@ -52,9 +52,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-// a function that is not inlined is not compiled for its caller's instructions
-#![allow(clippy::inline_always)]
-
 mod branch;
 mod course;
 mod error;

@@ -122,7 +122,6 @@ impl Pulse {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn printed(shape: PulseShape, tau: f64) -> f64 {

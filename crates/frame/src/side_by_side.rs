@@ -168,7 +168,6 @@ impl Going<'_> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use proptest::prelude::*;
     use uplift_motion::Accelerogram;

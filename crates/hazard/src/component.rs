@@ -100,7 +100,6 @@ impl FromStr for ComponentDefinition {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use ComponentDefinition::*;
 

@@ -45,7 +45,6 @@ impl HazardCurve {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn power_law(k0: f64, k: f64, im: &[f64]) -> HazardCurve {

@@ -49,7 +49,6 @@ pub fn probability_from_rate(rate: f64, years: f64) -> Result<f64, HazardError> 
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use proptest::prelude::*;
 

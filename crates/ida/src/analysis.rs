@@ -274,7 +274,6 @@ fn rocked(
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use uplift_oscillator::PostUplift;
 
     use super::*;

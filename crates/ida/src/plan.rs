@@ -400,7 +400,6 @@ impl<'a> Ground<'a> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use uplift_oscillator::Oscillator;
 
     use super::*;

@@ -3,8 +3,7 @@
 //! Longer vectors, operations with three operands and more registers save a quarter of the time of oscillators, and
 //! most of that of blocks. Operation by operation nothing else is done, nothing is fused, and the bits are the same.
 
-// what is not inlined into work is not compiled for the instructions that it is compiled for
-#![allow(unsafe_code, clippy::inline_always)]
+#![allow(unsafe_code)]
 
 mod vectors;
 
@@ -199,7 +198,6 @@ pub fn by_halves<const N: usize>(mut numbers: [f64; N], join: impl Fn(f64, f64) 
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

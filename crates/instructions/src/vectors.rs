@@ -295,7 +295,6 @@ mod x86_64 {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::{InstructionSet, Instructions, Work};

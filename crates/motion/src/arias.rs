@@ -91,7 +91,6 @@ fn mean_square(a0: f64, a1: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use proptest::prelude::*;
 

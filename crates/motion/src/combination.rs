@@ -139,7 +139,6 @@ fn geometric_mean_of(RecordPair { h1, h2, .. }: &RecordPair) -> Peaks {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::accelerogram::Accelerogram;
     use proptest::prelude::*;

@@ -114,7 +114,6 @@ impl ElasticSpectrum {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     const GROUNDS: [GroundType; 5] = [GroundType::A, GroundType::B, GroundType::C, GroundType::D, GroundType::E];

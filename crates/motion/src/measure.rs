@@ -113,7 +113,6 @@ pub fn scale_factor(level: f64, im_of_pair: f64) -> Result<f64, MotionError> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::accelerogram::Accelerogram;
     use crate::pair::RecordPair;

@@ -78,7 +78,6 @@ fn roots([c0, c1, c2]: [f64; 3]) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use proptest::prelude::*;
 

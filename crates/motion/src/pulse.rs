@@ -237,7 +237,6 @@ fn is_late(velocity: &[f64], residual: &[f64]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use proptest::prelude::*;
 

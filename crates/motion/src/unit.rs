@@ -74,7 +74,6 @@ impl FromStr for AccelerationUnit {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

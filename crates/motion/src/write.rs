@@ -40,7 +40,6 @@ pub fn at2_text(
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::{ReadOptions, read_at2};
     use proptest::prelude::*;

@@ -32,7 +32,6 @@ pub(crate) fn follow<const RUNS: usize, const STIFFNESS: bool>(
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use proptest::prelude::*;
     use uplift_instructions::InstructionSet;

@@ -23,9 +23,6 @@
 //!
 //! Units are SI: metres, seconds, m/s². A displacement is relative to the ground.
 
-// what is not inlined into a run is not compiled for the instructions it is compiled for
-#![allow(clippy::inline_always)]
-
 mod ahead;
 mod attached;
 pub mod branch;

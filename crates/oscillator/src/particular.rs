@@ -93,7 +93,6 @@ impl Step {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::Excitation;

@@ -93,7 +93,6 @@ pub fn may_be_thousands(cell: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn marks(cells: &[&str]) -> Result<bool, String> {

@@ -38,7 +38,6 @@ fn with_chunk(png: &[u8], name: [u8; 4], data: &[u8]) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::png;
 

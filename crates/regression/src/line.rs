@@ -66,7 +66,6 @@ pub fn fit_line(x: &[f64], y: &[f64]) -> Result<Line, RegressionError> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     // By hand: mean x 2, mean y 3; Sxx = 2, Sxy = 2, slope 1, intercept 1; residuals 1, −2, 1: s² = 6, error √3,

@@ -197,7 +197,6 @@ fn index_range(what: &'static str, found: usize) -> Result<u16, RiskError> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

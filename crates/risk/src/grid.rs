@@ -56,7 +56,6 @@ pub(crate) fn interpolate_log_rate(left: (f64, f64), right: (f64, f64), target: 
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

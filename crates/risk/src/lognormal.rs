@@ -51,7 +51,6 @@ fn segment_integral(left: HazardPoint, right: HazardPoint, fragility: &Lognormal
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use proptest::prelude::*;
 

@@ -5,9 +5,6 @@
 //! with these sums an ordinate of any oscillator is found by few additions (`stretches.rs`). Weights are whole numbers,
 //! so the ordinates are those of [`RiskCurve::weighted`](crate::RiskCurve::weighted), to the bit.
 
-// what is not inlined into work is not compiled for the instructions that it is compiled for
-#![allow(clippy::inline_always)]
-
 use uplift_instructions::{Instructions, Vectors, Work};
 
 use crate::run_weights::UnitScale;

@@ -6,9 +6,6 @@
 //! whether λ ≤ target, the exact sum of [`RiskCurve`] decides. So the ordinates are those of
 //! [`RiskCurve::exact_ordinate`], to the bit.
 
-// what is not inlined into a search is not compiled for the instructions that it is compiled for
-#![allow(clippy::inline_always)]
-
 use std::hint::select_unpredictable;
 
 use uplift_instructions::{Instructions, LANES, Vectors, Work, by_halves};

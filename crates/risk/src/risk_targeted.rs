@@ -69,7 +69,6 @@ pub fn risk_targeted_level(
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

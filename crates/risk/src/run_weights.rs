@@ -124,7 +124,6 @@ impl UnitScale {
 
     /// The weight in units of a run at `level` with a share of its runs.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 2^62")]
-    #[expect(clippy::inline_always, reason = "it is compiled for the instructions of the processor")]
     #[inline(always)]
     pub(crate) fn units(&self, level: usize, share: f64) -> u64 {
         (self.stripes[level] * share).round() as u64
@@ -142,7 +141,6 @@ impl UnitScale {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

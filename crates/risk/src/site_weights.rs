@@ -78,7 +78,6 @@ impl<'a> SiteWeights<'a> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

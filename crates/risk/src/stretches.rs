@@ -5,9 +5,6 @@
 //! a stretch is a difference, and thousands of runs are one or two hundred differences. Weights are whole numbers, so
 //! that sums and differences are exact.
 
-// what is not inlined into work is not compiled for the instructions that it is compiled for
-#![allow(clippy::inline_always)]
-
 use uplift_instructions::{Instructions, Vectors, Work};
 
 use crate::demand::Run;

@@ -163,7 +163,6 @@ pub fn mean_annual_frequency(stripes: &Stripes, weights: &StripeWeights, thresho
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -113,7 +113,6 @@ pub(crate) fn errors(demands_m: &[f64], exact_m: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

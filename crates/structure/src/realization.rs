@@ -147,7 +147,6 @@ impl EquivalentSystem {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::block::{Block, Reference};
     use crate::geometry::Geometry;

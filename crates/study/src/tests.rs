@@ -1,6 +1,4 @@
 //! Tests of the study file as a whole; text in, resolved study or rendered mistakes out.
-#![allow(clippy::unwrap_used)]
-
 mod configs;
 mod directions;
 mod displacement;

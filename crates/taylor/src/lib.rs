@@ -8,9 +8,6 @@
 //!
 //! A step is a power series in `s = time/step` from 0 to 1, of degree [`DEGREE`] at most.
 
-// a function that is not inlined is not compiled for its caller's instructions
-#![allow(clippy::inline_always)]
-
 pub mod forcing;
 pub mod polynomial;
 pub mod rebound;

@@ -107,7 +107,6 @@ fn cholesky(matrix: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, UncertaintyError> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::{Sampling, unit_cube};
 

@@ -232,7 +232,6 @@ fn triangular([lower, upper]: [f64; 2], mode: f64) -> Result<Triangular, Uncerta
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];

@@ -72,7 +72,6 @@ fn latin(count: u32, seed: u64, dimension: u64) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

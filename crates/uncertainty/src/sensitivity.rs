@@ -102,7 +102,6 @@ fn of_rows(a: &[f64], b: &[f64], mixed: &[Vec<f64>], drawn: &[usize]) -> Option<
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -310,7 +310,6 @@ impl Evidence {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// Where paths are no longer counted, p goes on as it was, to 3 %.

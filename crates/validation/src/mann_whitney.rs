@@ -43,7 +43,6 @@ impl MannWhitney {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// Two samples that do not overlap: `U = n²`, and p is `erfc(z/√2)` with `z = (n² − 1)/2 / √(n²(2n + 1)/12)`, by

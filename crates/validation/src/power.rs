@@ -84,7 +84,6 @@ fn standard_normal(stream: &mut Stream) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// Samples of 2000 are drawn, those of 8000 follow from them: half the logarithm. What is drawn agrees with the

@@ -125,7 +125,6 @@ fn rate_per_year(half_decades: i32) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// A curve of slope -2 by whose levels that of 1e-4 a year is `level`.

@@ -116,7 +116,6 @@ pub(super) fn without_common_rate(curves: &[CurvesAtSite<'_>]) -> Vec<Case> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

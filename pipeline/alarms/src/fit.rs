@@ -120,7 +120,6 @@ fn leaves(reach: &FitReach) -> String {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// u = exp(−η ln 2 · 10) + 0: 1/2 at 0.1, 1/4 at 0.2, 1/8 at 0.3, 1/16 at 0.4.

@@ -170,7 +170,6 @@ fn too_few(earthquakes: usize) -> Option<Alarm> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -51,7 +51,6 @@ pub(super) fn case(curves: &CurvesAtSite<'_>) -> Option<Case> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use uplift_motion::IntensityMeasure;
 
     use super::*;

@@ -64,7 +64,6 @@ pub(super) fn collapse(
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// Two records that are a pair each.

@@ -76,7 +76,6 @@ impl Fragilities {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use uplift_bootstrap::units;
 
     use super::*;

@@ -87,7 +87,6 @@ pub(super) fn demand_of(stripes: &Stripes, oscillator: usize) -> Result<PooledDe
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use uplift_risk::StripeWeights;
     use uplift_uniform_risk::share_at_most;
 

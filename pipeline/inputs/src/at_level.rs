@@ -316,7 +316,6 @@ pub(crate) fn list<S: AsRef<str>>(names: &[S]) -> String {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn table(text: &str) -> Result<Table, Vec<String>> {

@@ -139,7 +139,6 @@ fn store(path: &Path, set: &[RecordPair]) {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use uplift_motion::synthetic::generate;
 
     use super::*;

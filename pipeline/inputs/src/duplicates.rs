@@ -97,7 +97,6 @@ fn shared_motions(pairs: &[&CheckedPair]) -> BTreeMap<(usize, usize), Vec<[usize
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use std::path::PathBuf;
 
     use uplift_motion::RecordPair;

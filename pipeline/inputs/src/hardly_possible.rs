@@ -72,7 +72,6 @@ impl fmt::Display for HardlyPossible {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use uplift_motion::Period;
 
     use super::*;

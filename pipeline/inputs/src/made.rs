@@ -35,7 +35,6 @@ pub(crate) fn made_pairs(options: &SyntheticSetOptions, events: &dyn Events) -> 
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use std::sync::atomic::{AtomicU64, Ordering};
 
     use uplift_job::is_stopped;

@@ -139,7 +139,6 @@ fn place<const M: usize>(shape: &[usize; M], mut index: usize) -> [usize; M] {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

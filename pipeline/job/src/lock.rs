@@ -129,7 +129,6 @@ impl Drop for ResultLock {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

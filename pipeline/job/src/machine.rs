@@ -205,7 +205,6 @@ fn only_warns() -> Result<bool, JobError> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     const GB: u64 = 1_000_000_000;

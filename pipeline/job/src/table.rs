@@ -133,7 +133,6 @@ fn neutral_column(mut column: Column) -> Column {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

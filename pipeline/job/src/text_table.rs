@@ -131,7 +131,6 @@ fn with_points(table: DataFrame, texts: &[&str]) -> Result<DataFrame, String> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::parse;
 
     #[test]

@@ -344,7 +344,6 @@ fn capacity_rule(capacity_m: Option<f64>, uplift_displacement_m: f64) -> Result<
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -66,7 +66,6 @@ impl<W: Write> Write for Visible<W> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -143,7 +143,6 @@ fn shares(header: &[&str], comment: &str) -> Option<Vec<(usize, f64)>> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use proptest::prelude::*;
 

@@ -68,7 +68,6 @@ fn unknown(measure: &str, place: Place) -> HazardError {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -132,7 +132,6 @@ fn spectral(text: &str) -> Option<IntensityMeasure> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn period(period_s: f64) -> Period {

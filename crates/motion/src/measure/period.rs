@@ -52,7 +52,6 @@ impl fmt::Display for Period {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use proptest::prelude::*;
 

@@ -85,7 +85,6 @@ fn subtract(signal: &mut [f64], dt_s: f64, coefficient: f64, centre_s: f64, scal
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     const DT_S: f64 = 0.005;

@@ -161,7 +161,6 @@ fn power([c1, c2]: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

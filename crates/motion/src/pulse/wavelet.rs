@@ -113,7 +113,6 @@ fn wavelet(phi: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// Σ f(x) over the points of the support times their distance: the integral, where f has no

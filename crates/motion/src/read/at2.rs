@@ -201,7 +201,6 @@ fn find_word(line: &str, word: &str) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     const VALUES: &str = "  .1000000E-01 -.2000000E-01\n  .3000000E-01\n";

@@ -222,7 +222,6 @@ fn uniform_step_s(times: &[Time], hint: &'static str, name: &str) -> Result<f64,
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn read(text: &str, dt_s: Option<f64>) -> Result<Accelerogram, MotionError> {

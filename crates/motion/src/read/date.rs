@@ -60,7 +60,6 @@ const DAYS_TO_1970: i64 = 719_468;
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use proptest::prelude::*;
 

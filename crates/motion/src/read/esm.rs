@@ -209,7 +209,6 @@ fn orientation(channel: &str) -> Option<Orientation> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::super::date::seconds_since_1970;
     use super::*;
 

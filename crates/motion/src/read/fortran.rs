@@ -198,7 +198,7 @@ fn is_text(line: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used, clippy::format_push_string)]
+    #![allow(clippy::format_push_string)]
     use super::*;
     use crate::recording::RecordFormat;
     use proptest::prelude::*;

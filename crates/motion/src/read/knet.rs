@@ -207,7 +207,6 @@ fn component(dir: &str) -> (Option<String>, Option<Orientation>, Option<&'static
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::super::date::seconds_since_1970;
     use super::*;
 

@@ -70,7 +70,6 @@ fn shape(ratio: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// Fractions of the Arias intensity at the times asked for, by the trapezoidal rule.

@@ -79,7 +79,6 @@ fn frequency_hz(parameters: &Parameters, time_s: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::super::random::RandomStream;
     use super::*;
 

@@ -48,7 +48,6 @@ fn moment(power: i32, y: f64, dt_s: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use std::f64::consts::TAU;
 

@@ -58,7 +58,6 @@ pub(super) fn gamma_quantile(shape: f64, probability: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use statrs::distribution::Continuous;
 

@@ -158,7 +158,6 @@ fn cholesky<const N: usize>(matrix: &[[f64; N]; N]) -> [[f64; N]; N] {
 
 #[cfg(test)]
 pub(super) mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     thread_local! {

@@ -45,7 +45,6 @@ pub(super) fn normal_quantile(probability: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -1,7 +1,5 @@
 //! The set as a whole.
 
-#![allow(clippy::unwrap_used)]
-
 use super::*;
 use crate::geometric_mean;
 use std::sync::OnceLock;

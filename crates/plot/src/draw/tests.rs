@@ -1,4 +1,3 @@
-#![allow(clippy::unwrap_used)]
 use super::super::stroke::{FAINT_LINE, LINE};
 use super::*;
 use crate::{Axis, Band, Marks, Panel, Series, Tone, png};

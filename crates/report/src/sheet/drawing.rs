@@ -253,7 +253,6 @@ fn rounded(metres: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn described(kind: &str, more: &str) -> StructureDescription {

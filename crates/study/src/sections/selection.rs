@@ -183,7 +183,6 @@ fn read_range(field: &Field<'_>) -> Option<Range> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -88,7 +88,6 @@ fn text(digit: i32, decade: i32) -> String {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn plan(levels: &str) -> MeasurePlan {

@@ -286,7 +286,6 @@ fn strengths_of(field: &Field<'_>, known: Option<&Grid>) -> Option<Grid> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use proptest::prelude::*;
 
     use super::*;

@@ -161,7 +161,6 @@ impl Resampled {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// Two records, levels 1 and 2 with rates 1 and 1/2 a year and all beyond the last: one record's peaks are 1 and 2

@@ -261,7 +261,6 @@ fn next_value(rates: &[(f64, f64)], target_per_year: f64, near: f64) -> Option<f
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// The values of a search from 1 on, and how many there are.

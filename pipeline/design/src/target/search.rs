@@ -126,7 +126,6 @@ pub(super) fn crossings<T>(tried: &[(f64, T)], meets: impl Fn(&T) -> bool) -> Ve
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// The values of a search from `values` on, with what was found.

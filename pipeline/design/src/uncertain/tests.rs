@@ -1,4 +1,4 @@
-#![allow(clippy::unwrap_used, clippy::needless_pass_by_value)]
+#![allow(clippy::needless_pass_by_value)]
 //! Structures whose answers are known: peaks that are written down instead of computed.
 
 use uplift_fragility::LognormalFragility;

@@ -96,7 +96,6 @@ fn bytes(values: &[f64]) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use std::collections::HashSet;
 
     use uplift_block::RockingBlock;

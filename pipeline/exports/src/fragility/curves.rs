@@ -138,7 +138,6 @@ pub(super) fn displacement_limits(displacements_m: &[f64]) -> Result<Vec<LimitSt
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -146,7 +146,6 @@ fn parse(bytes: &[u8]) -> Result<BTreeMap<u64, Entry>, String> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -200,7 +200,6 @@ impl fmt::Display for Remarks {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use std::collections::BTreeMap;
 
     use super::*;

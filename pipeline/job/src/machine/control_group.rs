@@ -112,7 +112,6 @@ fn limit_of(folder: &Path, shown: &Path, files: &Files, swap_bytes: u64) -> Grou
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use tempfile::TempDir;
 
     use super::*;

@@ -12,7 +12,6 @@ pub(super) fn of(root: &Path, name: &str) -> Option<u64> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

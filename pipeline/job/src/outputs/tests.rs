@@ -1,4 +1,3 @@
-#![allow(clippy::unwrap_used)]
 use super::*;
 
 fn refused(path: &Path, kind: OutputKind, inputs: &[&Path], force: bool) -> Option<String> {

@@ -268,7 +268,6 @@ fn band(measured: &Sample, at: &[f64], rule: BandRule) -> Vec<(f64, f64, f64)> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// A peak above a limit is at least there: a median that it may move is a bound, and one that it cannot is known.

@@ -359,7 +359,6 @@ fn notes(options: &ValidateOptions, groups: &[GroupReport], unmatched: &Unmatche
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::super::peaks::PeakValue;
     use super::*;
 

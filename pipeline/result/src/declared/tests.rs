@@ -1,6 +1,5 @@
 //! The tables of arrays in `docs/hdf5-layout.md` are those declared.
 
-#![allow(clippy::unwrap_used)]
 use std::fmt::Write as _;
 use std::path::Path;
 use std::{env, fs};

@@ -237,7 +237,6 @@ fn split(text: &str) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn over(texts: &[&str]) -> Result<Vec<Variant>, UpliftError> {

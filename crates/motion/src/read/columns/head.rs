@@ -213,7 +213,6 @@ fn time_unit_s(word: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use AccelerationUnit::{CmPerS2, G, MPerS2};
     use proptest::prelude::*;

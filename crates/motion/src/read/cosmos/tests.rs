@@ -1,5 +1,5 @@
 //! Files written in the format and its dialects, and damaged ones.
-#![allow(clippy::unwrap_used, clippy::format_collect)]
+#![allow(clippy::format_collect)]
 
 use super::*;
 use crate::recording::Orientation;

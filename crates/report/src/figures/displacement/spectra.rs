@@ -182,7 +182,6 @@ pub(super) fn uplift_displacements(source: &DisplacementSource<'_>) -> Vec<Figur
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

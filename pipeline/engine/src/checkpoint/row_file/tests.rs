@@ -1,6 +1,4 @@
 //! Files that are cut, damaged, of other work or of another version.
-#![allow(clippy::unwrap_used)]
-
 use super::*;
 
 fn head() -> RowFileHead {

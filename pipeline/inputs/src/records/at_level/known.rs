@@ -153,7 +153,6 @@ fn is_of(path: &Path, event: &str, station: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use std::collections::BTreeMap;
 
     use super::*;
