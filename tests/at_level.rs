@@ -32,7 +32,7 @@ fn study() -> SmallStudy {
 fn plain(study: &SmallStudy) -> Vec<String> {
     study.uplift(&["run", "study.toml", "-o", "plain.h5", "-q"]).ok();
     let reader = LabelledReader::open(&study.path().join("plain.h5")).unwrap();
-    reader.axis_text("record").unwrap()
+    reader.axis::<String>("record").unwrap()
 }
 
 /// Runs the study with the table `rows` into `sets.h5`.
@@ -153,7 +153,7 @@ fn every_level_has_its_own_records_and_these_their_factors_and_weights() {
         assert_eq!(found.to_bits() == plain.to_bits(), level != 3, "{record} {level}");
     }
     let reader = LabelledReader::open(&at("sets.h5")).unwrap();
-    assert_eq!(reader.attribute_u64("/ida/pgv", "analyses").unwrap(), analyses);
+    assert_eq!(reader.attribute::<u64>("/ida/pgv", "analyses").unwrap(), analyses);
 
     // the risk is Σ w Σ p over the runs that exceed, computed here from the file's own demands
     let curve: Vec<f64> = vec![0.5, 2.0, 20.0, 300.0];
@@ -161,7 +161,7 @@ fn every_level_has_its_own_records_and_these_their_factors_and_weights() {
     let hazard = HazardCurve::new("PGV", "cm/s", "test", curve, rates).unwrap();
     let weights = StripeWeights::from_hazard(&hazard, &LEVELS, Extrapolation::Refuse).unwrap().per_year();
     let maf = array(&at("sets.h5"), "/risk/pgv/maf_per_year");
-    let thresholds = reader.axis_f64("threshold").unwrap();
+    let thresholds = reader.axis::<f64>("threshold").unwrap();
     for strength in 0..strengths {
         for (index, threshold) in thresholds.iter().enumerate() {
             let mut rate = 0.0;
@@ -226,7 +226,7 @@ fn what_can_be_asked_is_answered_and_the_rest_refused_in_words() {
     study.uplift(&others).ok();
     let spectra = array(&at("others.h5"), "/urs/pgv/u_m");
     assert_eq!(without.len(), spectra.len() * records.len());
-    let strengths = LabelledReader::open(&at("others.h5")).unwrap().axis_f64("strength").unwrap().len();
+    let strengths = LabelledReader::open(&at("others.h5")).unwrap().axis::<f64>("strength").unwrap().len();
     // [poe, record, strength] and [poe, strength]
     for (of_poe, spectrum) in without.chunks_exact(records.len() * strengths).zip(spectra.chunks_exact(strengths)) {
         assert!(same_bits(&of_poe[..strengths], spectrum));

@@ -34,11 +34,11 @@ fn study() -> SmallStudy {
 /// The records of the plain result: their names, and PGV in cm/s.
 fn records(study: &SmallStudy) -> (Vec<String>, Vec<f64>) {
     let file = study.path().join("plain.h5");
-    (LabelledReader::open(&file).unwrap().axis_text("record").unwrap(), array(&file, "/records/pgv_cm_s"))
+    (LabelledReader::open(&file).unwrap().axis::<String>("record").unwrap(), array(&file, "/records/pgv_cm_s"))
 }
 
 fn levels(study: &SmallStudy) -> Vec<f64> {
-    LabelledReader::open(&study.path().join("plain.h5")).unwrap().axis_f64("pgv_level").unwrap()
+    LabelledReader::open(&study.path().join("plain.h5")).unwrap().axis::<f64>("pgv_level").unwrap()
 }
 
 /// Every array of floating-point numbers below `group`, with its path.
@@ -48,7 +48,7 @@ fn arrays(file: &Path, group: &str) -> Vec<(String, Vec<f64>)> {
     while let Some(group) = groups.pop() {
         for name in reader.children(&group).unwrap() {
             let path = format!("{group}/{name}");
-            match reader.array_f64(&path) {
+            match reader.array::<f64>(&path) {
                 Ok(array) => found.push((path, array.values)),
                 Err(_) if reader.children(&path).is_ok() => groups.push(path),
                 Err(_) => {}

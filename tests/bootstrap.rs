@@ -179,7 +179,7 @@ fn earthquakes_are_drawn_with_all_their_records() {
     let told = study.uplift(&[&["bootstrap", "r.h5"][..], &options].concat()).ok();
     assert!(told.stderr.contains("with their earthquakes, 2, 6 of 3"), "{}", told.stderr);
     let file = study.path().join("r.h5");
-    let drawn = LabelledReader::open(&file).unwrap().array_u32("/bootstrap/multiplicity").unwrap().values;
+    let drawn = LabelledReader::open(&file).unwrap().array::<u32>("/bootstrap/multiplicity").unwrap().values;
     for (index, drawn) in drawn.chunks_exact(6).enumerate() {
         assert!(drawn[0] == drawn[2] && drawn[0] == drawn[5] && drawn[1] == drawn[4], "{drawn:?}");
         assert_eq!(drawn[0] + drawn[1] + drawn[3], if index < 300 { 2 } else { 6 });
@@ -569,7 +569,7 @@ fn trends_of_table_4_1_appear_with_real_records() {
     let rows = rows(&report(&["--json"]));
     // relative widths of the 2 % bands, on average over sites and the strengths above 0.05 that rock: [measure][size]
     let result = folder.path().join("t.h5");
-    let strengths = LabelledReader::open(&result).unwrap().axis_f64("strength").unwrap();
+    let strengths = LabelledReader::open(&result).unwrap().axis::<f64>("strength").unwrap();
     let widths = ["pgv", "pga"].map(|im| {
         let [lower, median, upper] = BANDS.map(|name| array(&result, &format!("/bootstrap/{im}/{name}")));
         [0, 1, 2, 3, 4].map(|size| {

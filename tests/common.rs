@@ -345,7 +345,7 @@ pub fn hold_console(at: &Path, document: &str, count: usize) {
 
 /// The numbers of an array of a result.
 pub fn array(path: &Path, name: &str) -> Vec<f64> {
-    LabelledReader::open(path).unwrap().array_f64(name).unwrap().values
+    LabelledReader::open(path).unwrap().array::<f64>(name).unwrap().values
 }
 
 /// Whether two arrays are the same to the bit.

@@ -291,7 +291,7 @@ fn flip_checkpoint(flips: usize) {
         let reader = uplift_labelled::LabelledReader::open(path).unwrap();
         let names = reader.children("/bootstrap/pgv").unwrap();
         let bits = |name: &String| -> Vec<u64> {
-            let array = reader.array_f64(&format!("/bootstrap/pgv/{name}")).unwrap();
+            let array = reader.array::<f64>(&format!("/bootstrap/pgv/{name}")).unwrap();
             array.values.iter().map(|value| value.to_bits()).collect()
         };
         names.iter().filter(|name| name.ends_with("_m")).map(bits).collect::<Vec<_>>()

@@ -231,7 +231,7 @@ fn the_exact_demand_is_the_ordinate_where_the_spectrum_has_one() {
     study.write("between.toml", "kind = \"point-mass\"\nslenderness_rad = 0.16\nsize_m = 5\nmass_kg = 10\n");
     let u_m = |strength: usize| {
         let reader = uplift_labelled::LabelledReader::open(&study.path().join("r.h5")).unwrap();
-        reader.array_f64("/urs/pgv/u_m").unwrap().values[strength]
+        reader.array::<f64>("/urs/pgv/u_m").unwrap().values[strength]
     };
     let found = design(&study, "mast.toml", &["--poe", "0.02"]);
     assert_eq!(found["structure"]["participation"], 1.0);

@@ -131,7 +131,7 @@ fn a_random_azimuth_follows_from_seed_and_pair() {
     let all = run(&study, "all.h5", &rotation(&[]));
     let azimuths = |result: &str| {
         let reader = uplift_labelled::LabelledReader::open(&study.path().join(result)).unwrap();
-        reader.array_text("/records/component").unwrap().values
+        reader.array::<String>("/records/component").unwrap().values
     };
     let few = run(&study, "few.h5", &[rotation(&[]), vec!["--set".into(), "records.first=2".into()]].concat());
     assert!(same_bits(&all[..2 * CELLS], &few));
@@ -160,7 +160,7 @@ fn azimuths_of_a_pair_are_resampled_together() {
     }
     let counts = {
         let reader = uplift_labelled::LabelledReader::open(&study.path().join("each.h5")).unwrap();
-        reader.array_u32("/bootstrap/multiplicity").unwrap().values
+        reader.array::<u32>("/bootstrap/multiplicity").unwrap().values
     };
     assert!(counts.chunks(2).all(|pair| pair[0] == pair[1]) && counts.iter().any(|count| *count > 1));
     // and left out: without the last pair the spectrum is that of a study without it

@@ -87,7 +87,7 @@ fn spectra_of_oscillators() {
     let page = std::fs::read_to_string(study.path().join("r.html")).unwrap();
     assert!(page.len() < 1 << 20, "{}", page.len());
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    let (eta, u) = (reader.axis_f64("strength").unwrap(), reader.array_f64("/spectra/u_m").unwrap());
+    let (eta, u) = (reader.axis::<f64>("strength").unwrap(), reader.array::<f64>("/spectra/u_m").unwrap());
     // [record_set, scaling, scaled_by, uplift_displacement, capacity, percentile, strength]
     assert_eq!(u.shape, [1, 2, 2, 2, 3, 3, eta.len()]);
     let spectrum = |scaling: usize, uplift: usize, capacity: usize, percentile: usize| {
@@ -187,7 +187,7 @@ fn spectra_and_design_of_blocks() {
     study.uplift(&["plot", "r.h5", "-q", "--only", "design", "--format", "svg"]).ok();
     let page = std::fs::read_to_string(study.path().join("r.html")).unwrap();
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    let (tangents, u) = (reader.axis_f64("slenderness").unwrap(), reader.array_f64("/spectra/u_m").unwrap());
+    let (tangents, u) = (reader.axis::<f64>("slenderness").unwrap(), reader.array::<f64>("/spectra/u_m").unwrap());
     // [record_set, scaling, scaled_by, height, percentile, slenderness]
     assert_eq!(u.shape, [1, 2, 1, 3, 1, tangents.len()]);
     let spectra = panels(&page, "spectra-synthetic-median");

@@ -45,10 +45,10 @@ noise_points = 3
 /// Every array of a result, to the bit, and what it says of its records.
 fn content(path: &Path) -> Vec<(String, Vec<u64>)> {
     let reader = LabelledReader::open(path).unwrap();
-    let mut found = vec![(reader.attribute_text("/", "warnings").unwrap(), Vec::new())];
+    let mut found = vec![(reader.attribute::<String>("/", "warnings").unwrap(), Vec::new())];
     for group in ["/spectra", "/sets/synthetic", "/design"] {
         for name in reader.children(group).unwrap() {
-            if let Ok(array) = reader.array_f64(&format!("{group}/{name}")) {
+            if let Ok(array) = reader.array::<f64>(&format!("{group}/{name}")) {
                 found.push((format!("{group}/{name}"), array.values.iter().map(|value| value.to_bits()).collect()));
             }
         }

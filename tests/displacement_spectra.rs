@@ -51,7 +51,7 @@ fn read(study: &SmallStudy, name: &str) -> LabelledReader {
 }
 
 fn array(reader: &LabelledReader, path: &str) -> LabelledArray<f64> {
-    reader.array_f64(path).unwrap()
+    reader.array::<f64>(path).unwrap()
 }
 
 fn close(a: f64, b: f64, relative: f64) -> bool {
@@ -64,7 +64,7 @@ fn content(path: &Path) -> Vec<(String, Vec<u64>)> {
     let mut found = Vec::new();
     for group in ["/spectra", "/sets/synthetic", "/design"] {
         for name in reader.children(group).unwrap() {
-            if let Ok(array) = reader.array_f64(&format!("{group}/{name}")) {
+            if let Ok(array) = reader.array::<f64>(&format!("{group}/{name}")) {
                 found.push((name, array.values.iter().map(|value| value.to_bits()).collect()));
             }
         }
@@ -83,9 +83,10 @@ fn the_same_bits_on_any_number_of_threads_and_from_the_stored_study() {
         assert_eq!(one.len(), arrays);
         assert_eq!(one, content(&study.path().join("three.h5")));
         let reader = read(&study, "one.h5");
-        assert_eq!(reader.attribute_text("/", "kind").unwrap(), "displacement spectra");
+        assert_eq!(reader.attribute::<String>("/", "kind").unwrap(), "displacement spectra");
         let elsewhere = tempfile::tempdir().unwrap();
-        std::fs::write(elsewhere.path().join("again.toml"), reader.attribute_text("/", "study_toml").unwrap()).unwrap();
+        std::fs::write(elsewhere.path().join("again.toml"), reader.attribute::<String>("/", "study_toml").unwrap())
+            .unwrap();
         uplift(elsewhere.path(), &["run", "again.toml", "-o", "again.h5", "-q"]).ok();
         assert_eq!(one, content(&elsewhere.path().join("again.h5")));
     }
@@ -98,7 +99,7 @@ fn design_values_hang_together() {
     let study = SmallStudy::with(OSCILLATORS);
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q", "--set", "design.width_m=0.001"]).ok();
     let reader = read(&study, "r.h5");
-    assert!(close(reader.attribute_f64("/design", "strength").unwrap(), 0.001_f64.tan(), 1e-15));
+    assert!(close(reader.attribute::<f64>("/design", "strength").unwrap(), 0.001_f64.tan(), 1e-15));
     let of = |name: &str| array(&reader, &format!("/design/{name}")).values;
     let (zero, cap, exact, rule, error) =
         (of("u_dem_zs_m"), of("u_cap_m"), of("u_dem_th_m"), of("u_dem_rule_m"), of("error"));
@@ -182,13 +183,13 @@ fn sets_are_made_by_tags_and_records_left_out() {
         assert!(run.stdout.contains(words), "{words}:\n{}", run.stdout);
     }
     let reader = read(&study, "r.h5");
-    assert_eq!(reader.axis_text("record_set").unwrap(), ["first", "Second set!"]);
-    assert_eq!(reader.axis_text("motion_second_set_").unwrap(), ["R2 h1", "R2 h2", "R4 h1", "R4 h2"]);
-    assert_eq!(reader.array_text("/sets/first/record").unwrap().values, ["R1", "R1", "R2", "R2"]);
+    assert_eq!(reader.axis::<String>("record_set").unwrap(), ["first", "Second set!"]);
+    assert_eq!(reader.axis::<String>("motion_second_set_").unwrap(), ["R2 h1", "R2 h2", "R4 h1", "R4 h2"]);
+    assert_eq!(reader.array::<String>("/sets/first/record").unwrap().values, ["R1", "R1", "R2", "R2"]);
     // a record in both sets has the same displacements in both, unscaled
     let (first, second) = (array(&reader, "/sets/first/u_m"), array(&reader, "/sets/Second set!/u_m"));
     assert_eq!(first.values[2..4], second.values[0..2]);
-    let checksums = reader.attribute_text("/", "input_checksums").unwrap();
+    let checksums = reader.attribute::<String>("/", "input_checksums").unwrap();
     assert!(
         checksums.contains("record R4 h2") && !checksums.contains("R3") && !checksums.contains("R5"),
         "{checksums}"

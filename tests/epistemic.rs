@@ -38,7 +38,7 @@ fn study() -> SmallStudy {
 }
 
 fn array(study: &SmallStudy, file: &str, name: &str) -> Vec<f64> {
-    LabelledReader::open(&study.path().join(file)).unwrap().array_f64(name).unwrap().values
+    LabelledReader::open(&study.path().join(file)).unwrap().array::<f64>(name).unwrap().values
 }
 
 #[test]
@@ -77,7 +77,8 @@ fn branches_are_the_studies_of_their_curves() {
     let text = study.uplift(&["bootstrap", "study.h5", "--replicates", "20", "--details"]).ok().stdout;
     assert!(text.contains("Records and hazard together"), "{text}");
     // the study in the file gives the same study again
-    let toml = LabelledReader::open(&study.path().join("study.h5")).unwrap().attribute_text("/", "study_toml").unwrap();
+    let toml =
+        LabelledReader::open(&study.path().join("study.h5")).unwrap().attribute::<String>("/", "study_toml").unwrap();
     study.write("again.toml", &toml);
     study.uplift(&["run", "again.toml", "-o", "again.h5", "-q"]).ok();
     assert_eq!(array(&study, "again.h5", "/epistemic/pgv/Here/u_m"), [a, b].concat());

@@ -97,7 +97,7 @@ fn repaired_spectra_are_exported_where_there_are_some() {
     let some = json(&study);
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
     let [u_m, c1] =
-        ["u_m", "regression/c1"].map(|name| reader.array_f64(&format!("/consistency/pgv/{name}")).unwrap().values);
+        ["u_m", "regression/c1"].map(|name| reader.array::<f64>(&format!("/consistency/pgv/{name}")).unwrap().values);
     let spectra = some["spectra"].as_array().unwrap();
     assert_eq!(spectra.len(), 12);
     // by PGV, the first site could not be repaired, the second was: its rarest probability stands fourth
@@ -170,11 +170,12 @@ fn the_page_gets_stripes_hazard_and_warnings_without_a_path() {
     let page: Value = serde_json::from_str(&text).unwrap();
     assert_eq!((page["format"].as_str(), page["synthetic"].as_bool()), (Some("uplift-web-1"), Some(true)));
     let result = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    let (records, strengths) = (page["records"].as_array().unwrap().len(), result.axis_f64("strength").unwrap().len());
+    let (records, strengths) =
+        (page["records"].as_array().unwrap().len(), result.axis::<f64>("strength").unwrap().len());
     for own in page["measures"].as_array().unwrap() {
         let (levels, peaks_m) = (own["levels"].as_array().unwrap(), own["peaks_m"].as_array().unwrap());
         assert_eq!(peaks_m.len(), records * strengths * levels.len());
-        let stored = result.array_f64(&format!("/ida/{}/edp_m", own["im"].as_str().unwrap())).unwrap().values;
+        let stored = result.array::<f64>(&format!("/ida/{}/edp_m", own["im"].as_str().unwrap())).unwrap().values;
         // an infinite peak is null
         let same = |(a, b): (&Value, &f64)| a.as_f64() == Some(*b).filter(|peak_m| peak_m.is_finite());
         assert!(peaks_m.iter().zip(&stored).all(same));

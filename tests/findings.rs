@@ -60,7 +60,7 @@ fn a_question_has_one_answer() {
         assert!(first.stderr.contains("kept     in r.h5"), "{}", first.stderr);
         let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
         // the document is the printed one
-        let document: Value = serde_json::from_str(&reader.attribute_text(place, "document").unwrap()).unwrap();
+        let document: Value = serde_json::from_str(&reader.attribute::<String>(place, "document").unwrap()).unwrap();
         assert_eq!(document, serde_json::from_str::<Value>(&first.stdout).unwrap());
         drop(reader);
         // the same by another number of threads, and in other words
@@ -87,7 +87,7 @@ fn a_design_analyses_neighbours_where_they_are_shown() {
     let [place] = &kept(&study, "design")[..] else { panic!() };
     let document = || -> Value {
         let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-        serde_json::from_str(&reader.attribute_text(place, "document").unwrap()).unwrap()
+        serde_json::from_str(&reader.attribute::<String>(place, "document").unwrap()).unwrap()
     };
     let without = document();
     let shown = ask(&study, "design block.toml --urs r.h5 --site There --details").stdout;

@@ -34,9 +34,9 @@ fn bits(path: &Path) -> Vec<(String, Vec<u64>)> {
     let paths = ["pgv", "pga"].iter().flat_map(|measure| of_measure(measure));
     let array = |path: String| {
         let values = if path.ends_with("impacts") {
-            reader.array_u32(&path).unwrap().values.into_iter().map(u64::from).collect()
+            reader.array::<u32>(&path).unwrap().values.into_iter().map(u64::from).collect()
         } else {
-            reader.array_f64(&path).unwrap().values.into_iter().map(f64::to_bits).collect()
+            reader.array::<f64>(&path).unwrap().values.into_iter().map(f64::to_bits).collect()
         };
         (path, values)
     };

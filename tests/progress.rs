@@ -112,7 +112,7 @@ fn a_study_on_standard_input_is_the_study_file() {
     assert!(run(&text, &["run", "-", "-o", "input.h5"]).status.success());
     let compare = |name: &str| {
         let reader = uplift_labelled::LabelledReader::open(&study.path().join(name)).unwrap();
-        (reader.attribute_text("/", "study_toml").unwrap(), reader.array_f64("/urs/pgv/u_m").unwrap().values)
+        (reader.attribute::<String>("/", "study_toml").unwrap(), reader.array::<f64>("/urs/pgv/u_m").unwrap().values)
     };
     assert_eq!(compare("file.h5").1, compare("input.h5").1);
     // without a name of its own the result has that of any study

@@ -179,14 +179,14 @@ fn a_report_leads_with_the_answer() {
     assert_eq!(["mistake?:", "caution:", "note:"].map(|word| warnings.matches(word).count()).iter().sum::<usize>(), 3);
     // the first row says what the file has: the ordinates of the rarest probability and their bands of the truth
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    let strengths = reader.axis_f64("strength").unwrap();
-    let poes = reader.axis_f64("poe").unwrap();
-    let sizes = reader.array_f64("/bootstrap/pgv/truth_lower_m").unwrap().shape[2];
+    let strengths = reader.axis::<f64>("strength").unwrap();
+    let poes = reader.axis::<f64>("poe").unwrap();
+    let sizes = reader.array::<f64>("/bootstrap/pgv/truth_lower_m").unwrap().shape[2];
     let rarest = (0..poes.len()).min_by(|&a, &b| poes[a].total_cmp(&poes[b])).unwrap();
     let next = (0..strengths.len())
         .min_by(|&a, &b| (strengths[a] - 0.1).abs().total_cmp(&(strengths[b] - 0.1).abs()))
         .unwrap();
-    let value = |array: &str, row: usize| reader.array_f64(array).unwrap().values[row * strengths.len() + next];
+    let value = |array: &str, row: usize| reader.array::<f64>(array).unwrap().values[row * strengths.len() + next];
     let table = page.split_once("id=\"r1-summary\">").unwrap().1.split_once("</tbody>").unwrap().0;
     let row: Vec<&str> = table.split_once("<tr><td>Here</td>").unwrap().1.split("</td>").collect();
     let shown = row[0].split_once('>').unwrap().1;
@@ -241,7 +241,7 @@ fn a_report_of_six_sites_is_brief() {
         String::from_utf8(STANDARD.decode(link.split_once('"').unwrap().0).unwrap()).unwrap()
     };
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    assert_eq!(saved("study.toml"), reader.attribute_text("/", "study_toml").unwrap());
+    assert_eq!(saved("study.toml"), reader.attribute::<String>("/", "study_toml").unwrap());
     assert!(saved("SHA256SUMS").lines().any(|line| line.ends_with("  hazard Aachen PGV")), "{}", saved("SHA256SUMS"));
 }
 
@@ -256,7 +256,7 @@ fn a_report_shows_hazard_consistency() {
     assert_eq!(ids.len(), distinct.len(), "{ids:?}");
     // a line each measure and site, its numbers those of the file
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    let bias = reader.array_f64("/consistency/pgv/pga_bias").unwrap().values;
+    let bias = reader.array::<f64>("/consistency/pgv/pga_bias").unwrap().values;
     let table = page.split_once("id=\"r1-consistency-table\"").unwrap().1.split_once("</tbody>").unwrap().0;
     let rows: Vec<Vec<&str>> = table.split("<tr><td>").skip(1).map(|row| row.split("</td>").collect()).collect();
     let cell = |row: usize, column: usize| rows[row][column].rsplit('>').next().unwrap();
@@ -270,7 +270,7 @@ fn a_report_shows_hazard_consistency() {
     assert_eq!(all.matches(", repaired").count(), 2, "{all}");
     let summary = page.split_once("id=\"r1-summary\">").unwrap().1.split_once("</tbody>").unwrap().0;
     let repaired = summary.split("<tr><td>").find(|row| row.contains(", repaired")).unwrap();
-    let u_m = reader.array_f64("/consistency/pgv/u_m").unwrap();
+    let u_m = reader.array::<f64>("/consistency/pgv/u_m").unwrap();
     assert_eq!(u_m.dims, ["site", "poe", "strength"]);
     let said = repaired.split("</td>").nth(1).unwrap().rsplit('>').next().unwrap();
     // the second site, 2 %, the second strength

@@ -120,7 +120,7 @@ fn damaged_files_are_refused() {
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     study.uplift(&["bootstrap", "r.h5", "--replicates", "5", "--sizes", "2,4", "-q"]).ok();
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    let strengths = reader.axis_f64("strength").unwrap().len();
+    let strengths = reader.axis::<f64>("strength").unwrap().len();
     for (array, dims, command, words) in [
         ("/urs/pgv/u_m", ["site", "strength", "poe"], "table", "runs over site, strength, poe"),
         ("/ida/pgv/edp_m", ["strength", "record", "pgv_level"], "influence", "runs over strength, record"),
@@ -133,10 +133,10 @@ fn damaged_files_are_refused() {
             "record" => 4,
             "site" => 2,
             "pgv_level" => 5,
-            _ => reader.axis_f64(dim).unwrap().len(),
+            _ => reader.axis::<f64>(dim).unwrap().len(),
         });
         let values = vec![0.1; lengths.iter().product()];
-        writer.array_f64(array, &dims, &values, "m", "turned").unwrap();
+        writer.array(array, &dims, &values, "m", "turned").unwrap();
         writer.finish().unwrap();
         study.uplift(&[command, "d.h5"]).fails(4, &["d.h5", array, words, "damaged"]);
         // and one that is not there

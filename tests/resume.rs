@@ -32,13 +32,13 @@ fn content(path: &Path) -> BTreeMap<String, String> {
                 groups.push(object);
             } else {
                 assert_eq!(reader.is_sound(&object).unwrap(), Some(true), "{object}");
-                content.insert(object.clone(), reader.attribute_text(&object, "sha256").unwrap());
+                content.insert(object.clone(), reader.attribute::<String>(&object, "sha256").unwrap());
             }
         }
     }
     for name in ["version", "commit", "title", "study_file", "record_set", "input_checksums", "warnings"] {
         assert!(!CIRCUMSTANCE.contains(&name));
-        content.insert(format!("attribute {name}"), reader.attribute_text("/", name).unwrap());
+        content.insert(format!("attribute {name}"), reader.attribute::<String>("/", name).unwrap());
     }
     assert!(content.keys().filter(|key| key.starts_with("/ida")).count() >= 4 && content.len() > 30, "{content:?}");
     content

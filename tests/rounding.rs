@@ -42,13 +42,13 @@ fn printed_spectra_are_repeated_at_neighbouring_scale_factors() {
     let study = SmallStudy::with(STUDY);
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    let rounding = reader.array_f64("/spectra/u_m_rounding").unwrap();
+    let rounding = reader.array::<f64>("/spectra/u_m_rounding").unwrap();
     let lines = ["record_set", "scaling", "scaled_by", "uplift_displacement", "capacity", "percentile"];
     assert_eq!(rounding.dims, [&lines[..], &["printed_strength", "bound"]].concat());
     assert_eq!(rounding.shape, [1, 1, 1, 1, 2, 2, 3, 3]);
-    assert_eq!(reader.axis_f64("printed_strength").unwrap(), PRINTED.map(|(_, strength)| strength));
-    let u_m = reader.array_f64("/spectra/u_m").unwrap().values;
-    let factors = reader.array_f64("/sets/synthetic/factor").unwrap().values;
+    assert_eq!(reader.axis::<f64>("printed_strength").unwrap(), PRINTED.map(|(_, strength)| strength));
+    let u_m = reader.array::<f64>("/spectra/u_m").unwrap().values;
+    let factors = reader.array::<f64>("/sets/synthetic/factor").unwrap().values;
     let pairs = generate(&SyntheticSetOptions { pairs: 5, seed: 1, ..SyntheticSetOptions::default() }).unwrap();
     let motions: Vec<GroundMotion<'_>> = pairs
         .iter()
@@ -87,7 +87,7 @@ fn what_hangs_on_rounding_is_marked_wherever_it_is_shown() {
     let study = SmallStudy::with(STUDY);
     let printed = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok().stdout;
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    let rounding = reader.array_f64("/spectra/u_m_rounding").unwrap().values;
+    let rounding = reader.array::<f64>("/spectra/u_m_rounding").unwrap().values;
     // the median of the largest capacity is printed
     let shown: Vec<&[f64]> = rounding.chunks_exact(3).skip(2 * 3).take(3).collect();
     let row = printed.lines().find(|line| line.starts_with("synthetic ")).unwrap();
@@ -149,7 +149,7 @@ fn the_table_of_spectra_has_the_range() {
     let study = SmallStudy::with(STUDY);
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    let rounding = reader.array_f64("/spectra/u_m_rounding").unwrap().values;
+    let rounding = reader.array::<f64>("/spectra/u_m_rounding").unwrap().values;
     let table = std::fs::read_to_string(study.path().join("r.displacements.csv")).unwrap();
     let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let header = rows.next().unwrap();

@@ -13,7 +13,7 @@ fn arrays(path: &Path) -> Vec<(String, Vec<u64>)> {
     for im in ["pgv", "pga"] {
         for name in ["ida/@/edp_m", "risk/@/maf_per_year", "urs/@/u_m", "urs/@/lower_tail_share", "regression/@/c0_m"] {
             let path = format!("/{}", name.replace('@', im));
-            let bits = reader.array_f64(&path).unwrap().values.iter().map(|value| value.to_bits()).collect();
+            let bits = reader.array::<f64>(&path).unwrap().values.iter().map(|value| value.to_bits()).collect();
             found.push((path, bits));
         }
     }
@@ -39,8 +39,8 @@ fn known_limits_come_out_right() {
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
 
     // strength 0: the displacement is the peak ground displacement, so it grows in proportion to the level, to rounding
-    let edp = reader.array_f64("/ida/pgv/edp_m").unwrap();
-    let levels = reader.axis_f64("pgv_level").unwrap();
+    let edp = reader.array::<f64>("/ida/pgv/edp_m").unwrap();
+    let levels = reader.axis::<f64>("pgv_level").unwrap();
     let [records, strengths, count] = edp.shape[..] else { panic!("{:?}", edp.shape) };
     assert_eq!((records, strengths, count), (4, 10, 5));
     for record in 0..records {
@@ -50,10 +50,10 @@ fn known_limits_come_out_right() {
         }
     }
     // ordinates fall with the probability; the surface is a falling function of the threshold that ends at the ordinate
-    let u_m = reader.array_f64("/urs/pgv/u_m").unwrap().values;
-    let surface = reader.array_f64("/risk/pgv/maf_per_year").unwrap();
-    let thresholds = reader.axis_f64("threshold").unwrap();
-    let poes = reader.axis_f64("poe").unwrap();
+    let u_m = reader.array::<f64>("/urs/pgv/u_m").unwrap().values;
+    let surface = reader.array::<f64>("/risk/pgv/maf_per_year").unwrap();
+    let thresholds = reader.axis::<f64>("threshold").unwrap();
+    let poes = reader.axis::<f64>("poe").unwrap();
     assert_eq!(poes, [0.02, 0.1, 0.5]);
     for site in 0..2 {
         for strength in 0..strengths {
@@ -79,7 +79,7 @@ fn probabilities_and_units_of_hazard_are_converted() {
     // half the rate of 4 % in 50 years
     let half = 1.0 - 0.96_f64.sqrt();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", &format!("risk.poe=[{half}, 0.04]")]).ok();
-    let u_m = LabelledReader::open(&study.path().join("r.h5")).unwrap().array_f64("/urs/pgv/u_m").unwrap().values;
+    let u_m = LabelledReader::open(&study.path().join("r.h5")).unwrap().array::<f64>("/urs/pgv/u_m").unwrap().values;
     let (here_at_4, there_at_half) = (&u_m[10..20], &u_m[20..30]);
     assert!(here_at_4.iter().any(|&u| u > 0.001));
     for (a, b) in here_at_4.iter().zip(there_at_half) {
@@ -120,8 +120,8 @@ fn summary_tables_and_provenance() {
     assert_eq!(regression.lines().count(), 1 + 12);
 
     let reader = LabelledReader::open(&study.path().join("out/r.h5")).unwrap();
-    assert!(reader.attribute_text("/", "record_set").unwrap().contains("synthetic"));
-    let resolved = reader.attribute_text("/", "study_toml").unwrap();
+    assert!(reader.attribute::<String>("/", "record_set").unwrap().contains("synthetic"));
+    let resolved = reader.attribute::<String>("/", "study_toml").unwrap();
     // the resolved study in the file runs again, from anywhere
     let elsewhere = tempfile::tempdir().unwrap();
     std::fs::write(elsewhere.path().join("again.toml"), resolved).unwrap();
@@ -167,10 +167,10 @@ fn negative_stiffness_overturns_and_is_said_so() {
     let run = study.uplift(&["run", "study.toml", "-o", "r.h5", "--set", "oscillator.capacity_m=0.02"]).ok();
     assert!(run.stdout.contains("overturns"), "{}", run.stdout);
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    let edp = reader.array_f64("/ida/pgv/edp_m").unwrap().values;
+    let edp = reader.array::<f64>("/ida/pgv/edp_m").unwrap().values;
     assert!(edp.iter().any(|u| u.is_infinite()) && !edp.iter().any(|u| u.is_nan()));
     let (u_m, flag) =
-        (reader.array_f64("/urs/pgv/u_m").unwrap().values, reader.array_u8("/urs/pgv/flag").unwrap().values);
+        (reader.array::<f64>("/urs/pgv/u_m").unwrap().values, reader.array::<u8>("/urs/pgv/flag").unwrap().values);
     assert!(flag.contains(&2));
     assert!(u_m.iter().zip(&flag).all(|(u, flag)| u.is_infinite() == (*flag == 2)));
 }
@@ -427,7 +427,7 @@ fn additions_survive_every_change_that_does_not_touch_them() {
     assert_eq!(additions(&study), all);
     let array = |name: &str| {
         let reader = uplift_labelled::LabelledReader::open(&study.path().join("r.h5")).unwrap();
-        reader.array_f64(name).unwrap()
+        reader.array::<f64>(name).unwrap()
     };
     let before = array("/influence/pgv/u_without_m");
     // bands alone depend on [bootstrap]

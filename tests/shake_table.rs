@@ -80,7 +80,7 @@ fn small() -> SmallStudy {
 
 fn array(study: &SmallStudy, file: &str, name: &str) -> Vec<f64> {
     let reader = LabelledReader::open(&study.path().join(file)).unwrap();
-    reader.array_f64(&format!("/shake_table/{name}")).unwrap().values
+    reader.array::<f64>(&format!("/shake_table/{name}")).unwrap().values
 }
 
 /// The scale of a motion by hand: a velocity on the table is that of the record over √4 times the factor; drift and
@@ -114,7 +114,7 @@ fn tests_by_hand() {
     }
     assert!(seen >= 2, "{u_m:?}");
     let order =
-        LabelledReader::open(&study.path().join("t.h5")).unwrap().array_u32("/shake_table/order").unwrap().values;
+        LabelledReader::open(&study.path().join("t.h5")).unwrap().array::<u32>("/shake_table/order").unwrap().values;
     for (one, other) in order.iter().zip(&u_m) {
         for (place, u) in order.iter().zip(&u_m) {
             assert!(one < place || other >= u, "{order:?} {u_m:?}");

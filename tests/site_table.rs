@@ -212,12 +212,12 @@ fn tables_and_map_of_a_list_of_sites() {
 
     // where the numbers come from is in the result file too, and the study in it runs again
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    assert!(reader.attribute_text("/", "warnings").unwrap().contains("Nowhere (0, 0)"));
-    let checksums = reader.attribute_text("/", "input_checksums").unwrap();
+    assert!(reader.attribute::<String>("/", "warnings").unwrap().contains("Nowhere (0, 0)"));
+    let checksums = reader.attribute::<String>("/", "input_checksums").unwrap();
     for name in ["site table\"", "site table PGV\"", "site table PGA\""] {
         assert!(checksums.contains(name), "{checksums}");
     }
-    study.write("again.toml", &reader.attribute_text("/", "study_toml").unwrap());
+    study.write("again.toml", &reader.attribute::<String>("/", "study_toml").unwrap());
     study.uplift(&["run", "again.toml", "-o", "again.h5", "-q"]).ok();
     assert_eq!(files(study.path(), "r"), files(study.path(), "again"));
 }
@@ -287,7 +287,7 @@ fn curves_that_do_not_cover_the_levels_and_sites_that_overturn_are_rows_with_a_r
 }
 
 fn reader_warnings(study: &SmallStudy) -> String {
-    LabelledReader::open(&study.path().join("r.h5")).unwrap().attribute_text("/", "warnings").unwrap()
+    LabelledReader::open(&study.path().join("r.h5")).unwrap().attribute::<String>("/", "warnings").unwrap()
 }
 
 #[test]
@@ -323,16 +323,16 @@ fn arrays_hold_what_the_tables_hold() {
     let study = many(&format!("{}{SECTION}strengths = [0.2, 0.4]\nbands = true\n", without_sites()));
     study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
     let reader = cube(study.path(), "r");
-    let u_m = reader.array_f64("/urs/u_m").unwrap();
+    let u_m = reader.array::<f64>("/urs/u_m").unwrap();
     assert_eq!(u_m.dims, ["site", "measure", "poe", "strength"]);
     assert_eq!(u_m.shape, [7, 2, 3, 2]);
     let columns = ["u_m", "lower_m", "upper_m"];
     let spectra = rows(&read(study.path(), "r.sites.csv"), &columns);
     let fits = rows(&read(study.path(), "r.sites.coefficients.csv"), &["c0_m", "c1", "c2_m", "rmse_m", "problem"]);
-    let flags = reader.array_u8("/urs/flag").unwrap().values;
-    let problems = reader.array_text("/urs/problem").unwrap().values;
-    let [sites, measures] = ["site", "measure"].map(|axis| reader.axis_text(axis).unwrap());
-    let poes = reader.axis_f64("poe").unwrap();
+    let flags = reader.array::<u8>("/urs/flag").unwrap().values;
+    let problems = reader.array::<String>("/urs/problem").unwrap().values;
+    let [sites, measures] = ["site", "measure"].map(|axis| reader.axis::<String>(axis).unwrap());
+    let poes = reader.axis::<f64>("poe").unwrap();
     for (number, &site) in ["Alpha", "3", "Sea", "Gamma", "Alpha again", "Nowhere"].iter().enumerate() {
         let place = number + 1; // a comma in the first name
         assert_eq!(sites[place], site);
@@ -340,7 +340,7 @@ fn arrays_hold_what_the_tables_hold() {
             for (p, poe) in poes.iter().enumerate() {
                 let (key, fit) = (format!("{site} {} {poe}", measure.to_uppercase()), (place * 2 + m) * 3 + p);
                 for (column, name) in columns.iter().enumerate() {
-                    let own = &reader.array_f64(&format!("/urs/{name}")).unwrap().values[2 * fit..][..2];
+                    let own = &reader.array::<f64>(&format!("/urs/{name}")).unwrap().values[2 * fit..][..2];
                     match spectra.get(&key) {
                         Some(rows) => {
                             let theirs: Vec<f64> = rows.iter().map(|row| row[column].parse().unwrap()).collect();
@@ -352,7 +352,7 @@ fn arrays_hold_what_the_tables_hold() {
                 assert_eq!(flags[2 * fit] == 3, !spectra.contains_key(&key), "{key}");
                 let theirs = &fits[&key][0];
                 for (column, name) in ["c0_m", "c1", "c2_m", "rmse_m"].iter().enumerate() {
-                    let own = reader.array_f64(&format!("/urs/{name}")).unwrap().values[fit];
+                    let own = reader.array::<f64>(&format!("/urs/{name}")).unwrap().values[fit];
                     assert_eq!(
                         theirs[column].parse::<f64>().ok(),
                         Some(own).filter(|own| !own.is_nan()),
@@ -377,7 +377,7 @@ fn arrays_hold_what_the_tables_hold() {
     // without tables the arrays alone
     study.uplift(&["run", "study.toml", "-o", "alone.h5", "--set", "output.csv=false"]).ok();
     assert!(!study.path().join("alone.sites.csv").exists());
-    assert_eq!(cube(study.path(), "alone").array_f64("/urs/u_m").unwrap().values.len(), u_m.values.len());
+    assert_eq!(cube(study.path(), "alone").array::<f64>("/urs/u_m").unwrap().values.len(), u_m.values.len());
     // and another file of that name is nobody's to replace
     study.write("mine.sites.h5", "mine");
     study.uplift(&["run", "study.toml", "-o", "mine.h5"]).fails(2, &["mine.sites.h5", "already exists"]);
@@ -410,7 +410,7 @@ fn slices_joined_are_the_whole_table() {
         let names = if more.is_empty() { &["urs"][..] } else { &["urs", "consistent"] };
         for name in names.iter().flat_map(|group| ["u_m", "lower_m", "c1"].map(|name| format!("/{group}/{name}"))) {
             let bits = |of: &LabelledReader| {
-                of.array_f64(&name).unwrap().values.iter().map(|v| v.to_bits()).collect::<Vec<_>>()
+                of.array::<f64>(&name).unwrap().values.iter().map(|v| v.to_bits()).collect::<Vec<_>>()
             };
             assert_eq!(bits(&one), bits(&other), "{name}");
         }

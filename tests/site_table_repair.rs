@@ -40,7 +40,7 @@ fn every_site_is_repaired_as_one_of_the_sites_is() {
     let columns = ["bias", "verdict", "least_effective", "c0_consistent_m", "no_repair"];
     let coefficients = rows(&coefficients, &columns);
     for (measure, label) in [("pgv", "PGV"), ("pga", "PGA")] {
-        let array = |name: &str| file.array_f64(&format!("/consistency/{measure}/{name}")).unwrap().values;
+        let array = |name: &str| file.array::<f64>(&format!("/consistency/{measure}/{name}")).unwrap().values;
         let other = if measure == "pgv" { "pga" } else { "pgv" };
         let (u_m, bias, c0) = (array("u_m"), array(&format!("{other}_bias")), array("regression/c0_m"));
         for (site, name) in ["alpha", "delta"].into_iter().enumerate() {
@@ -129,7 +129,7 @@ fn by_pgv(more: &str) -> SmallStudy {
 fn run_and_compare(study: &SmallStudy, result: &str, more: &[&str]) -> Vec<f64> {
     study.uplift(&[&["run", "study.toml", "-o", &format!("{result}.h5"), "-q"][..], more].concat()).ok();
     let file = LabelledReader::open(&study.path().join(format!("{result}.h5"))).unwrap();
-    let array = |name: &str| file.array_f64(&format!("/consistency/pgv/{name}")).unwrap().values;
+    let array = |name: &str| file.array::<f64>(&format!("/consistency/pgv/{name}")).unwrap().values;
     let (u_m, bias, c0_m) = (array("u_m"), array("pga_bias"), array("regression/c0_m"));
     let spectra = rows(&read(study.path(), &format!("{result}.sites.csv")), &["u_m", "u_consistent_m"]);
     let columns = ["bias", "c0_consistent_m", "no_repair", "least_effective"];
@@ -162,7 +162,8 @@ fn the_other_hazard_may_use_an_unanalysed_measure() {
     let plain = run_and_compare(&study, "r", &[]);
     run_and_compare(&study, "one", &["--threads", "1"]);
     assert_eq!(files(study.path(), "r"), files(study.path(), "one"));
-    let checksums = LabelledReader::open(&study.path().join("r.h5")).unwrap().attribute_text("/", "input_checksums");
+    let checksums =
+        LabelledReader::open(&study.path().join("r.h5")).unwrap().attribute::<String>("/", "input_checksums");
     assert!(checksums.unwrap().contains("site table PGA\""));
     // of other definitions of the measures both are other curves
     let of = "hazard.conversions=[{ from = \"RotD50\", to = \"geometric mean\", pgv = 0.95, pga = 0.8 }]";
@@ -182,8 +183,8 @@ fn levels_with_records_of_their_own_are_repaired_at_every_site() {
     let study = by_pgv("");
     let alike = run_and_compare(&study, "r", &[]);
     let file = LabelledReader::open(&study.path().join("r.h5")).unwrap();
-    let (names, levels) = (file.axis_text("record").unwrap(), file.axis_f64("pgv_level").unwrap());
-    let pgv = file.array_f64("/records/pgv_cm_s").unwrap().values;
+    let (names, levels) = (file.axis::<String>("record").unwrap(), file.axis::<f64>("pgv_level").unwrap());
+    let pgv = file.array::<f64>("/records/pgv_cm_s").unwrap().values;
     // five of six records at each level, with weights
     let mut table = "record_id,pgv_cm_s,factor,weight\n".to_owned();
     for (index, level) in levels.iter().enumerate() {

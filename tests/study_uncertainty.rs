@@ -101,7 +101,7 @@ fn runs_are_those_of_each_structure_by_itself() {
 }
 
 fn array_u32(result: &Path, name: &str) -> Vec<u32> {
-    uplift_labelled::LabelledReader::open(result).unwrap().array_u32(name).unwrap().values
+    uplift_labelled::LabelledReader::open(result).unwrap().array::<u32>(name).unwrap().values
 }
 
 /// One structure for each record: another one for each.
@@ -174,7 +174,7 @@ fn structures_are_branches() {
     assert_eq!((first["site"].as_str(), first["im"].as_str()), (Some("Here"), Some("PGV")));
     assert_eq!(
         first["poe"].as_f64(),
-        uplift_labelled::LabelledReader::open(&result).unwrap().axis_f64("poe").unwrap().first().copied()
+        uplift_labelled::LabelledReader::open(&result).unwrap().axis::<f64>("poe").unwrap().first().copied()
     );
     let numbers: Vec<f64> = first["mean_m"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
     let finite: Vec<f64> = mean[..STRENGTHS].iter().copied().filter(|mean| mean.is_finite()).collect();

@@ -112,7 +112,7 @@ fn coefficients_of_repaired_spectra_stand_beside_the_plain_ones() {
     assert_eq!(repaired, [false, false, false, false, true, false, true, false, true]);
     let reader = LabelledReader::open(&study.path().join("r.h5")).unwrap();
     for (name, key) in [("c0_m", "c0"), ("c1", "c1"), ("c2_m", "c2"), ("rmse_m", "rmse")] {
-        let stored = reader.array_f64(&format!("/consistency/pgv/regression/{name}")).unwrap().values;
+        let stored = reader.array::<f64>(&format!("/consistency/pgv/regression/{name}")).unwrap().values;
         let said: Vec<f64> = [4, 6, 8].map(|row: usize| by_pgv[row][key].as_f64().unwrap()).into();
         assert_eq!(said, stored[3..], "{name}");
         assert_ne!(by_pgv[3][key], by_pgv[4][key]);

@@ -82,7 +82,7 @@ fn displacements_of_blocks_are_those_of_single_runs() {
     assert_eq!(u_m.shape, [2, 1, 2, 7, 4]);
     let pairs = generate(&SyntheticSetOptions { pairs: 2, seed: 1, ..SyntheticSetOptions::default() }).unwrap();
     let pgv = geometric_means(&pairs, Accelerogram::pgv_m_s);
-    let slenderness = reader.axis_f64("slenderness").unwrap();
+    let slenderness = reader.axis::<f64>("slenderness").unwrap();
     let factor = array(&reader, "/sets/synthetic/factor").values;
     let mut at = 0;
     for scaled in [true, false] {

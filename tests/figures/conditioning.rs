@@ -15,7 +15,7 @@ fn displacements_m(factor: &str) -> Vec<f64> {
         levels.join(", ")
     ));
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
-    LabelledReader::open(&study.path().join("r.h5")).unwrap().array_f64("/ida/pgv/edp_m").unwrap().values
+    LabelledReader::open(&study.path().join("r.h5")).unwrap().array::<f64>("/ida/pgv/edp_m").unwrap().values
 }
 
 /// A level times 1, or times 1 and a little, in decimals.
@@ -132,7 +132,7 @@ fn of_percentiles() {
         run.extend(set.iter().flat_map(|set| ["--set", set]));
         crate::common::uplift(folder.path(), &run).ok();
         // [record_set, scaling, scaled_by, uplift_displacement, capacity, percentile, strength]
-        let u = LabelledReader::open(&folder.path().join("r.h5")).unwrap().array_f64("/spectra/u_m").unwrap();
+        let u = LabelledReader::open(&folder.path().join("r.h5")).unwrap().array::<f64>("/spectra/u_m").unwrap();
         let of_scaling: usize = u.shape[2..].iter().product();
         let shown: Vec<String> = u.values.iter().map(|value| format!("{value:.4}")).collect();
         for of_set in shown.chunks(u.shape[1] * of_scaling) {

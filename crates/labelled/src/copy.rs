@@ -78,22 +78,22 @@ impl LabelledWriter {
 
     fn carry_axis(&mut self, reader: &LabelledReader, axis: &str, path: &str) -> Result<(), LabelledError> {
         reader.require_sound(path)?;
-        let long_name = reader.attribute_text(path, "long_name")?;
+        let long_name = reader.attribute::<String>(path, "long_name")?;
         match reader.kind(path)? {
-            Kind::Text => self.axis_text(axis, &reader.axis_text(axis)?, &long_name)?,
-            Kind::F64 | Kind::F32 => self.axis_f64(axis, &reader.axis_f64(axis)?, &reader.unit(path)?, &long_name)?,
-            Kind::U32 | Kind::U8 => self.axis_u32(axis, &reader.axis_u32(axis)?, &reader.unit(path)?, &long_name)?,
-            Kind::I64 | Kind::U64 => self.axis_i64(axis, &reader.axis_i64(axis)?, &reader.unit(path)?, &long_name)?,
+            Kind::Text => self.axis_text(axis, &reader.axis::<String>(axis)?, &long_name)?,
+            Kind::F64 | Kind::F32 => self.axis::<f64>(axis, &reader.axis(axis)?, &reader.unit(path)?, &long_name)?,
+            Kind::U32 | Kind::U8 => self.axis::<u32>(axis, &reader.axis(axis)?, &reader.unit(path)?, &long_name)?,
+            Kind::I64 | Kind::U64 => self.axis::<i64>(axis, &reader.axis(axis)?, &reader.unit(path)?, &long_name)?,
         }
         self.carry_attributes(reader, path, &DESCRIPTIONS)
     }
 
     fn carry_array(&mut self, reader: &LabelledReader, path: &str) -> Result<(), LabelledError> {
         reader.require_sound(path)?;
-        let long_name = reader.attribute_text(path, "long_name")?;
+        let long_name = reader.attribute::<String>(path, "long_name")?;
         match reader.kind(path)? {
             Kind::Text => {
-                let array = reader.array_text(path)?;
+                let array = reader.array::<String>(path)?;
                 let dims: Vec<&str> = array.dims.iter().map(String::as_str).collect();
                 self.array_text(path, &dims, &array.values, &long_name)?;
             }
@@ -106,7 +106,7 @@ impl LabelledWriter {
     /// Carries over a sound array of numbers as it is compressed.
     fn carry_numbers(&mut self, reader: &LabelledReader, path: &str, long_name: &str) -> Result<(), LabelledError> {
         let unit = reader.unit(path)?;
-        let checksum = reader.attribute_text(path, CHECKSUM).or_else(|_| reader.checksum(path))?;
+        let checksum = reader.attribute::<String>(path, CHECKSUM).or_else(|_| reader.checksum(path))?;
         let source = reader.dataset(path)?;
         let dims = reader.check(dimension_scale::names(&reader.file, &source), path)?.unwrap_or_default();
         let dims: Vec<&str> = dims.iter().map(String::as_str).collect();
@@ -137,7 +137,7 @@ impl LabelledWriter {
         object: &str,
         left_out: &[&str],
     ) -> Result<(), LabelledError> {
-        for (name, value) in reader.attributes(object)? {
+        for (name, value) in reader.own_attributes(object)? {
             if !left_out.contains(&name.as_str()) {
                 self.attribute(object, &name, value)?;
             }
@@ -185,7 +185,7 @@ impl LabelledReader {
     }
 
     fn unit(&self, path: &str) -> Result<String, LabelledError> {
-        self.attribute_text(path, "units")
+        self.attribute::<String>(path, "units")
     }
 
     pub(super) fn kind(&self, path: &str) -> Result<Kind, LabelledError> {
@@ -211,7 +211,7 @@ impl LabelledReader {
     }
 
     /// The attributes of a group or array that are its user's.
-    fn attributes(&self, object: &str) -> Result<Vec<(String, AttributeValue)>, LabelledError> {
+    fn own_attributes(&self, object: &str) -> Result<Vec<(String, AttributeValue)>, LabelledError> {
         let location: Location = if self.is_group(object) {
             let group = self.check(self.file.group(object), object)?;
             Location::clone(&group)
@@ -227,13 +227,13 @@ impl LabelledReader {
             let attribute = self.check(location.attr(&name), object)?;
             let single = attribute.ndim() == 0;
             let value = match self.kind_of(&attribute, object)? {
-                Kind::Text if single => self.attribute_text(object, &name)?.into(),
-                Kind::Text => self.attribute_texts(object, &name)?.into(),
-                Kind::F64 if single => self.attribute_f64(object, &name)?.into(),
-                Kind::F64 => self.attribute_f64s(object, &name)?.into(),
-                Kind::I64 if single => self.attribute_i64(object, &name)?.into(),
-                Kind::I64 => self.attribute_i64s(object, &name)?.into(),
-                Kind::U64 => self.attribute_u64(object, &name)?.into(),
+                Kind::Text if single => self.attribute::<String>(object, &name)?.into(),
+                Kind::Text => self.attributes::<String>(object, &name)?.into(),
+                Kind::F64 if single => self.attribute::<f64>(object, &name)?.into(),
+                Kind::F64 => self.attributes::<f64>(object, &name)?.into(),
+                Kind::I64 if single => self.attribute::<i64>(object, &name)?.into(),
+                Kind::I64 => self.attributes::<i64>(object, &name)?.into(),
+                Kind::U64 => self.attribute::<u64>(object, &name)?.into(),
                 Kind::F32 | Kind::U32 | Kind::U8 => return Err(self.unknown(object)),
             };
             attributes.push((name, value));
@@ -257,13 +257,13 @@ mod tests {
         writer.attribute("/", "levels", vec![1_i64, 2]).unwrap();
         writer.attribute("/", "names", vec!["å".to_owned()]).unwrap();
         writer.axis_text("site", &["Focşani".to_owned(), "Perugia".to_owned()], "site").unwrap();
-        writer.axis_u32("size", &[20, 40], "1", "records").unwrap();
-        writer.array_f64("/urs/pgv/u_m", &["site"], &[0.1, f64::INFINITY], "m", "displacement").unwrap();
+        writer.axis::<u32>("size", &[20, 40], "1", "records").unwrap();
+        writer.array("/urs/pgv/u_m", &["site"], &[0.1, f64::INFINITY], "m", "displacement").unwrap();
         writer.attribute("/urs/pgv", "note", "a group").unwrap();
         writer.attribute("/urs/pgv/u_m", "note", "an array").unwrap();
-        writer.array_u8("/urs/pgv/flag", &["site"], &[0, 2], "1", "flag").unwrap();
+        writer.array::<u8>("/urs/pgv/flag", &["site"], &[0, 2], "1", "flag").unwrap();
         writer.array_text("/sites/country", &["site"], &["RO".to_owned(), "IT".to_owned()], "country").unwrap();
-        writer.array_f64("/bootstrap/u_m", &["site", "size"], &[1.0; 4], "m", "band").unwrap();
+        writer.array("/bootstrap/u_m", &["site", "size"], &[1.0; 4], "m", "band").unwrap();
         writer.finish().unwrap();
 
         let carry = |from: &std::path::Path, to: &std::path::Path, left_out: &[&str]| {
@@ -275,13 +275,13 @@ mod tests {
         carry(&old, &new, &["/bootstrap", "/axes/size"]);
         let reader = LabelledReader::open(&new).unwrap();
         assert!(!reader.exists("/bootstrap") && !reader.exists("/axes/size"));
-        assert_eq!(reader.array_f64("/urs/pgv/u_m").unwrap().values, [0.1, f64::INFINITY]);
-        assert_eq!(reader.array_text("/sites/country").unwrap().values, ["RO", "IT"]);
-        assert_eq!(reader.attribute_text("/urs/pgv/u_m", "note").unwrap(), "an array");
-        assert_eq!(reader.attribute_text("/urs/pgv", "note").unwrap(), "a group");
-        assert_eq!(reader.attribute_u64("/", "seed").unwrap(), 7);
-        assert_eq!(reader.attribute_i64s("/", "levels").unwrap(), [1, 2]);
-        assert_eq!(reader.attribute_texts("/", "names").unwrap(), ["å"]);
+        assert_eq!(reader.array::<f64>("/urs/pgv/u_m").unwrap().values, [0.1, f64::INFINITY]);
+        assert_eq!(reader.array::<String>("/sites/country").unwrap().values, ["RO", "IT"]);
+        assert_eq!(reader.attribute::<String>("/urs/pgv/u_m", "note").unwrap(), "an array");
+        assert_eq!(reader.attribute::<String>("/urs/pgv", "note").unwrap(), "a group");
+        assert_eq!(reader.attribute::<u64>("/", "seed").unwrap(), 7);
+        assert_eq!(reader.attributes::<i64>("/", "levels").unwrap(), [1, 2]);
+        assert_eq!(reader.attributes::<String>("/", "names").unwrap(), ["å"]);
         drop(reader);
         let only = folder.path().join("d.h5");
         let mut writer = LabelledWriter::create(&only).unwrap();
@@ -290,9 +290,9 @@ mod tests {
         writer.finish().unwrap();
         let reader = LabelledReader::open(&only).unwrap();
         assert_eq!(reader.children("/").unwrap(), ["axes", "bootstrap", "urs"]);
-        assert_eq!(reader.array_f64("/bootstrap/u_m").unwrap().dims, ["site", "size"]);
-        assert_eq!(reader.axis_u32("size").unwrap(), [20, 40]);
-        assert_eq!(reader.attribute_text("/urs/pgv", "note").unwrap(), "a group");
+        assert_eq!(reader.array::<f64>("/bootstrap/u_m").unwrap().dims, ["site", "size"]);
+        assert_eq!(reader.axis::<u32>("size").unwrap(), [20, 40]);
+        assert_eq!(reader.attribute::<String>("/urs/pgv", "note").unwrap(), "a group");
         drop(reader);
         // once in the order of a copy, a file is carried over byte for byte
         carry(&new, &again, &[]);

@@ -31,11 +31,11 @@ impl<T> GrowingArray<T> {
 }
 
 impl LabelledWriter {
-    /// Begins an array over the axes `dims`, see [`LabelledWriter::array_f64`]. [`LabelledWriter::append`] gives it its
+    /// Begins an array over the axes `dims`, see [`LabelledWriter::array`]. [`LabelledWriter::append`] gives it its
     /// values, [`LabelledWriter::complete`] ends it.
     ///
     /// # Errors
-    /// As [`LabelledWriter::array_f64`]; [`LabelledError::Misuse`] also without `dims`.
+    /// As [`LabelledWriter::array`]; [`LabelledError::Misuse`] also without `dims`.
     pub fn grow<T: H5Type>(
         &mut self,
         path: &str,

@@ -30,12 +30,12 @@
 //!
 //! let mut writer = LabelledWriter::create(&path)?;
 //! writer.attribute("/", "program", "uplift")?;
-//! writer.axis_f64("strength", &[0.1, 0.2, 0.3], "1", "uplift strength over weight")?;
-//! writer.array_f64("/urs/pgv/u_m", &["strength"], &[0.4, 0.2, 0.1], "m", "displacement")?;
+//! writer.axis("strength", &[0.1, 0.2, 0.3], "1", "uplift strength over weight")?;
+//! writer.array("/urs/pgv/u_m", &["strength"], &[0.4, 0.2, 0.1], "m", "displacement")?;
 //! writer.finish()?;
 //!
 //! let reader = LabelledReader::open(&path)?;
-//! assert_eq!(reader.array_f64("/urs/pgv/u_m")?.dims, ["strength"]);
+//! assert_eq!(reader.array::<f64>("/urs/pgv/u_m")?.dims, ["strength"]);
 //! # Ok(())
 //! # }
 //! ```
@@ -57,7 +57,7 @@ pub use attribute::AttributeValue;
 pub use checksum::hexadecimal;
 pub use error::LabelledError;
 pub use growing::GrowingArray;
-pub use reader::{LabelledArray, LabelledReader};
+pub use reader::{LabelledArray, LabelledReader, Number, Value};
 pub use seal::Seal;
 pub use verify::{Verdict, verify, verify_bytes};
 pub use writer::LabelledWriter;

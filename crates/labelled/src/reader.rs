@@ -8,6 +8,7 @@ use hdf5::types::{FloatSize, IntSize, TypeDescriptor};
 use hdf5::{Container, Dataset, File, H5Type, LocationType, MinorErrorCode};
 use uplift_atomic_file::{io_error, require_file};
 
+use super::checksum::Hashed;
 use super::error::{LabelledError, reason};
 use super::seal::{Opened, Sealed};
 use super::{AXES, dimension_scale, text};
@@ -98,167 +99,50 @@ impl LabelledReader {
         Ok(names)
     }
 
-    /// The text attribute `name` of `object`.
+    /// The number or text in the attribute `name` of `object`.
     ///
     /// # Errors
     /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
-    pub fn attribute_text(&self, object: &str, name: &str) -> Result<String, LabelledError> {
-        let label = attribute_label(object, name);
-        match <[String; 1]>::try_from(self.attribute_texts(object, name)?) {
-            Ok([text]) => Ok(text),
-            Err(texts) => Err(self.wrong(&label, format!("a list of {} texts", texts.len()), "one text")),
+    pub fn attribute<T: Value>(&self, object: &str, name: &str) -> Result<T, LabelledError> {
+        match <[T; 1]>::try_from(self.attributes(object, name)?) {
+            Ok([value]) => Ok(value),
+            Err(values) => {
+                let found = format!("a list of {} {}", values.len(), T::SEVERAL);
+                Err(self.wrong(&attribute_label(object, name), found, T::ONE))
+            }
         }
     }
 
-    /// The list of texts in the attribute `name` of `object`.
+    /// The list of numbers or texts in the attribute `name` of `object`.
     ///
     /// # Errors
     /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
-    pub fn attribute_texts(&self, object: &str, name: &str) -> Result<Vec<String>, LabelledError> {
-        let label = attribute_label(object, name);
-        self.texts(&self.attribute(object, name)?, &label)
-    }
-
-    /// The number in the attribute `name` of `object`.
-    ///
-    /// # Errors
-    /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
-    pub fn attribute_f64(&self, object: &str, name: &str) -> Result<f64, LabelledError> {
-        self.attribute_number(object, name)
-    }
-
-    /// The integer in the attribute `name` of `object`.
-    ///
-    /// # Errors
-    /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
-    pub fn attribute_i64(&self, object: &str, name: &str) -> Result<i64, LabelledError> {
-        self.attribute_number(object, name)
-    }
-
-    /// The unsigned integer in the attribute `name` of `object`.
-    ///
-    /// # Errors
-    /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
-    pub fn attribute_u64(&self, object: &str, name: &str) -> Result<u64, LabelledError> {
-        self.attribute_number(object, name)
-    }
-
-    /// The list of numbers in the attribute `name` of `object`.
-    ///
-    /// # Errors
-    /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
-    pub fn attribute_f64s(&self, object: &str, name: &str) -> Result<Vec<f64>, LabelledError> {
-        self.values(&self.attribute(object, name)?, &attribute_label(object, name))
-    }
-
-    /// The list of integers in the attribute `name` of `object`.
-    ///
-    /// # Errors
-    /// [`LabelledError::Missing`] or [`LabelledError::WrongType`].
-    pub fn attribute_i64s(&self, object: &str, name: &str) -> Result<Vec<i64>, LabelledError> {
-        self.values(&self.attribute(object, name)?, &attribute_label(object, name))
+    pub fn attributes<T: Value>(&self, object: &str, name: &str) -> Result<Vec<T>, LabelledError> {
+        T::read(self, &self.container(object, name)?, &attribute_label(object, name))
     }
 
     /// Values of the axis `name`.
     ///
     /// # Errors
-    /// As [`LabelledReader::array_f64`].
-    pub fn axis_f64(&self, name: &str) -> Result<Vec<f64>, LabelledError> {
-        self.axis(name)
-    }
-
-    /// Values of the axis `name`.
-    ///
-    /// # Errors
-    /// As [`LabelledReader::array_f64`].
-    pub fn axis_u32(&self, name: &str) -> Result<Vec<u32>, LabelledError> {
-        self.axis(name)
-    }
-
-    /// Values of the axis `name`.
-    ///
-    /// # Errors
-    /// As [`LabelledReader::array_f64`].
-    pub fn axis_i64(&self, name: &str) -> Result<Vec<i64>, LabelledError> {
-        self.axis(name)
-    }
-
-    /// Values of the axis `name`.
-    ///
-    /// # Errors
-    /// As [`LabelledReader::array_f64`].
-    pub fn axis_text(&self, name: &str) -> Result<Vec<String>, LabelledError> {
+    /// As [`LabelledReader::array`].
+    pub fn axis<T: Value>(&self, name: &str) -> Result<Vec<T>, LabelledError> {
         let path = format!("{AXES}/{name}");
-        self.texts(&*self.dataset(&path)?, &path)
+        T::read(self, &*self.dataset(&path)?, &path)
     }
 
-    /// Reads the array at `path`; single precision is widened.
+    /// Reads the array of numbers or texts at `path`; single precision is widened to double.
     ///
     /// # Errors
     /// [`LabelledError::Missing`] where there is none, [`LabelledError::WrongType`] where it is a group, holds another
     /// kind of values or has no axes, [`LabelledError::Hdf5`] where the file is damaged.
-    pub fn array_f64(&self, path: &str) -> Result<LabelledArray<f64>, LabelledError> {
-        self.array(path, Self::values)
-    }
-
-    /// Reads the array of single precision at `path`.
-    ///
-    /// # Errors
-    /// As [`LabelledReader::array_f64`].
-    pub fn array_f32(&self, path: &str) -> Result<LabelledArray<f32>, LabelledError> {
-        self.array(path, Self::values)
-    }
-
-    /// Reads the array of counts at `path`.
-    ///
-    /// # Errors
-    /// As [`LabelledReader::array_f64`].
-    pub fn array_u32(&self, path: &str) -> Result<LabelledArray<u32>, LabelledError> {
-        self.array(path, Self::values)
-    }
-
-    /// Reads the array of flags at `path`.
-    ///
-    /// # Errors
-    /// As [`LabelledReader::array_f64`].
-    pub fn array_u8(&self, path: &str) -> Result<LabelledArray<u8>, LabelledError> {
-        self.array(path, Self::values)
-    }
-
-    /// Reads the array of texts at `path`.
-    ///
-    /// # Errors
-    /// As [`LabelledReader::array_f64`].
-    pub fn array_text(&self, path: &str) -> Result<LabelledArray<String>, LabelledError> {
-        self.array(path, Self::texts)
-    }
-
-    fn array<T>(
-        &self,
-        path: &str,
-        read: impl Fn(&Self, &Container, &str) -> Result<Vec<T>, LabelledError>,
-    ) -> Result<LabelledArray<T>, LabelledError> {
+    pub fn array<T: Value>(&self, path: &str) -> Result<LabelledArray<T>, LabelledError> {
         let dataset = self.dataset(path)?;
         let shape = dataset.shape();
-        let values = read(self, &dataset, path)?;
+        let values = T::read(self, &dataset, path)?;
         let Some(dims) = self.check(dimension_scale::names(&self.file, &dataset), path)? else {
             return Err(self.wrong(path, "an array whose dimensions have no names".into(), "an array over named axes"));
         };
         Ok(LabelledArray { dims, shape, values })
-    }
-
-    fn axis<T: Number>(&self, name: &str) -> Result<Vec<T>, LabelledError> {
-        let path = format!("{AXES}/{name}");
-        self.values(&*self.dataset(&path)?, &path)
-    }
-
-    fn attribute_number<T: Number>(&self, object: &str, name: &str) -> Result<T, LabelledError> {
-        let label = attribute_label(object, name);
-        let values = self.values::<T>(&self.attribute(object, name)?, &label)?;
-        match values[..] {
-            [value] => Ok(value),
-            _ => Err(self.wrong(&label, format!("a list of {} numbers", values.len()), "one number")),
-        }
     }
 
     /// The array at `path`, whose bytes are as they were written.
@@ -271,7 +155,8 @@ impl LabelledReader {
         Err(LabelledError::Damaged { path: self.path.clone(), object: Some(path.to_owned()) })
     }
 
-    fn attribute(&self, object: &str, name: &str) -> Result<Container, LabelledError> {
+    /// The attribute `name` of `object`.
+    fn container(&self, object: &str, name: &str) -> Result<Container, LabelledError> {
         let found = match self.file.loc_type_by_name(object) {
             Ok(LocationType::Group) => self.file.group(object).and_then(|group| group.attr(name)),
             Ok(LocationType::Dataset) => self.file.dataset(object).and_then(|dataset| dataset.attr(name)),
@@ -384,9 +269,44 @@ fn attribute_label(object: &str, name: &str) -> String {
     format!("attribute {name:?} of {object}")
 }
 
+/// A number or a text in a file.
+pub trait Value: Sized {
+    /// One of them, in words.
+    const ONE: &'static str;
+    /// Several of them, in a word.
+    const SEVERAL: &'static str;
+
+    /// The values of an array or attribute, which is called `object`.
+    ///
+    /// # Errors
+    /// [`LabelledError::WrongType`] where it holds others, [`LabelledError::Hdf5`] where the file is damaged.
+    fn read(reader: &LabelledReader, container: &Container, object: &str) -> Result<Vec<Self>, LabelledError>;
+}
+
+impl Value for String {
+    const ONE: &'static str = "one text";
+    const SEVERAL: &'static str = "texts";
+
+    fn read(reader: &LabelledReader, container: &Container, object: &str) -> Result<Vec<Self>, LabelledError> {
+        reader.texts(container, object)
+    }
+}
+
+impl<T: Number> Value for T {
+    const ONE: &'static str = "one number";
+    const SEVERAL: &'static str = "numbers";
+
+    fn read(reader: &LabelledReader, container: &Container, object: &str) -> Result<Vec<Self>, LabelledError> {
+        reader.values(container, object)
+    }
+}
+
 /// A number in memory and the types in a file that it can take without loss.
-pub(super) trait Number: H5Type + Copy {
+#[allow(private_bounds)]
+pub trait Number: H5Type + Hashed + Copy {
+    /// The types.
     const TYPES: &'static [TypeDescriptor];
+    /// Its own, in a word.
     const WANTED: &'static str;
 }
 

@@ -92,7 +92,7 @@ impl LabelledReader {
     /// # Errors
     /// An array that cannot be read.
     pub fn is_sound(&self, path: &str) -> Result<Option<bool>, LabelledError> {
-        let Ok(stored) = self.attribute_text(path, CHECKSUM) else { return Ok(None) };
+        let Ok(stored) = self.attribute::<String>(path, CHECKSUM) else { return Ok(None) };
         Ok(Some(self.checksum(path)? == stored))
     }
 

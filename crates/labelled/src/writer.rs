@@ -12,6 +12,7 @@ use super::checksum::{CHECKSUM, Hashed, of_values};
 use super::dimension_scale::{self, LONGEST_NAME, RESERVED};
 use super::error::{LabelledError, reason};
 use super::native::ScaleUse;
+use super::reader::Number;
 use super::seal::{Extent, seal};
 use super::{AXES, text};
 
@@ -107,24 +108,14 @@ impl LabelledWriter {
     ///
     /// # Errors
     /// As [`LabelledWriter::axis_text`].
-    pub fn axis_f64(&mut self, name: &str, values: &[f64], unit: &str, long_name: &str) -> Result<(), LabelledError> {
-        self.axis(name, values, Some(unit), long_name)
-    }
-
-    /// Writes the axis `name` with values in `unit` ("1" where there is none).
-    ///
-    /// # Errors
-    /// As [`LabelledWriter::axis_text`].
-    pub fn axis_u32(&mut self, name: &str, values: &[u32], unit: &str, long_name: &str) -> Result<(), LabelledError> {
-        self.axis(name, values, Some(unit), long_name)
-    }
-
-    /// Writes the axis `name` with values in `unit` ("1" where there is none).
-    ///
-    /// # Errors
-    /// As [`LabelledWriter::axis_text`].
-    pub fn axis_i64(&mut self, name: &str, values: &[i64], unit: &str, long_name: &str) -> Result<(), LabelledError> {
-        self.axis(name, values, Some(unit), long_name)
+    pub fn axis<T: Number>(
+        &mut self,
+        name: &str,
+        values: &[T],
+        unit: &str,
+        long_name: &str,
+    ) -> Result<(), LabelledError> {
+        self.write_axis(name, values, Some(unit), long_name)
     }
 
     /// Writes the axis `name` of identifiers, e.g. sites or records.
@@ -134,76 +125,31 @@ impl LabelledWriter {
     /// underscores, a letter first) or there are no values; [`LabelledError::Hdf5`] where the disk is full.
     pub fn axis_text(&mut self, name: &str, values: &[String], long_name: &str) -> Result<(), LabelledError> {
         let values = self.encode(name, values)?;
-        self.axis(name, &values, None, long_name)
+        self.write_axis(name, &values, None, long_name)
     }
 
-    /// Writes an array over the axes `dims`, values row by row (the last dimension runs fastest), in `unit`.
+    /// Writes an array of numbers over the axes `dims`, values row by row (the last dimension runs fastest), in `unit`.
     ///
     /// The group that holds the array is made where it does not exist. Without `dims` the array is a single number.
     ///
     /// # Errors
     /// [`LabelledError::Misuse`] where an axis does not exist or is named twice, the number of values is not the
     /// product of the axes' lengths, or the path is taken; [`LabelledError::Hdf5`] where the disk is full.
-    pub fn array_f64(
+    pub fn array<T: Number>(
         &mut self,
         path: &str,
         dims: &[&str],
-        values: &[f64],
+        values: &[T],
         unit: &str,
         long_name: &str,
     ) -> Result<(), LabelledError> {
-        self.array(path, dims, values, Some(unit), long_name)
+        self.write_array(path, dims, values, Some(unit), long_name)
     }
 
-    /// Writes an array in single precision, see [`LabelledWriter::array_f64`].
+    /// Writes an array of texts, see [`LabelledWriter::array`].
     ///
     /// # Errors
-    /// As [`LabelledWriter::array_f64`].
-    pub fn array_f32(
-        &mut self,
-        path: &str,
-        dims: &[&str],
-        values: &[f32],
-        unit: &str,
-        long_name: &str,
-    ) -> Result<(), LabelledError> {
-        self.array(path, dims, values, Some(unit), long_name)
-    }
-
-    /// Writes an array of counts, see [`LabelledWriter::array_f64`].
-    ///
-    /// # Errors
-    /// As [`LabelledWriter::array_f64`].
-    pub fn array_u32(
-        &mut self,
-        path: &str,
-        dims: &[&str],
-        values: &[u32],
-        unit: &str,
-        long_name: &str,
-    ) -> Result<(), LabelledError> {
-        self.array(path, dims, values, Some(unit), long_name)
-    }
-
-    /// Writes an array of flags or small counts, see [`LabelledWriter::array_f64`].
-    ///
-    /// # Errors
-    /// As [`LabelledWriter::array_f64`].
-    pub fn array_u8(
-        &mut self,
-        path: &str,
-        dims: &[&str],
-        values: &[u8],
-        unit: &str,
-        long_name: &str,
-    ) -> Result<(), LabelledError> {
-        self.array(path, dims, values, Some(unit), long_name)
-    }
-
-    /// Writes an array of texts, see [`LabelledWriter::array_f64`].
-    ///
-    /// # Errors
-    /// As [`LabelledWriter::array_f64`]; [`LabelledError::Misuse`] also where a text holds a null character.
+    /// As [`LabelledWriter::array`]; [`LabelledError::Misuse`] also where a text holds a null character.
     pub fn array_text(
         &mut self,
         path: &str,
@@ -212,7 +158,7 @@ impl LabelledWriter {
         long_name: &str,
     ) -> Result<(), LabelledError> {
         let values = self.encode(path, values)?;
-        self.array(path, dims, &values, None, long_name)
+        self.write_array(path, dims, &values, None, long_name)
     }
 
     /// Completes the file, brings it to the disk and puts it in place of any older one.
@@ -239,7 +185,7 @@ impl LabelledWriter {
         Ok(place.replace()?)
     }
 
-    fn axis<T: H5Type + Hashed>(
+    fn write_axis<T: H5Type + Hashed>(
         &mut self,
         name: &str,
         values: &[T],
@@ -260,7 +206,7 @@ impl LabelledWriter {
         Ok(())
     }
 
-    fn array<T: H5Type + Hashed>(
+    fn write_array<T: H5Type + Hashed>(
         &mut self,
         path: &str,
         dims: &[&str],

@@ -24,21 +24,21 @@ fn write_example(path: &Path) {
     writer.attribute("/", "input_checksums", texts(&["ab12", "cd34"])).unwrap();
     writer.axis_text("site", &texts(&["L'Aquila", "Βόλος"]), "site").unwrap();
     writer.axis_text("record", &(0..40).map(|i| format!("RSN{i}")).collect::<Vec<_>>(), "record").unwrap();
-    writer.axis_f64("poe", &[0.1, 0.02], "1", "probability of exceedance in 50 years").unwrap();
-    writer.axis_f64("strength", &[0.1, 0.2, 0.3], "1", "uplift strength over weight").unwrap();
-    writer.axis_f64("pgv_level", &(1..=150).map(f64::from).collect::<Vec<_>>(), "cm/s", "peak velocity").unwrap();
-    writer.axis_u32("sample_size", &[10, 20], "1", "records in a sample").unwrap();
-    writer.axis_i64("offset", &[-1, 0, 1], "s", "seconds from the start").unwrap();
+    writer.axis("poe", &[0.1, 0.02], "1", "probability of exceedance in 50 years").unwrap();
+    writer.axis("strength", &[0.1, 0.2, 0.3], "1", "uplift strength over weight").unwrap();
+    writer.axis("pgv_level", &(1..=150).map(f64::from).collect::<Vec<_>>(), "cm/s", "peak velocity").unwrap();
+    writer.axis::<u32>("sample_size", &[10, 20], "1", "records in a sample").unwrap();
+    writer.axis::<i64>("offset", &[-1, 0, 1], "s", "seconds from the start").unwrap();
     let u_m: Vec<f64> = (0..12).map(|i| if i == 7 { f64::NAN } else { f64::from(i) }).collect();
-    writer.array_f64("/urs/pgv/u_m", &["site", "poe", "strength"], &u_m, "m", "displacement").unwrap();
-    writer.array_u8("/urs/pgv/bound_active", &["site", "poe"], &[0, 1, 0, 255], "1", "bound is active").unwrap();
+    writer.array("/urs/pgv/u_m", &["site", "poe", "strength"], &u_m, "m", "displacement").unwrap();
+    writer.array::<u8>("/urs/pgv/bound_active", &["site", "poe"], &[0, 1, 0, 255], "1", "bound is active").unwrap();
     let edp_m: Vec<f64> = (0..40 * 3 * 150).map(|i| f64::from(i).sqrt()).collect();
-    writer.array_f64("/ida/pgv/edp_m", &["record", "strength", "pgv_level"], &edp_m, "m", "displacement").unwrap();
+    writer.array("/ida/pgv/edp_m", &["record", "strength", "pgv_level"], &edp_m, "m", "displacement").unwrap();
     let impacts: Vec<u32> = (0..120).collect();
-    writer.array_u32("/ida/pgv/impacts", &["record", "strength"], &impacts, "1", "impacts").unwrap();
-    writer.array_f32("/bootstrap/pgv/u50_m", &["sample_size", "offset"], &[0.5; 6], "m", "median").unwrap();
+    writer.array::<u32>("/ida/pgv/impacts", &["record", "strength"], &impacts, "1", "impacts").unwrap();
+    writer.array::<f32>("/bootstrap/pgv/u50_m", &["sample_size", "offset"], &[0.5; 6], "m", "median").unwrap();
     writer.array_text("/records/event", &["record"], &vec!["中越, 2004".to_owned(); 40], "event").unwrap();
-    writer.array_f64("/bootstrap/pgv/total", &[], &[7.5], "1", "a single number").unwrap();
+    writer.array("/bootstrap/pgv/total", &[], &[7.5], "1", "a single number").unwrap();
     writer.finish().unwrap();
 }
 

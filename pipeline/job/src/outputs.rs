@@ -198,7 +198,7 @@ impl OutputKind {
 
 /// Whether the file at `path` holds the numbers of many sites as arrays.
 pub fn is_sites(path: &Path) -> bool {
-    let kind = LabelledReader::open(path).and_then(|reader| reader.attribute_text("/", "kind"));
+    let kind = LabelledReader::open(path).and_then(|reader| reader.attribute::<String>("/", "kind"));
     kind.is_ok_and(|kind| kind == SITES_KIND)
 }
 

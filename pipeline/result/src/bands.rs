@@ -329,8 +329,8 @@ impl ResultFile {
         if !self.reader.exists(BANDS.root()) {
             return Ok(None);
         }
-        let sizes = self.reader.axis_u32(SAMPLE_SIZE)?;
-        let confidence = self.reader.attribute_f64(BANDS.root(), "confidence")?;
+        let sizes = self.reader.axis::<u32>(SAMPLE_SIZE)?;
+        let confidence = self.reader.attribute::<f64>(BANDS.root(), "confidence")?;
         let limits = limit_names(confidence);
         let shape = [axes.sites.len(), axes.poes.len(), sizes.len(), axes.strengths.len()];
         let lengths = band_lengths(shape);
@@ -430,8 +430,8 @@ impl ResultFile {
         if !DRAWS.is_in(self, &[]) {
             return Ok(None);
         }
-        let sizes = self.reader.axis_u32(SAMPLE_SIZE)?;
-        let replicates = self.reader.axis_u32(REPLICATE)?.len();
+        let sizes = self.reader.axis::<u32>(SAMPLE_SIZE)?;
+        let replicates = self.reader.axis::<u32>(REPLICATE)?.len();
         let multiplicities = vec![0; sizes.len() * replicates * records];
         let mut draws = StoredDraws { records, sizes, replicates, multiplicities, unit: self.drawn_unit()? };
         DRAWS.read(self, &[], &draws.lengths(), &mut draws)?;
@@ -440,7 +440,7 @@ impl ResultFile {
 
     /// What the draws are of; records in older results.
     fn drawn_unit(&self) -> Result<Unit, ResultError> {
-        let Ok(word) = self.reader.attribute_text(BANDS.root(), "unit") else { return Ok(Unit::Record) };
+        let Ok(word) = self.reader.attribute::<String>(BANDS.root(), "unit") else { return Ok(Unit::Record) };
         let unit = Unit::ALL.into_iter().find(|unit| unit.key() == word);
         unit.ok_or_else(|| self.damaged(format!("{}: unit {word:?}", BANDS.root())))
     }
@@ -450,12 +450,12 @@ impl ResultFile {
     /// # Errors
     /// A file without bands, or one that is damaged.
     pub fn band_method(&self) -> Result<BandMethod, ResultError> {
-        let word = self.reader.attribute_text(BANDS.root(), "interval")?;
+        let word = self.reader.attribute::<String>(BANDS.root(), "interval")?;
         let interval = Interval::ALL.into_iter().find(|interval| interval.key() == word);
         Ok(BandMethod {
-            confidence: self.reader.attribute_f64(BANDS.root(), "confidence")?,
+            confidence: self.reader.attribute::<f64>(BANDS.root(), "confidence")?,
             interval: interval.ok_or_else(|| self.damaged(format!("{}: interval {word:?}", BANDS.root())))?,
-            strength_above: self.reader.attribute_f64(BANDS.root(), "strength_above")?,
+            strength_above: self.reader.attribute::<f64>(BANDS.root(), "strength_above")?,
         })
     }
 }

@@ -194,9 +194,9 @@ impl ResultFile {
     ) -> Result<StoredConsistency, ResultError> {
         let axes = self.stored_axes()?;
         let (sites, poes, strengths) = (axes.sites.len(), axes.poes.len(), axes.strengths.len());
-        let rates = self.reader.axis_u32(RATE)?.len();
+        let rates = self.reader.axis::<u32>(RATE)?.len();
         let level = axis::level(scaled_to);
-        let levels = self.reader.axis_f64(&level)?.len();
+        let levels = self.reader.axis::<f64>(&level)?.len();
         let lengths = [(SITE, sites), (RATE, rates), (POE, poes)];
         let by_poe = [(SITE, sites), (POE, poes)];
         let names = consistency_names(scaled_to, other);
@@ -241,7 +241,7 @@ impl ResultFile {
         rate_per_year: &Array<2>,
         records: &Array<2>,
     ) -> Result<Vec<f64>, ResultError> {
-        let levels = self.reader.axis_f64(&axis::level(scaled_to))?;
+        let levels = self.reader.axis::<f64>(&axis::level(scaled_to))?;
         let extrapolation = self.stored_study()?.risk.extrapolate;
         let of_site = |(site, name): (usize, &String)| {
             let Some(curve) = self.mean_curve(name, scaled_to)? else { return Ok(f64::NAN) };

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use uplift_job::Array;
-use uplift_labelled::{LabelledError, LabelledWriter};
+use uplift_labelled::{LabelledError, LabelledWriter, Number};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::OrdinateFlag;
 
@@ -214,18 +214,18 @@ impl<T> Quantity<T> {
         match &self.field {
             Field::F64(Place { get, .. }) => {
                 let values = all(rows, each, |row, at| *get(row, at), &f64::NAN);
-                writer.array_f64(path, dims, &values, unit, long_name)
+                writer.array(path, dims, &values, unit, long_name)
             }
-            Field::Made(number) => writer.array_f64(path, dims, &all(rows, each, number, &f64::NAN), unit, long_name),
+            Field::Made(number) => writer.array(path, dims, &all(rows, each, number, &f64::NAN), unit, long_name),
             Field::U32(Place { get, .. }) => {
-                writer.array_u32(path, dims, &all(rows, each, |row, at| *get(row, at), &0), unit, long_name)
+                writer.array(path, dims, &all(rows, each, |row, at| *get(row, at), &0), unit, long_name)
             }
             Field::Bool(Place { get, .. }) => {
-                writer.array_u8(path, dims, &all(rows, each, |row, at| u8::from(*get(row, at)), &0), unit, long_name)
+                writer.array(path, dims, &all(rows, each, |row, at| u8::from(*get(row, at)), &0), unit, long_name)
             }
             Field::Flag(Place { get, .. }) => {
                 let flags = all(rows, each, |row, at| get(row, at).number(), &NO_ORDINATE);
-                writer.array_u8(path, dims, &flags, unit, long_name)
+                writer.array(path, dims, &flags, unit, long_name)
             }
             Field::Text(Place { get, .. }) => {
                 let texts = all(rows, each, |row, at| get(row, at).clone(), &String::new());
@@ -245,15 +245,15 @@ impl<T> Quantity<T> {
             return Ok(());
         }
         match &self.field {
-            Field::F64(place) => fill(value, place, file.checked(path, reader.array_f64(path)?, shape)?),
-            Field::U32(place) => fill(value, place, file.checked(path, reader.array_u32(path)?, shape)?),
-            Field::Text(place) => fill(value, place, file.checked(path, reader.array_text(path)?, shape)?),
+            Field::F64(place) => fill(value, place, file.checked(path, reader.array::<f64>(path)?, shape)?),
+            Field::U32(place) => fill(value, place, file.checked(path, reader.array::<u32>(path)?, shape)?),
+            Field::Text(place) => fill(value, place, file.checked(path, reader.array::<String>(path)?, shape)?),
             Field::Bool(place) => {
-                let numbers = file.checked(path, reader.array_u8(path)?, shape)?;
+                let numbers = file.checked(path, reader.array::<u8>(path)?, shape)?;
                 fill(value, place, numbers.into_iter().map(|number| number == 1));
             }
             Field::Flag(place) => {
-                let numbers = file.checked(path, reader.array_u8(path)?, shape)?;
+                let numbers = file.checked(path, reader.array::<u8>(path)?, shape)?;
                 if let Some(unknown) = numbers.iter().find(|&&number| OrdinateFlag::from_number(number).is_none()) {
                     return Err(file.damaged(format!("{path} has the unknown flag {unknown}")));
                 }
@@ -265,7 +265,7 @@ impl<T> Quantity<T> {
     }
 }
 
-impl<const N: usize> Group<Array<N>> {
+impl<const N: usize, V: Number> Group<Array<N, V>> {
     /// Writes the `values` of its only array, without a copy.
     ///
     /// # Errors
@@ -274,24 +274,9 @@ impl<const N: usize> Group<Array<N>> {
         &self,
         writer: &mut LabelledWriter,
         names: Names<'_>,
-        values: &[f64],
+        values: &[V],
     ) -> Result<(), LabelledError> {
-        self.with_only(names, |path, dims, unit, long_name| writer.array_f64(path, dims, values, unit, long_name))
-    }
-}
-
-impl<const N: usize> Group<Array<N, u32>> {
-    /// Writes the `values` of its only array, without a copy.
-    ///
-    /// # Errors
-    /// Whatever keeps the file from being written.
-    pub fn write_counts(
-        &self,
-        writer: &mut LabelledWriter,
-        names: Names<'_>,
-        values: &[u32],
-    ) -> Result<(), LabelledError> {
-        self.with_only(names, |path, dims, unit, long_name| writer.array_u32(path, dims, values, unit, long_name))
+        self.with_only(names, |path, dims, unit, long_name| writer.array(path, dims, values, unit, long_name))
     }
 }
 
@@ -400,7 +385,7 @@ impl<T> Group<T> {
     ) -> Result<Vec<f64>, ResultError> {
         let quantity = self.quantity(file, name)?;
         let (path, shape) = (self.path(quantity, names), quantity.shape(names, lengths));
-        file.checked(&path, file.reader.array_f64(&path)?, &shape)
+        file.checked(&path, file.reader.array::<f64>(&path)?, &shape)
     }
 
     /// Reads every array into `value`, which has a place for every value.
@@ -423,12 +408,14 @@ impl<T> Group<T> {
             let (reader, row) = (&file.reader, rows.iter());
             let same = match &quantity.field {
                 Field::F64(Place { get, .. }) => {
-                    let kept = reader.array_f64(&path)?.values;
+                    let kept = reader.array::<f64>(&path)?.values;
                     kept.iter().map(|value| value.to_bits()).eq(row.map(|row| get(row, 0).to_bits()))
                 }
-                Field::U32(Place { get, .. }) => reader.array_u32(&path)?.values.iter().eq(row.map(|row| get(row, 0))),
+                Field::U32(Place { get, .. }) => {
+                    reader.array::<u32>(&path)?.values.iter().eq(row.map(|row| get(row, 0)))
+                }
                 Field::Text(Place { get, .. }) => {
-                    reader.array_text(&path)?.values.iter().eq(row.map(|row| get(row, 0)))
+                    reader.array::<String>(&path)?.values.iter().eq(row.map(|row| get(row, 0)))
                 }
                 Field::Bool(_) | Field::Flag(_) | Field::Made(_) => false,
             };

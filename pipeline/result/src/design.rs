@@ -217,7 +217,7 @@ impl ResultFile {
         if !self.reader.exists(group) {
             return Ok(None);
         }
-        let number = |name: &str| self.reader.attribute_f64(group, name);
+        let number = |name: &str| self.reader.attribute::<f64>(group, name);
         let designed = if RESTRAINED_DESIGN.is_in(self, &VALUES) {
             StoredDesigned::Bridge
         } else {
@@ -227,7 +227,7 @@ impl ResultFile {
             safety_factor: number("safety_factor")?,
             percentile: number("percentile")?,
             noise_relative: number("noise_relative")?,
-            noise_points: self.reader.attribute_u64(group, "noise_points")?,
+            noise_points: self.reader.attribute::<u64>(group, "noise_points")?,
             designed,
             rows: self.design_rows(designed)?,
         }))
@@ -258,7 +258,7 @@ impl ResultFile {
     }
 
     fn design_rows(&self, designed: StoredDesigned) -> Result<Vec<DesignRow>, ResultError> {
-        let [sets, to, by] = [RECORD_SET, SCALING, SCALED_BY].map(|axis| self.reader.axis_text(axis));
+        let [sets, to, by] = [RECORD_SET, SCALING, SCALED_BY].map(|axis| self.reader.axis::<String>(axis));
         let (sets, to, by) = (sets?, to?, by?);
         let rules = match designed {
             StoredDesigned::Bridge => RULES.map(|rule| Some(rule_names(rule)[1])).to_vec(),

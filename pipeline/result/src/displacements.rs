@@ -299,11 +299,11 @@ impl ResultFile {
         self.require(Kind::Displacement)?;
         let reader = &self.reader;
         let structures = self.structures()?;
-        let (scalings, scaled_by) = (reader.axis_text(SCALING)?, reader.axis_text(SCALED_BY)?);
-        let percentiles = reader.axis_f64(PERCENTILE)?;
+        let (scalings, scaled_by) = (reader.axis::<String>(SCALING)?, reader.axis::<String>(SCALED_BY)?);
+        let percentiles = reader.axis::<f64>(PERCENTILE)?;
         let (names, [abscissa, printed]) = (structures.names(), structures.abscissa_axes());
-        let abscissas = reader.axis_f64(abscissa)?;
-        let sets = reader.axis_text(RECORD_SET)?;
+        let abscissas = reader.axis::<f64>(abscissa)?;
+        let sets = reader.axis::<String>(RECORD_SET)?;
         let mut shape =
             [sets.len(), scalings.len(), scaled_by.len(), structures.lines(), percentiles.len(), abscissas.len()];
         if shape.contains(&0) {
@@ -315,7 +315,7 @@ impl ResultFile {
         let u_m = SPECTRA.read_floats("u_m", self, &names, &lengths)?;
         let percentile_m = Array::new(shape, u_m).map_err(|error| self.damaged(error))?;
         let rounding = if ROUNDED_SPECTRA.is_in(self, &names) {
-            let abscissas = reader.axis_f64(printed)?;
+            let abscissas = reader.axis::<f64>(printed)?;
             lengths.push((printed, abscissas.len()));
             shape[5] = abscissas.len();
             let values = ROUNDED_SPECTRA.read_floats("u_m_rounding", self, &names, &lengths)?;
@@ -337,7 +337,7 @@ impl ResultFile {
             abscissas,
             percentile_m,
             rounding,
-            analyses: reader.attribute_u64(SPECTRA.path, "analyses")?,
+            analyses: reader.attribute::<u64>(SPECTRA.path, "analyses")?,
         })
     }
 
@@ -349,19 +349,19 @@ impl ResultFile {
         self.require(Kind::Displacement)?;
         let reader = &self.reader;
         let structures = self.structures()?;
-        let sets = reader.axis_text(RECORD_SET)?;
+        let sets = reader.axis::<String>(RECORD_SET)?;
         let Some(set) = sets.get(position) else {
             return Err(self.fail(format!("has {} record sets, and number {} is wanted", sets.len(), position + 1)));
         };
         let mut taken = BTreeSet::new();
         let motion = sets[..=position].iter().map(|set| axis::motion(set, &mut taken)).last().unwrap_or_default();
-        let motions = reader.axis_text(&motion)?;
+        let motions = reader.axis::<String>(&motion)?;
         let names = [&structures.names()[..], &[("<set>", set), ("<motion>", &motion)]].concat();
         let [abscissa, _] = structures.abscissa_axes();
-        let ways = [reader.axis_text(SCALING)?.len(), reader.axis_text(SCALED_BY)?.len()];
+        let ways = [reader.axis::<String>(SCALING)?.len(), reader.axis::<String>(SCALED_BY)?.len()];
         let mut lengths = vec![(SCALING, ways[0]), (SCALED_BY, ways[1]), (motion.as_str(), motions.len())];
         lengths.extend(structures.line_axes());
-        lengths.push((abscissa, reader.axis_f64(abscissa)?.len()));
+        lengths.push((abscissa, reader.axis::<f64>(abscissa)?.len()));
         let shape = [ways[0], ways[1], structures.lines(), lengths[lengths.len() - 1].1, motions.len()];
         if shape.contains(&0) {
             return Err(self.damaged(format!("an axis of {} is empty", SET_SPECTRA.first_path(&names))));
@@ -384,12 +384,12 @@ impl ResultFile {
 
     fn structures(&self) -> Result<StoredStructures, ResultError> {
         let reader = &self.reader;
-        Ok(if reader.attribute_text("/", "structure")? == "block" {
-            StoredStructures::Blocks { height_m: reader.axis_f64(axis::HEIGHT)? }
+        Ok(if reader.attribute::<String>("/", "structure")? == "block" {
+            StoredStructures::Blocks { height_m: reader.axis::<f64>(axis::HEIGHT)? }
         } else {
             StoredStructures::Oscillators {
-                uplift_displacement_m: reader.axis_f64(axis::UPLIFT_DISPLACEMENT)?,
-                capacity_m: reader.axis_f64(axis::CAPACITY)?,
+                uplift_displacement_m: reader.axis::<f64>(axis::UPLIFT_DISPLACEMENT)?,
+                capacity_m: reader.axis::<f64>(axis::CAPACITY)?,
             }
         })
     }
@@ -397,9 +397,9 @@ impl ResultFile {
     fn set(&self, name: String) -> Result<StoredSet, ResultError> {
         let group = MOTIONS.group(&[("<set>", &name)]);
         Ok(StoredSet {
-            records: self.reader.attribute_u64(&group, "records")?,
-            median_pga_g: self.reader.attribute_f64(&group, "median_pga_g")?,
-            median_pgv_cm_s: self.reader.attribute_f64(&group, "median_pgv_cm_s")?,
+            records: self.reader.attribute::<u64>(&group, "records")?,
+            median_pga_g: self.reader.attribute::<f64>(&group, "median_pga_g")?,
+            median_pgv_cm_s: self.reader.attribute::<f64>(&group, "median_pgv_cm_s")?,
             name,
         })
     }

@@ -160,7 +160,7 @@ impl ResultFile {
 
 /// The layout of the result at `path`, where it is another than this program's.
 fn other_layout(path: &Path) -> Option<i64> {
-    let layout = LabelledReader::open(path).ok()?.attribute_i64("/", "layout").ok()?;
+    let layout = LabelledReader::open(path).ok()?.attribute::<i64>("/", "layout").ok()?;
     (layout != LAYOUT).then_some(layout)
 }
 

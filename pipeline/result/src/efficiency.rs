@@ -120,7 +120,7 @@ impl ResultFile {
             let group = format!("{}/{}", TRENDS.root(), measure.key());
             let covariates = if self.reader.exists(&group) { self.reader.children(&group)? } else { Vec::new() };
             // results of earlier versions have no others
-            let said = self.reader.attribute_text(&EFFICIENCY.of_measure(measure), "scaled_to").ok();
+            let said = self.reader.attribute::<String>(&EFFICIENCY.of_measure(measure), "scaled_to").ok();
             let nan = vec![f64::NAN; strengths];
             let mut found = StoredEfficiency {
                 measure,

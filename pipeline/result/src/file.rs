@@ -80,9 +80,9 @@ impl ResultFile {
     /// A file that is missing, damaged, not a result, or of another layout.
     pub fn open(path: &Path) -> Result<Self, ResultError> {
         let reader = LabelledReader::open(path).map_err(|error| no_result(path, error))?;
-        let program = reader.attribute_text("/", "program").unwrap_or_default();
+        let program = reader.attribute::<String>("/", "program").unwrap_or_default();
         if program != "uplift" {
-            let is_sites = reader.attribute_text("/", "kind").is_ok_and(|kind| kind == SITES_KIND);
+            let is_sites = reader.attribute::<String>("/", "kind").is_ok_and(|kind| kind == SITES_KIND);
             let what = if is_sites { "the sites of a result as arrays" } else { "an HDF5 file" };
             return Err(JobError::input(format!(
                 "{}: is {what}, but not a result of uplift: give the file that `uplift run` wrote",
@@ -90,7 +90,7 @@ impl ResultFile {
             ))
             .into());
         }
-        let layout = reader.attribute_i64("/", "layout")?;
+        let layout = reader.attribute::<i64>("/", "layout")?;
         if layout != LAYOUT {
             return Err(JobError::input(format!(
                 "{}: has layout {layout}, this version of uplift ({}) reads layout {LAYOUT}: run the study again",
@@ -118,7 +118,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged.
     pub fn seed(&self) -> Result<u64, ResultError> {
-        Ok(self.reader.attribute_u64("/", "seed")?)
+        Ok(self.reader.attribute::<u64>("/", "seed")?)
     }
 
     /// What its study is of.
@@ -147,11 +147,11 @@ impl ResultFile {
         self.require(Kind::UniformRisk)?;
         let reader = &self.reader;
         let axes = RiskAxes {
-            records: reader.axis_text(axis::RECORD)?,
-            strengths: reader.axis_f64(axis::STRENGTH)?,
-            poes: reader.axis_f64(axis::POE)?,
-            years: reader.attribute_f64("/", "poe_years")?,
-            sites: if reader.exists(&axis::path(axis::SITE)) { reader.axis_text(axis::SITE)? } else { Vec::new() },
+            records: reader.axis::<String>(axis::RECORD)?,
+            strengths: reader.axis::<f64>(axis::STRENGTH)?,
+            poes: reader.axis::<f64>(axis::POE)?,
+            years: reader.attribute::<f64>("/", "poe_years")?,
+            sites: if reader.exists(&axis::path(axis::SITE)) { reader.axis::<String>(axis::SITE)? } else { Vec::new() },
         };
         for (name, length) in
             [(axis::RECORD, axes.records.len()), (axis::STRENGTH, axes.strengths.len()), (axis::POE, axes.poes.len())]
@@ -211,7 +211,7 @@ impl ResultFile {
 
     /// An array over `axes`, each its name and length.
     pub(super) fn array<const N: usize>(&self, path: &str, axes: [(&str, usize); N]) -> Result<Array<N>, ResultError> {
-        self.over(path, self.reader.array_f64(path)?, axes)
+        self.over(path, self.reader.array::<f64>(path)?, axes)
     }
 
     /// `array`, read from `path`, if it runs over `axes`, each its name and length.

@@ -146,7 +146,7 @@ impl Finding {
     pub fn write_rows(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
         let (key, count) = (self.key(), self.rows.len());
         let (axis, numbers) = (axis::finding(&key), (1..).take(count).collect::<Vec<u32>>());
-        writer.axis_u32(&axis, &numbers, "1", "number of an answer")?;
+        writer.axis(&axis, &numbers, "1", "number of an answer")?;
         let names = [("<command>", self.inquiry.key()), ("<key>", &key), ("<structure>", &self.structure)];
         FINDINGS.write(writer, &names, &[(&axis, count)], &self.rows)
     }
@@ -250,7 +250,7 @@ impl ResultFile {
         }
         let mut found = Vec::new();
         for structure in reader.children(structures::ROOT)? {
-            let last = reader.attribute_text(&structures::group(&structure), STRUCTURE_SHA256)?;
+            let last = reader.attribute::<String>(&structures::group(&structure), STRUCTURE_SHA256)?;
             for inquiry in Inquiry::ALL {
                 let group = format!("{}/{}", structures::group(&structure), inquiry.key());
                 if !reader.exists(&group) {
@@ -269,11 +269,11 @@ impl ResultFile {
 
     fn finding(&self, (structure, inquiry): (&str, Inquiry), key: &str) -> Result<StoredFinding, ResultError> {
         let group = structures::answer(structure, inquiry.key(), key);
-        let text = |name: &str| self.reader.attribute_text(&group, name);
+        let text = |name: &str| self.reader.attribute::<String>(&group, name);
         let request: serde_json::Map<String, serde_json::Value> = serde_json::from_str(&text(REQUEST)?)
             .map_err(|error| self.damaged(format!("attribute {REQUEST} of {group}: {error}")))?;
         let axis = axis::finding(key);
-        let mut rows = vec![FindingRow::default(); self.reader.axis_u32(&axis)?.len()];
+        let mut rows = vec![FindingRow::default(); self.reader.axis::<u32>(&axis)?.len()];
         let names = [("<command>", inquiry.key()), ("<key>", key), ("<structure>", structure)];
         FINDINGS.read(self, &names, &[(&axis, rows.len())], &mut rows)?;
         let value = |of: serde_json::Value| of.as_str().map_or_else(|| of.to_string(), str::to_owned);

@@ -113,7 +113,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn levels(&self) -> Result<Vec<(IntensityMeasure, Vec<f64>)>, ResultError> {
-        let of = |measure| Ok((measure, self.reader.axis_f64(&axis::level(measure))?));
+        let of = |measure| Ok((measure, self.reader.axis::<f64>(&axis::level(measure))?));
         self.measures().into_iter().map(of).collect()
     }
 
@@ -125,7 +125,7 @@ impl ResultFile {
         let of_curve = |curve: String| {
             let group = HAZARD_CURVE.group(&[("<curve>", &curve)]);
             let (name, weight) =
-                (self.reader.attribute_text(&group, "name")?, self.reader.attribute_f64(&group, "weight")?);
+                (self.reader.attribute::<String>(&group, "name")?, self.reader.attribute::<f64>(&group, "weight")?);
             Ok(StoredBranch { name, weight, curve: self.curve(&curve, measure)? })
         };
         let names = (0..).map(|index| branch_curve_name(site, measure, index));
@@ -143,9 +143,9 @@ impl ResultFile {
     /// The curve of this name.
     fn curve(&self, name: &str, measure: IntensityMeasure) -> Result<HazardCurve, ResultError> {
         let path = HAZARD_CURVE.first_path(&[("<curve>", name)]);
-        let maf = self.reader.array_f64(&path)?;
+        let maf = self.reader.array::<f64>(&path)?;
         let [axis] = &maf.dims[..] else { return Err(self.damaged(format!("{path} is not a curve"))) };
-        let im = self.reader.axis_f64(axis)?;
+        let im = self.reader.axis::<f64>(axis)?;
         HazardCurve::new(measure.label(), measure.unit(), "", im, maf.values)
             .map_err(|error| self.fail(format!("{path}: {error}")))
     }

@@ -87,7 +87,7 @@ pub enum Overview {
 
 /// What the result in `reader` is of; uniform risk where it does not say.
 pub(super) fn kind_of(reader: &LabelledReader) -> Kind {
-    let is = |kind: &Kind| reader.attribute_text("/", "kind").is_ok_and(|word| word == kind.key());
+    let is = |kind: &Kind| reader.attribute::<String>("/", "kind").is_ok_and(|word| word == kind.key());
     Kind::ALL.into_iter().find(is).unwrap_or(Kind::UniformRisk)
 }
 
@@ -97,7 +97,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged.
     pub fn head(&self) -> Result<Head, ResultError> {
-        let text = |name: &str| self.reader.attribute_text("/", name);
+        let text = |name: &str| self.reader.attribute::<String>("/", name);
         Ok(Head {
             kind: self.kind(),
             version: text("version")?,
@@ -110,7 +110,7 @@ impl ResultFile {
             study_toml: text("study_toml")?,
             record_set: self.record_set()?,
             synthetic: self.is_synthetic()?,
-            seed: (self.kind() == Kind::UniformRisk).then(|| self.reader.attribute_u64("/", "seed")).transpose()?,
+            seed: (self.kind() == Kind::UniformRisk).then(|| self.reader.attribute::<u64>("/", "seed")).transpose()?,
             input_checksums: serde_json::from_str(&text("input_checksums")?)
                 .map_err(|error| self.damaged(format!("attribute input_checksums of /: {error}")))?,
             numerics: self.numerics(),
@@ -119,13 +119,13 @@ impl ResultFile {
     }
 
     fn numerics(&self) -> u32 {
-        let said = self.reader.attribute_i64("/", "numerics").ok().and_then(|said| u32::try_from(said).ok());
+        let said = self.reader.attribute::<i64>("/", "numerics").ok().and_then(|said| u32::try_from(said).ok());
         said.unwrap_or(UNSAID_NUMERICS)
     }
 
     /// Where the records come from, in a line.
     pub(super) fn record_set(&self) -> Result<String, ResultError> {
-        Ok(self.reader.attribute_text("/", "record_set")?)
+        Ok(self.reader.attribute::<String>("/", "record_set")?)
     }
 
     /// Whether the records are synthetic.
@@ -133,7 +133,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn is_synthetic(&self) -> Result<bool, ResultError> {
-        Ok(self.reader.attribute_i64("/", "synthetic")? == 1)
+        Ok(self.reader.attribute::<i64>("/", "synthetic")? == 1)
     }
 
     /// What the result holds.
@@ -144,22 +144,22 @@ impl ResultFile {
         let reader = &self.reader;
         if self.kind() == Kind::Displacement {
             let group = |name: &str| MOTIONS.group(&[("<set>", name)]);
-            let records = |name: String| Ok((reader.attribute_u64(&group(&name), "records")?, name));
+            let records = |name: String| Ok((reader.attribute::<u64>(&group(&name), "records")?, name));
             let sets =
                 reader.children(MOTIONS.root())?.into_iter().map(records).collect::<Result<Vec<_>, ResultError>>()?;
             return Ok(Overview::Displacement {
-                structure: reader.attribute_text("/", "structure")?,
-                analyses: reader.attribute_u64(SPECTRA.path, "analyses")?,
+                structure: reader.attribute::<String>("/", "structure")?,
+                analyses: reader.attribute::<u64>(SPECTRA.path, "analyses")?,
                 sets: sets.into_iter().map(|(records, name)| (name, records)).collect(),
                 has_design: reader.exists(RESTRAINED_DESIGN.path),
             });
         }
         if self.kind() == Kind::ShakeTable {
             return Ok(Overview::ShakeTable {
-                structure: reader.attribute_text(TABLE_EXCITATIONS.path, "structure")?,
-                analyses: reader.attribute_u64(TABLE_EXCITATIONS.path, "analyses")?,
-                levels: reader.axis_text(axis::LEVEL)?,
-                excitations: reader.axis_text(axis::EXCITATION)?.len(),
+                structure: reader.attribute::<String>(TABLE_EXCITATIONS.path, "structure")?,
+                analyses: reader.attribute::<u64>(TABLE_EXCITATIONS.path, "analyses")?,
+                levels: reader.axis::<String>(axis::LEVEL)?,
+                excitations: reader.axis::<String>(axis::EXCITATION)?.len(),
             });
         }
         let mut analyses = Vec::new();
@@ -167,9 +167,9 @@ impl ResultFile {
         let mut measures = self.measures_in(PEAKS.root());
         measures.sort_by_key(|measure| measure.key());
         for measure in measures {
-            analyses.push((measure.label(), reader.attribute_u64(&PEAKS.of_measure(measure), "analyses")?));
+            analyses.push((measure.label(), reader.attribute::<u64>(&PEAKS.of_measure(measure), "analyses")?));
         }
-        let sites = reader.exists(&axis::path(axis::SITE)).then(|| reader.axis_text(axis::SITE)).transpose()?;
+        let sites = reader.exists(&axis::path(axis::SITE)).then(|| reader.axis::<String>(axis::SITE)).transpose()?;
         Ok(Overview::UniformRisk {
             analyses,
             sites: sites.unwrap_or_default(),

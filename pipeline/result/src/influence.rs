@@ -67,7 +67,7 @@ impl ResultFile {
         let (record, strength) = ((RECORD, axes.records.len()), (STRENGTH, axes.strengths.len()));
         let of = |measure: IntensityMeasure| {
             let bin = axis::bin(measure);
-            let bins = self.reader.axis_f64(&bin)?;
+            let bins = self.reader.axis::<f64>(&bin)?;
             let names = of_measure(measure);
             let shares = DISAGGREGATION.read_array("share", self, &names, [site, poe, strength, (&bin, bins.len())])?;
             let without_m = INFLUENCE

@@ -71,7 +71,7 @@ impl ResultFile {
     /// A file that is damaged.
     pub fn peaks(&self, axes: &RiskAxes, measure: IntensityMeasure) -> Result<StoredPeaks, ResultError> {
         let level = axis::level(measure);
-        let levels = self.reader.axis_f64(&level)?;
+        let levels = self.reader.axis::<f64>(&level)?;
         let lengths = [(RECORD, axes.records.len()), (STRENGTH, axes.strengths.len()), (level.as_str(), levels.len())];
         let edp_m = PEAKS.read_array("edp_m", self, &of_measure(measure), lengths)?;
         let shares = self.shares_of_levels(axes.records.len(), measure, levels.len())?;

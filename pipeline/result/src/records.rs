@@ -139,7 +139,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn oscillator_key(&self, measure: IntensityMeasure) -> Result<String, ResultError> {
-        Ok(self.reader.attribute_text(&PEAKS.of_measure(measure), "oscillator_key")?)
+        Ok(self.reader.attribute::<String>(&PEAKS.of_measure(measure), "oscillator_key")?)
     }
 
     /// What a result of uniform risk knows of its records.
@@ -148,7 +148,7 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn records(&self) -> Result<StoredRecords, ResultError> {
         self.require(Kind::UniformRisk)?;
-        let ids = self.reader.axis_text(RECORD)?;
+        let ids = self.reader.axis::<String>(RECORD)?;
         let lengths = [(RECORD, ids.len())];
         let intensity = |measure| {
             INTENSITY.read_array("<im>_<unit_key>", self, &intensity_names(measure), lengths).map(Array::into_values)

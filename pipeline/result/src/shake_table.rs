@@ -178,7 +178,7 @@ impl ShakeTable {
         let lengths = &[(LEVEL, self.levels.len()), (EXCITATION, self.excitations.len())];
         TABLE_EXCITATIONS.write(writer, &[], lengths, self)?;
         TABLE_TESTS.write(writer, &[], lengths, self)?;
-        TABLE_ORDER.write_counts(writer, &[], &self.order())
+        TABLE_ORDER.write_array(writer, &[], &self.order())
     }
 
     /// The tests of a level with their excitations.
@@ -219,7 +219,7 @@ impl ResultFile {
     pub fn shake_table(&self) -> Result<ShakeTable, ResultError> {
         self.require(Kind::ShakeTable)?;
         let reader = &self.reader;
-        let (names, ids) = (reader.axis_text(LEVEL)?, reader.axis_text(EXCITATION)?);
+        let (names, ids) = (reader.axis::<String>(LEVEL)?, reader.axis::<String>(EXCITATION)?);
         let (level, excitation) = ((LEVEL, names.len()), (EXCITATION, ids.len()));
         if names.is_empty() || ids.is_empty() {
             return Err(self.damaged("an axis of its tests is empty"));
@@ -227,8 +227,8 @@ impl ResultFile {
         let mut table = ShakeTable {
             records: self.record_set()?,
             synthetic: self.is_synthetic()?,
-            structure: reader.attribute_text(TABLE_EXCITATIONS.path, "structure")?,
-            length_scale: reader.attribute_f64(TABLE_EXCITATIONS.path, "length_scale")?,
+            structure: reader.attribute::<String>(TABLE_EXCITATIONS.path, "structure")?,
+            length_scale: reader.attribute::<f64>(TABLE_EXCITATIONS.path, "length_scale")?,
             levels: names.into_iter().map(|name| TableLevel { name, pgv_srss_m_s: f64::NAN }).collect(),
             tests: vec![TableTest::default(); level.1 * excitation.1],
             excitations: ids.into_iter().map(|exc_id| Excitation { exc_id, ..Excitation::default() }).collect(),
@@ -245,7 +245,7 @@ impl ResultFile {
         if !TABLE_SPECTRA.is_in(self, &[]) {
             return Ok(None);
         }
-        let periods_s = self.reader.axis_f64(PERIOD)?;
+        let periods_s = self.reader.axis::<f64>(PERIOD)?;
         let lengths = [excitation, (DIRECTION, DIRECTIONS.len()), (PERIOD, periods_s.len())];
         let nan = |axes: &[(&str, usize)]| vec![f64::NAN; axes.iter().map(|(_, length)| length).product()];
         let design_m_s2 = DESIGN_SPECTRUM.is_in(self, &[]).then(|| nan(&lengths[2..]));

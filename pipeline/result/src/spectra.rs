@@ -251,8 +251,9 @@ impl ResultFile {
     /// How well the records know the spectra, a sentence a measure; none in older results, and where nothing can be
     /// said.
     pub fn precision(&self) -> Vec<String> {
-        let words =
-            |measure: IntensityMeasure| self.reader.attribute_text(&urs::GROUP.of_measure(measure), URS_PRECISION).ok();
+        let words = |measure: IntensityMeasure| {
+            self.reader.attribute::<String>(&urs::GROUP.of_measure(measure), URS_PRECISION).ok()
+        };
         self.measures().into_iter().filter_map(words).collect()
     }
 
@@ -261,7 +262,7 @@ impl ResultFile {
     /// earthquake, and in older results.
     pub fn half_widths(&self, measure: IntensityMeasure) -> Option<[f64; 2]> {
         let group = urs::GROUP.of_measure(measure);
-        let [by_record, by_event] = HALF_WIDTHS.map(|name| self.reader.attribute_f64(&group, name).ok());
+        let [by_record, by_event] = HALF_WIDTHS.map(|name| self.reader.attribute::<f64>(&group, name).ok());
         Some([by_record?, by_event?])
     }
 

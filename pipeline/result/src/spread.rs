@@ -142,9 +142,9 @@ impl ResultFile {
         }
         let axes = self.axes_with_sites()?;
         let (poes, strengths) = (axes.poes.len(), axes.strengths.len());
-        let weights = self.reader.array_f64(&BRANCH_WEIGHTS.first_path(&names))?.values;
+        let weights = self.reader.array::<f64>(&BRANCH_WEIGHTS.first_path(&names))?.values;
         let path = EPISTEMIC_SPECTRA.first_path(&names);
-        let spectra_m = self.reader.array_f64(&path)?.values;
+        let spectra_m = self.reader.array::<f64>(&path)?.values;
         if spectra_m.len() != weights.len() * poes * strengths {
             return Err(self.damaged(format!("{path}: {} ordinates", spectra_m.len())));
         }

@@ -12,7 +12,7 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn stored_study(&self) -> Result<UniformRiskStudy, ResultError> {
         self.require(Kind::UniformRisk)?;
-        match Study::stored(&self.reader.attribute_text("/", "study_toml")?) {
+        match Study::stored(&self.reader.attribute::<String>("/", "study_toml")?) {
             Ok(AnyStudy::UniformRisk(study)) => Ok(*study),
             Ok(other) => Err(self.damaged(format!("its study {} is of another kind", other.title()))),
             Err(error) => {

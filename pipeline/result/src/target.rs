@@ -66,7 +66,7 @@ pub fn replaces_another(study: &AnyStudy, options: &RunOptions) -> Result<Option
     let path = options.result_file(&study.output().file);
     // whatever else is there was looked at by `check_place`
     let Some(earlier) = LabelledReader::open(path).ok().filter(|_| !options.force) else { return Ok(None) };
-    let text = |name: &str| earlier.attribute_text("/", name).unwrap_or_default();
+    let text = |name: &str| earlier.attribute::<String>("/", name).unwrap_or_default();
     if what_counts(&text("study_toml")) == what_counts(&study.to_toml()?) {
         return Ok(None);
     }
@@ -81,7 +81,8 @@ pub fn replaces_another(study: &AnyStudy, options: &RunOptions) -> Result<Option
     };
     let own = sorted(options.overrides.clone());
     // what an earlier version wrote does not say
-    let kept = earlier.attribute_text("/", "overrides").map(|all| sorted(all.lines().map(str::to_owned).collect()));
+    let kept =
+        earlier.attribute::<String>("/", "overrides").map(|all| sorted(all.lines().map(str::to_owned).collect()));
     Ok(kept.ok().filter(|kept| *kept != own).map(|kept| {
         let said = |all: &[String]| match all {
             [] => "without --set".to_owned(),
@@ -118,7 +119,7 @@ fn check_replaceable(path: &Path, force: bool) -> Result<(), ResultError> {
         return Err(refused("is not an HDF5 file").into());
     }
     match LabelledReader::open(path) {
-        Ok(reader) if reader.attribute_text("/", "program").is_ok_and(|program| program == "uplift") => Ok(()),
+        Ok(reader) if reader.attribute::<String>("/", "program").is_ok_and(|program| program == "uplift") => Ok(()),
         Ok(_) => Err(refused("is an HDF5 file of another program").into()),
         // another program's, or one of ours that another program has written to
         Err(LabelledError::Unsealed { .. }) => {

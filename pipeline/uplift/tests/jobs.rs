@@ -104,7 +104,7 @@ impl Folder {
 }
 
 fn array(result: &Path, name: &str) -> Vec<f64> {
-    LabelledReader::open(result).unwrap().array_f64(name).unwrap().values
+    LabelledReader::open(result).unwrap().array::<f64>(name).unwrap().values
 }
 
 /// Writes down what it is reported, and stops the job after so many steps.
@@ -221,7 +221,7 @@ fn influence_reports_what_it_writes() {
     let spectra = array(&folder.result(), "/urs/pgv/u_m");
     let first = &report.records[0];
     let record: usize = first.record.trim_start_matches('R').parse().unwrap();
-    let strengths = LabelledReader::open(&folder.result()).unwrap().axis_f64("strength").unwrap();
+    let strengths = LabelledReader::open(&folder.result()).unwrap().axis::<f64>("strength").unwrap();
     let at = strengths.iter().position(|&strength| strength == first.at_strength).unwrap();
     let change = without[(record - 1) * STRENGTHS + at] / spectra[at] - 1.0;
     assert!((first.largest_change_pct - 100.0 * change).abs() < 1e-9, "{first:?} {change}");
@@ -275,7 +275,7 @@ fn a_design_starts_from_the_spectrum_in_the_file() {
     let spectrum = report.spectrum.unwrap();
     let u_m = array(&folder.result(), "/urs/pgv/u_m");
     let row = (POES.len() + 1) * STRENGTHS;
-    let strengths = LabelledReader::open(&folder.result()).unwrap().axis_f64("strength").unwrap();
+    let strengths = LabelledReader::open(&folder.result()).unwrap().axis::<f64>("strength").unwrap();
     let (a, b) = spectrum.between_strengths;
     let at = strengths.iter().position(|&strength| strength == b).unwrap();
     let share = if b > a { (spectrum.strength - a) / (b - a) } else { 1.0 };

@@ -6,8 +6,8 @@ use uplift_atomic_file::FileError;
 fn small_file(folder: &Path) -> PathBuf {
     let path = folder.join("result.h5");
     let mut writer = LabelledWriter::create(&path).unwrap();
-    writer.axis_f64("strength", &[0.1, 0.2], "1", "strength").unwrap();
-    writer.array_f64("/urs/u_m", &["strength"], &[1.0, 2.0], "m", "displacement").unwrap();
+    writer.axis("strength", &[0.1, 0.2], "1", "strength").unwrap();
+    writer.array("/urs/u_m", &["strength"], &[1.0, 2.0], "m", "displacement").unwrap();
     writer.attribute("/", "list", vec![1.0, 2.0]).unwrap();
     writer.attribute("/", "program", "uplift").unwrap();
     writer.finish().unwrap();
@@ -59,24 +59,24 @@ fn what_is_not_there_or_not_so_is_named() {
         let message = error.to_string();
         message.split_once("result.h5: ").unwrap().1.to_owned()
     };
-    assert_eq!(shown(reader.array_f64("/urs/v_m").unwrap_err()), "has no /urs/v_m");
-    assert_eq!(shown(reader.array_f64("/none/u_m").unwrap_err()), "has no /none/u_m");
-    assert_eq!(shown(reader.array_f64("").unwrap_err()), "has no ");
-    assert_eq!(shown(reader.array_f64("a\0b").unwrap_err()), "has no a\0b");
-    assert_eq!(shown(reader.axis_f64("poe").unwrap_err()), "has no /axes/poe");
+    assert_eq!(shown(reader.array::<f64>("/urs/v_m").unwrap_err()), "has no /urs/v_m");
+    assert_eq!(shown(reader.array::<f64>("/none/u_m").unwrap_err()), "has no /none/u_m");
+    assert_eq!(shown(reader.array::<f64>("").unwrap_err()), "has no ");
+    assert_eq!(shown(reader.array::<f64>("a\0b").unwrap_err()), "has no a\0b");
+    assert_eq!(shown(reader.axis::<f64>("poe").unwrap_err()), "has no /axes/poe");
     assert_eq!(shown(reader.children("/none").unwrap_err()), "has no /none");
     assert_eq!(shown(reader.children("/urs/u_m").unwrap_err()), "/urs/u_m is an array, but a group is needed");
-    assert_eq!(shown(reader.array_f64("/urs").unwrap_err()), "/urs is a group, but an array is needed");
-    assert_eq!(shown(reader.array_u8("/urs/u_m").unwrap_err()), "/urs/u_m is of type float64, but uint8 is needed");
-    assert_eq!(shown(reader.array_text("/urs/u_m").unwrap_err()), "/urs/u_m is no text, but text is needed");
-    assert_eq!(shown(reader.attribute_f64("/", "seed").unwrap_err()), "has no attribute \"seed\" of /");
+    assert_eq!(shown(reader.array::<f64>("/urs").unwrap_err()), "/urs is a group, but an array is needed");
+    assert_eq!(shown(reader.array::<u8>("/urs/u_m").unwrap_err()), "/urs/u_m is of type float64, but uint8 is needed");
+    assert_eq!(shown(reader.array::<String>("/urs/u_m").unwrap_err()), "/urs/u_m is no text, but text is needed");
+    assert_eq!(shown(reader.attribute::<f64>("/", "seed").unwrap_err()), "has no attribute \"seed\" of /");
     assert_eq!(
-        shown(reader.attribute_f64("/", "list").unwrap_err()),
+        shown(reader.attribute::<f64>("/", "list").unwrap_err()),
         "attribute \"list\" of / is a list of 2 numbers, but one number is needed"
     );
-    assert!(matches!(reader.attribute_f64("/", "program"), Err(LabelledError::WrongType { .. })));
-    assert!(matches!(reader.attribute_text("/", "list"), Err(LabelledError::WrongType { .. })));
-    assert!(matches!(reader.attribute_i64("/", "list"), Err(LabelledError::WrongType { .. })));
+    assert!(matches!(reader.attribute::<f64>("/", "program"), Err(LabelledError::WrongType { .. })));
+    assert!(matches!(reader.attribute::<String>("/", "list"), Err(LabelledError::WrongType { .. })));
+    assert!(matches!(reader.attribute::<i64>("/", "list"), Err(LabelledError::WrongType { .. })));
 }
 
 #[test]
@@ -97,9 +97,9 @@ fn what_other_programs_write_is_read_as_far_as_it_goes() {
     let mut file = fs::File::options().read(true).write(true).open(&path).unwrap();
     seal(&mut file, [("/huge".to_owned(), vec![(bytes, 0)])].into()).unwrap();
     let reader = LabelledReader::open(&path).unwrap();
-    assert_eq!(reader.attribute_text("/", "text").unwrap(), "fixed");
-    assert!(matches!(reader.array_f64("/unnamed"), Err(LabelledError::WrongType { .. })));
-    let huge = reader.array_f64("/huge").unwrap_err().to_string();
+    assert_eq!(reader.attribute::<String>("/", "text").unwrap(), "fixed");
+    assert!(matches!(reader.array::<f64>("/unnamed"), Err(LabelledError::WrongType { .. })));
+    let huge = reader.array::<f64>("/huge").unwrap_err().to_string();
     assert!(huge.contains("does not fit into a file of"), "{huge}");
 }
 

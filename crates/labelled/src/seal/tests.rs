@@ -10,21 +10,21 @@ fn file(folder: &Path) -> PathBuf {
     let values: Vec<f64> = (0..40_000_u64).map(|at| (at.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 11) as f64).collect();
     let mut writer = LabelledWriter::create(&path).unwrap();
     writer.attribute("/", "program", "uplift").unwrap();
-    writer.axis_f64("level", &values[..40_000], "cm/s", "level").unwrap();
+    writer.axis("level", &values[..40_000], "cm/s", "level").unwrap();
     writer.axis_text("site", &["Athens".to_owned(), "Perugia".to_owned()], "site").unwrap();
-    writer.array_f64("/ida/edp_m", &["level"], &values, "m", "demand").unwrap();
-    writer.array_f64("/urs/u_m", &["site"], &[0.5, 0.25], "m", "displacement").unwrap();
+    writer.array("/ida/edp_m", &["level"], &values, "m", "demand").unwrap();
+    writer.array("/urs/u_m", &["site"], &[0.5, 0.25], "m", "displacement").unwrap();
     writer.finish().unwrap();
     path
 }
 
 fn read_all(path: &Path) -> Result<(), LabelledError> {
     let reader = LabelledReader::open(path)?;
-    reader.attribute_text("/", "program")?;
-    reader.axis_f64("level")?;
-    reader.axis_text("site")?;
-    reader.array_f64("/ida/edp_m")?;
-    reader.array_f64("/urs/u_m")?;
+    reader.attribute::<String>("/", "program")?;
+    reader.axis::<f64>("level")?;
+    reader.axis::<String>("site")?;
+    reader.array::<f64>("/ida/edp_m")?;
+    reader.array::<f64>("/urs/u_m")?;
     Ok(())
 }
 
@@ -100,8 +100,8 @@ fn damage_is_located_without_hdf5() {
     damaged[place] ^= 1;
     fs::write(&path, &damaged).unwrap();
     let reader = LabelledReader::open(&path).unwrap();
-    reader.array_f64("/urs/u_m").unwrap();
-    let error = reader.array_f64("/ida/edp_m").unwrap_err();
+    reader.array::<f64>("/urs/u_m").unwrap();
+    let error = reader.array::<f64>("/ida/edp_m").unwrap_err();
     assert!(matches!(&error, LabelledError::Damaged { object: Some(object), .. } if object == "/ida/edp_m"), "{error}");
     assert!(error.to_string().contains("/ida/edp_m has changed since it was written"), "{error}");
 }

@@ -22,19 +22,19 @@ fn write_everything(path: &Path) -> Result<(), LabelledError> {
     writer.attribute("/", "checksums", texts(&["a1", "", "ß"]))?;
     writer.attribute("/", "none", Vec::<f64>::new())?;
     writer.axis_text("site", &texts(&["L'Aquila", "Βόλος"]), "site")?;
-    writer.axis_f64("strength", &[0.1, 0.2, 0.3], "1", "uplift strength over weight")?;
-    writer.axis_u32("sample_size", &[5, u32::MAX], "1", "records in a sample")?;
-    writer.axis_i64("step", &(-50..50).collect::<Vec<_>>(), "s", "time step")?;
-    writer.array_f64("/urs/pgv/u_m", &["site", "strength"], &everything_f64(), "m", "displacement")?;
+    writer.axis("strength", &[0.1, 0.2, 0.3], "1", "uplift strength over weight")?;
+    writer.axis::<u32>("sample_size", &[5, u32::MAX], "1", "records in a sample")?;
+    writer.axis::<i64>("step", &(-50..50).collect::<Vec<_>>(), "s", "time step")?;
+    writer.array("/urs/pgv/u_m", &["site", "strength"], &everything_f64(), "m", "displacement")?;
     writer.attribute("/urs/pgv/u_m", "tail", 0.25)?;
-    writer.array_u8("/urs/pgv/bound_active", &["strength"], &[0, 1, 255], "1", "flag")?;
-    writer.array_u32("/ida/impacts", &["sample_size", "site"], &[1, 2, 3, u32::MAX], "1", "impacts")?;
-    writer.array_f32("/ida/edp_m", &["step", "sample_size", "step_b"], &[], "m", "").unwrap_err();
-    writer.axis_i64("step_b", &(0..100).collect::<Vec<_>>(), "s", "time step")?;
-    writer.array_f32("/ida/edp_m", &["step", "sample_size", "step_b"], &large_f32(), "m", "displacement")?;
+    writer.array::<u8>("/urs/pgv/bound_active", &["strength"], &[0, 1, 255], "1", "flag")?;
+    writer.array::<u32>("/ida/impacts", &["sample_size", "site"], &[1, 2, 3, u32::MAX], "1", "impacts")?;
+    writer.array::<f32>("/ida/edp_m", &["step", "sample_size", "step_b"], &[], "m", "").unwrap_err();
+    writer.axis::<i64>("step_b", &(0..100).collect::<Vec<_>>(), "s", "time step")?;
+    writer.array::<f32>("/ida/edp_m", &["step", "sample_size", "step_b"], &large_f32(), "m", "displacement")?;
     writer.array_text("/records/event", &["strength"], &texts(&["Irpinia", "", "中越"]), "event")?;
-    writer.array_f64("/total", &[], &[7.5], "1", "a single number")?;
-    writer.array_f64("/shallow", &["strength"], &[1.0, 2.0, 3.0], "1", "an array in the root")?;
+    writer.array("/total", &[], &[7.5], "1", "a single number")?;
+    writer.array("/shallow", &["strength"], &[1.0, 2.0, 3.0], "1", "an array in the root")?;
     writer.finish()
 }
 
@@ -53,36 +53,36 @@ fn everything_comes_back_as_written() {
     write_everything(&path).unwrap();
     let reader = LabelledReader::open(&path).unwrap();
 
-    assert_eq!(reader.attribute_text("/", "program").unwrap(), "uplift");
-    assert_eq!(reader.attribute_text("/", "study_toml").unwrap().len(), 160_000);
-    assert_eq!(reader.attribute_u64("/", "seed").unwrap(), u64::MAX);
-    assert_eq!(reader.attribute_i64("/", "offset").unwrap(), -3);
-    let ratios = reader.attribute_f64s("/", "ratios").unwrap();
+    assert_eq!(reader.attribute::<String>("/", "program").unwrap(), "uplift");
+    assert_eq!(reader.attribute::<String>("/", "study_toml").unwrap().len(), 160_000);
+    assert_eq!(reader.attribute::<u64>("/", "seed").unwrap(), u64::MAX);
+    assert_eq!(reader.attribute::<i64>("/", "offset").unwrap(), -3);
+    let ratios = reader.attributes::<f64>("/", "ratios").unwrap();
     assert_eq!(ratios.iter().map(|r| r.to_bits()).collect::<Vec<_>>(), [0.5, -0.0, f64::INFINITY].map(f64::to_bits));
-    assert_eq!(reader.attribute_i64s("/", "many").unwrap(), vec![1; 20_000]);
-    assert_eq!(reader.attribute_texts("/", "checksums").unwrap(), texts(&["a1", "", "ß"]));
-    assert!(reader.attribute_f64s("/", "none").unwrap().is_empty());
-    assert_eq!(reader.attribute_f64("/urs/pgv/u_m", "tail").unwrap(), 0.25);
-    assert_eq!(reader.attribute_text("/urs/pgv/u_m", "units").unwrap(), "m");
-    assert_eq!(reader.attribute_text("/urs/pgv/u_m", "long_name").unwrap(), "displacement");
+    assert_eq!(reader.attributes::<i64>("/", "many").unwrap(), vec![1; 20_000]);
+    assert_eq!(reader.attributes::<String>("/", "checksums").unwrap(), texts(&["a1", "", "ß"]));
+    assert!(reader.attributes::<f64>("/", "none").unwrap().is_empty());
+    assert_eq!(reader.attribute::<f64>("/urs/pgv/u_m", "tail").unwrap(), 0.25);
+    assert_eq!(reader.attribute::<String>("/urs/pgv/u_m", "units").unwrap(), "m");
+    assert_eq!(reader.attribute::<String>("/urs/pgv/u_m", "long_name").unwrap(), "displacement");
 
-    assert_eq!(reader.axis_text("site").unwrap(), texts(&["L'Aquila", "Βόλος"]));
-    assert_eq!(reader.axis_f64("strength").unwrap(), [0.1, 0.2, 0.3]);
-    assert_eq!(reader.axis_u32("sample_size").unwrap(), [5, u32::MAX]);
-    assert_eq!(reader.axis_i64("step").unwrap(), (-50..50).collect::<Vec<_>>());
+    assert_eq!(reader.axis::<String>("site").unwrap(), texts(&["L'Aquila", "Βόλος"]));
+    assert_eq!(reader.axis::<f64>("strength").unwrap(), [0.1, 0.2, 0.3]);
+    assert_eq!(reader.axis::<u32>("sample_size").unwrap(), [5, u32::MAX]);
+    assert_eq!(reader.axis::<i64>("step").unwrap(), (-50..50).collect::<Vec<_>>());
 
-    let u_m = reader.array_f64("/urs/pgv/u_m").unwrap();
+    let u_m = reader.array::<f64>("/urs/pgv/u_m").unwrap();
     assert_eq!((u_m.dims, u_m.shape), (texts(&["site", "strength"]), vec![2, 3]));
     let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(&u_m.values), bits(&everything_f64()));
-    assert_eq!(reader.array_u8("/urs/pgv/bound_active").unwrap().values, [0, 1, 255]);
-    assert_eq!(reader.array_u32("/ida/impacts").unwrap().values, [1, 2, 3, u32::MAX]);
-    let edp_m = reader.array_f32("/ida/edp_m").unwrap();
+    assert_eq!(reader.array::<u8>("/urs/pgv/bound_active").unwrap().values, [0, 1, 255]);
+    assert_eq!(reader.array::<u32>("/ida/impacts").unwrap().values, [1, 2, 3, u32::MAX]);
+    let edp_m = reader.array::<f32>("/ida/edp_m").unwrap();
     assert_eq!((edp_m.shape, edp_m.values), (vec![100, 2, 100], large_f32()));
     let widened: Vec<f64> = large_f32().into_iter().map(f64::from).collect();
-    assert_eq!(reader.array_f64("/ida/edp_m").unwrap().values, widened);
-    assert_eq!(reader.array_text("/records/event").unwrap().values, texts(&["Irpinia", "", "中越"]));
-    let total = reader.array_f64("/total").unwrap();
+    assert_eq!(reader.array::<f64>("/ida/edp_m").unwrap().values, widened);
+    assert_eq!(reader.array::<String>("/records/event").unwrap().values, texts(&["Irpinia", "", "中越"]));
+    let total = reader.array::<f64>("/total").unwrap();
     assert_eq!((total.dims.len(), total.shape.len(), total.values), (0, 0, vec![7.5]));
 
     assert!(reader.exists("/urs/pgv") && reader.exists("/") && !reader.exists("/urs/pga"));
@@ -109,7 +109,7 @@ fn a_dropped_writer_leaves_the_older_file() {
     let path = folder.path().join("result.h5");
     fs::write(&path, "older").unwrap();
     let mut writer = LabelledWriter::create(&path).unwrap();
-    writer.axis_f64("strength", &[0.1], "1", "strength").unwrap();
+    writer.axis("strength", &[0.1], "1", "strength").unwrap();
     assert_eq!(files_in(folder.path()).len(), 2);
     drop(writer);
     assert_eq!(fs::read(&path).unwrap(), b"older");
@@ -119,7 +119,7 @@ fn a_dropped_writer_leaves_the_older_file() {
     first.attribute("/", "writer", "first").unwrap();
     second.finish().unwrap();
     first.finish().unwrap();
-    assert_eq!(LabelledReader::open(&path).unwrap().attribute_text("/", "writer").unwrap(), "first");
+    assert_eq!(LabelledReader::open(&path).unwrap().attribute::<String>("/", "writer").unwrap(), "first");
 }
 
 #[cfg(unix)]
@@ -149,35 +149,35 @@ fn a_link_is_followed_and_special_places_are_refused() {
 fn contradictions_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let mut writer = LabelledWriter::create(&folder.path().join("result.h5")).unwrap();
-    writer.axis_f64("strength", &[0.1, 0.2], "1", "strength").unwrap();
-    writer.array_f64("/a/b", &["strength"], &[1.0, 2.0], "m", "b").unwrap();
+    writer.axis("strength", &[0.1, 0.2], "1", "strength").unwrap();
+    writer.array("/a/b", &["strength"], &[1.0, 2.0], "m", "b").unwrap();
     let mut messages = Vec::new();
     let mut misuse = |result: Result<(), LabelledError>| match result {
         Err(error @ LabelledError::Misuse { .. }) => messages.push(error.to_string()),
         other => panic!("expected a misuse, got {other:?}"),
     };
-    misuse(writer.array_f64("/a/c", &["strength"], &[1.0], "m", "c"));
-    misuse(writer.array_f64("/a/c", &["poe"], &[1.0], "m", "c"));
-    misuse(writer.array_f64("/a/c", &["strength", "strength"], &[1.0; 4], "m", "c"));
-    misuse(writer.array_f64("/a/b", &["strength"], &[1.0, 2.0], "m", "b"));
-    misuse(writer.array_f64("/a/b/c", &["strength"], &[1.0, 2.0], "m", "c"));
-    misuse(writer.array_f64("/a/strength", &["strength"], &[1.0, 2.0], "m", "c"));
+    misuse(writer.array("/a/c", &["strength"], &[1.0], "m", "c"));
+    misuse(writer.array("/a/c", &["poe"], &[1.0], "m", "c"));
+    misuse(writer.array("/a/c", &["strength", "strength"], &[1.0; 4], "m", "c"));
+    misuse(writer.array("/a/b", &["strength"], &[1.0, 2.0], "m", "b"));
+    misuse(writer.array("/a/b/c", &["strength"], &[1.0, 2.0], "m", "c"));
+    misuse(writer.array("/a/strength", &["strength"], &[1.0, 2.0], "m", "c"));
     misuse(writer.array_text("/a/c", &["strength"], &texts(&["nul\0", ""]), "c"));
-    misuse(writer.axis_f64("strength", &[0.1], "1", "strength"));
-    misuse(writer.axis_f64("empty", &[], "1", "empty"));
+    misuse(writer.axis("strength", &[0.1], "1", "strength"));
+    misuse(writer.axis::<f64>("empty", &[], "1", "empty"));
     misuse(writer.attribute("/a/none", "name", 1.0));
     misuse(writer.attribute("/a/b", "CLASS", "x"));
     for path in ["a/c", "/", "", "//a", "/a/", "/a/../c", "/a\0"] {
-        misuse(writer.array_f64(path, &[], &[1.0], "m", "c"));
+        misuse(writer.array(path, &[], &[1.0], "m", "c"));
     }
     for name in ["", "Strength", "1st", "a/b", "ä", &"a".repeat(64)] {
-        misuse(writer.axis_f64(name, &[0.1], "1", "strength"));
+        misuse(writer.axis(name, &[0.1], "1", "strength"));
     }
     assert!(messages[0].ends_with(
         "result.h5: cannot write /a/c: 1 values for the shape [2] of [\"strength\"]; this is a bug in the program"
     ));
     assert_eq!(messages.iter().collect::<BTreeSet<_>>().len(), messages.len());
-    writer.axis_f64(&"a".repeat(63), &[0.1], "1", "the longest name").unwrap();
+    writer.axis(&"a".repeat(63), &[0.1], "1", "the longest name").unwrap();
     writer.finish().unwrap();
 }
 
@@ -259,13 +259,13 @@ fn rows_one_after_the_other_are_the_array_at_once() {
     let write = |name: &str, at_once: Option<&[usize]>| {
         let path = folder.path().join(name);
         let mut writer = LabelledWriter::create(&path).unwrap();
-        writer.axis_u32("site", &(0..rows).collect::<Vec<_>>(), "1", "site").unwrap();
-        writer.axis_u32("poe", &[0, 1, 2], "1", "probability").unwrap();
-        writer.axis_u32("strength", &(0..41).collect::<Vec<_>>(), "1", "strength").unwrap();
+        writer.axis::<u32>("site", &(0..rows).collect::<Vec<_>>(), "1", "site").unwrap();
+        writer.axis::<u32>("poe", &[0, 1, 2], "1", "probability").unwrap();
+        writer.axis::<u32>("strength", &(0..41).collect::<Vec<_>>(), "1", "strength").unwrap();
         let dims = ["site", "poe", "strength"];
         let Some(parts) = at_once else {
-            writer.array_f64("/urs/u_m", &dims, &values, "m", "displacement").unwrap();
-            writer.array_u8("/flag", &["site"], &flags, "1", "flag").unwrap();
+            writer.array("/urs/u_m", &dims, &values, "m", "displacement").unwrap();
+            writer.array::<u8>("/flag", &["site"], &flags, "1", "flag").unwrap();
             writer.finish().unwrap();
             return fs::read(path).unwrap();
         };
@@ -281,7 +281,7 @@ fn rows_one_after_the_other_are_the_array_at_once() {
         flags.chunks(300).for_each(|some| writer.append(&mut array, some).unwrap());
         writer.complete(array).unwrap();
         writer.finish().unwrap();
-        LabelledReader::open(&path).unwrap().array_f64("/urs/u_m").unwrap();
+        LabelledReader::open(&path).unwrap().array::<f64>("/urs/u_m").unwrap();
         fs::read(path).unwrap()
     };
     let whole = write("whole.h5", None);
@@ -293,7 +293,7 @@ fn rows_one_after_the_other_are_the_array_at_once() {
 fn rows_too_many_or_too_few_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let mut writer = LabelledWriter::create(&folder.path().join("a.h5")).unwrap();
-    writer.axis_u32("site", &[1, 2, 3], "1", "site").unwrap();
+    writer.axis::<u32>("site", &[1, 2, 3], "1", "site").unwrap();
     let mut array = writer.grow::<f64>("/u_m", &["site"], "m", "displacement").unwrap();
     writer.append(&mut array, &[1.0, 2.0]).unwrap();
     assert!(matches!(writer.complete(array), Err(LabelledError::Misuse { .. })));

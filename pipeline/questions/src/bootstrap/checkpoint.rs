@@ -49,7 +49,7 @@ pub fn part_path(result: &Path) -> PathBuf {
 
 /// By what the bootstrap in a file is known again; none in another file, or a damaged one.
 fn fingerprint_in(part: &Path) -> Option<String> {
-    LabelledReader::open(part).ok()?.attribute_text("/", "fingerprint").ok()
+    LabelledReader::open(part).ok()?.attribute::<String>("/", "fingerprint").ok()
 }
 
 /// Finished strengths of all measures in the file of an interrupted bootstrap; none where there is none.
@@ -57,7 +57,7 @@ pub fn finished_strengths(part: &Path) -> Option<u64> {
     fingerprint_in(part)?;
     let reader = LabelledReader::open(part).ok()?;
     let count = |measure: &String| {
-        reader.array_u32(&format!("/{measure}/strength")).map_or(0, |strengths| strengths.values.len() as u64)
+        reader.array::<u32>(&format!("/{measure}/strength")).map_or(0, |strengths| strengths.values.len() as u64)
     };
     Some(reader.children("/").ok()?.iter().map(count).sum())
 }
@@ -113,14 +113,14 @@ impl Checkpoint {
         let read = || -> Result<Finished, QuestionsError> {
             let reader = LabelledReader::open(&self.path)?;
             let mut finished = Finished::default();
-            if reader.attribute_text("/", "fingerprint")? != self.fingerprint {
+            if reader.attribute::<String>("/", "fingerprint")? != self.fingerprint {
                 return Ok(finished);
             }
             for &key in expected.keys.iter().filter(|key| reader.exists(&format!("/{key}/bands_m"))) {
-                let strengths = reader.array_u32(&format!("/{key}/strength"))?.values;
-                let bands = reader.array_f64(&format!("/{key}/bands_m"))?.values;
+                let strengths = reader.array::<u32>(&format!("/{key}/strength"))?.values;
+                let bands = reader.array::<f64>(&format!("/{key}/bands_m"))?.values;
                 let path = format!("/{key}/replicates_m");
-                let replicates = if reader.exists(&path) { reader.array_f64(&path)?.values } else { Vec::new() };
+                let replicates = if reader.exists(&path) { reader.array::<f64>(&path)?.values } else { Vec::new() };
                 if strengths.is_empty() {
                     continue;
                 }
@@ -154,15 +154,15 @@ impl Checkpoint {
         writer.attribute("/", "fingerprint", self.fingerprint.as_str())?;
         for (key, rows) in by_measure(&finished.strengths) {
             let row = row_axis(&mut writer, &format!("{key}_row"), rows.len())?;
-            writer.array_u32(&format!("/{key}/strength"), &[&row], &indices(&rows), "1", "index of the strength")?;
+            writer.array(&format!("/{key}/strength"), &[&row], &indices(&rows), "1", "index of the strength")?;
             let bands: Vec<f64> = rows.iter().flat_map(|(_, done)| numbers_of_bands(&done.bands)).collect();
             let value = row_axis(&mut writer, &format!("{key}_value"), bands.len() / rows.len())?;
-            writer.array_f64(&format!("/{key}/bands_m"), &[&row, &value], &bands, "m", "bands")?;
+            writer.array(&format!("/{key}/bands_m"), &[&row, &value], &bands, "m", "bands")?;
             let replicates: Vec<f64> = rows.iter().flat_map(|(_, done)| done.replicates_m.iter().copied()).collect();
             if !replicates.is_empty() {
                 let axis = row_axis(&mut writer, &format!("{key}_replicate"), replicates.len() / rows.len())?;
                 let path = format!("/{key}/replicates_m");
-                writer.array_f64(&path, &[&row, &axis], &replicates, "m", "replicates")?;
+                writer.array(&path, &[&row, &axis], &replicates, "m", "replicates")?;
             }
         }
         for (key, rows) in by_measure(&finished.sites) {
@@ -193,8 +193,8 @@ fn rows_of_sites(reader: &LabelledReader, key: &str, name: &str) -> Result<Vec<(
     if !reader.exists(&format!("/{key}/{name}")) {
         return Ok(Vec::new());
     }
-    let sites = reader.array_u32(&format!("/{key}/{name}_site"))?.values;
-    let numbers = reader.array_f64(&format!("/{key}/{name}"))?.values;
+    let sites = reader.array::<u32>(&format!("/{key}/{name}_site"))?.values;
+    let numbers = reader.array::<f64>(&format!("/{key}/{name}"))?.values;
     let rows = numbers.chunks_exact((numbers.len() / sites.len().max(1)).max(1)).map(<[f64]>::to_vec);
     Ok(sites.iter().map(|&site| site as usize).zip(rows).collect())
 }
@@ -206,11 +206,11 @@ fn write_rows_of_sites(
     rows: Vec<(usize, Vec<f64>)>,
 ) -> Result<(), QuestionsError> {
     let row = row_axis(writer, &format!("{key}_{name}_row"), rows.len())?;
-    writer.array_u32(&format!("/{key}/{name}_site"), &[&row], &indices(&rows), "1", "index of the site")?;
+    writer.array(&format!("/{key}/{name}_site"), &[&row], &indices(&rows), "1", "index of the site")?;
     let count = rows.len();
     let numbers: Vec<f64> = rows.into_iter().flat_map(|(_, numbers)| numbers).collect();
     let value = row_axis(writer, &format!("{key}_{name}_value"), numbers.len() / count.max(1))?;
-    writer.array_f64(&format!("/{key}/{name}"), &[&row, &value], &numbers, "1", what)?;
+    writer.array(&format!("/{key}/{name}"), &[&row, &value], &numbers, "1", what)?;
     Ok(())
 }
 
@@ -230,6 +230,6 @@ fn indices<T>(rows: &[(usize, T)]) -> Vec<u32> {
 /// An axis of numbers, by its name.
 fn row_axis(writer: &mut LabelledWriter, name: &str, length: usize) -> Result<String, QuestionsError> {
     let numbers: Vec<u32> = (0..).take(length).collect();
-    writer.axis_u32(name, &numbers, "1", "number")?;
+    writer.axis(name, &numbers, "1", "number")?;
     Ok(name.to_owned())
 }

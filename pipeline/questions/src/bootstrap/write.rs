@@ -73,9 +73,9 @@ pub(super) fn write_bands(locked: &LockedResult, file: &BandsFile<'_>) -> Result
 
 fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), LabelledError> {
     let BandsFile { stored, plan, settings, .. } = file;
-    writer.axis_u32(axis::SAMPLE_SIZE, plan.sizes(), "1", "records drawn in a replicate")?;
+    writer.axis(axis::SAMPLE_SIZE, plan.sizes(), "1", "records drawn in a replicate")?;
     let numbers: Vec<u32> = (0..).take(plan.replicates()).collect();
-    writer.axis_u32(axis::REPLICATE, &numbers, "1", "number of the replicate")?;
+    writer.axis(axis::REPLICATE, &numbers, "1", "number of the replicate")?;
     let root = BANDS.root();
     sign(writer, root)?;
     writer.attribute(root, "plan", file.plan_source)?;

@@ -59,7 +59,7 @@ fn add(
         let levels = if own.scaled_to == measure { axis::level(measure) } else { axis::common_level(measure) };
         if own.scaled_to != measure {
             let long_name = format!("level of {} that every record is brought to", measure.long_name());
-            writer.axis_f64(&levels, &found.levels, measure.unit(), &long_name)?;
+            writer.axis(&levels, &found.levels, measure.unit(), &long_name)?;
         }
         let names = [("<im>", measure.key()), ("<levels>", &levels)];
         let lengths = [(axis::STRENGTH, own.rocking.len()), (&levels, found.levels.len())];

@@ -62,7 +62,7 @@ fn add(writer: &mut LabelledWriter, stored: &StoredStripes, influences: &[Influe
             let from: Vec<f64> = std::iter::once(0.0).chain(measure.levels.iter().copied()).collect();
             let long_name =
                 format!("{} from which a bin reaches up to the next, the last without end", found.measure.label());
-            writer.axis_f64(&axis::bin(found.measure), &from, found.measure.unit(), &long_name)?;
+            writer.axis(&axis::bin(found.measure), &from, found.measure.unit(), &long_name)?;
         }
         disaggregation.write_array(writer, &names, found.shares.values())?;
     }

@@ -136,20 +136,20 @@ fn write_axes(
     match &study.structures {
         Structures::Oscillators(family) => {
             let uplift = &family.uplift_displacement_m;
-            writer.axis_f64(axes::UPLIFT_DISPLACEMENT, uplift, "m", "displacement at uplift u_up")?;
+            writer.axis(axes::UPLIFT_DISPLACEMENT, uplift, "m", "displacement at uplift u_up")?;
             let long_name = "displacement capacity u_cap, infinite for zero post-uplift stiffness";
-            writer.axis_f64(axes::CAPACITY, &family.capacity_m, "m", long_name)?;
-            writer.axis_f64(axes::STRENGTH, &family.strengths, "1", "uplift strength f_up/(m g)")?;
+            writer.axis(axes::CAPACITY, &family.capacity_m, "m", long_name)?;
+            writer.axis(axes::STRENGTH, &family.strengths, "1", "uplift strength f_up/(m g)")?;
         }
         Structures::Blocks(family) => {
-            writer.axis_f64(axes::HEIGHT, &family.height_m, "m", "height 2H of the block")?;
-            writer.axis_f64(axes::SLENDERNESS, &family.slendernesses, "1", "slenderness tan(alpha)")?;
+            writer.axis(axes::HEIGHT, &family.height_m, "m", "height 2H of the block")?;
+            writer.axis(axes::SLENDERNESS, &family.slendernesses, "1", "slenderness tan(alpha)")?;
         }
     }
     let abscissae = study.structures.abscissa();
     let shown: Vec<f64> = printed(abscissae).into_iter().map(|at| abscissae[at]).collect();
-    writer.axis_f64(printed_axis, &shown, "1", &format!("{abscissa} at which a run prints its spectra"))?;
-    writer.axis_f64(axes::PERCENTILE, &study.percentiles, "%", "percentile over the motions of a set")?;
+    writer.axis(printed_axis, &shown, "1", &format!("{abscissa} at which a run prints its spectra"))?;
+    writer.axis(axes::PERCENTILE, &study.percentiles, "%", "percentile over the motions of a set")?;
     writer.axis_text(axes::BOUND, &BOUNDS.map(str::to_owned), "a value, and its range over a small sweep")
 }
 

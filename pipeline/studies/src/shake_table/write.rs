@@ -60,7 +60,7 @@ pub(crate) fn write_shake_table(path: &Path, outcome: &ShakeTableOutcome<'_>) ->
 
 fn write_spectra(writer: &mut LabelledWriter, spectra: &TableSpectra, excitations: usize) -> Result<(), StudiesError> {
     writer.axis_text(axis::DIRECTION, &DIRECTIONS.map(str::to_owned), "horizontal component")?;
-    writer.axis_f64(axis::PERIOD, &spectra.periods_s, "s", "natural period in the time of the table")?;
+    writer.axis(axis::PERIOD, &spectra.periods_s, "s", "natural period in the time of the table")?;
     let periods = (axis::PERIOD, spectra.periods_s.len());
     let lengths = [(axis::EXCITATION, excitations), (axis::DIRECTION, DIRECTIONS.len()), periods];
     TABLE_SPECTRA.write(writer, &[], &lengths, spectra)?;

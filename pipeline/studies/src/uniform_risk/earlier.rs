@@ -40,21 +40,21 @@ impl EarlierStripes {
     ) -> Result<(), LabelledError> {
         let reader = &self.reader;
         let (group, names) = (PEAKS.of_measure(measure.measure), of_measure(measure.measure));
-        if !reader.exists(&group) || reader.attribute_text(&group, "oscillator_key")? != oscillator_key(study) {
+        if !reader.exists(&group) || reader.attribute::<String>(&group, "oscillator_key")? != oscillator_key(study) {
             return Ok(());
         }
         if reader.exists(&FACTORS.first_path(&names)) {
             return Ok(()); // its factors are not those of the levels
         }
-        let stored_motions = reader.array_text(&MOTION_KEYS.first_path(&[]))?.values;
-        let intensities = reader.array_f64(&INTENSITY.first_path(&intensity_names(measure.measure)))?.values;
+        let stored_motions = reader.array::<String>(&MOTION_KEYS.first_path(&[]))?.values;
+        let intensities = reader.array::<f64>(&INTENSITY.first_path(&intensity_names(measure.measure)))?.values;
         let positions = |values: &[f64]| -> HashMap<u64, usize> {
             values.iter().enumerate().map(|(index, value)| (value.to_bits(), index)).collect()
         };
-        let strengths = reader.axis_f64(axis::STRENGTH)?;
-        let levels = reader.axis_f64(&axis::level(measure.measure))?;
-        let edp_m = reader.array_f64(&PEAKS.first_path(&names))?;
-        let impacts = reader.array_u32(&IMPACTS.first_path(&names))?;
+        let strengths = reader.axis::<f64>(axis::STRENGTH)?;
+        let levels = reader.axis::<f64>(&axis::level(measure.measure))?;
+        let edp_m = reader.array::<f64>(&PEAKS.first_path(&names))?;
+        let impacts = reader.array::<u32>(&IMPACTS.first_path(&names))?;
         let stored = Axes { motions: stored_motions.len(), systems: strengths.len(), scales: levels.len() };
         let shape = [stored.motions, stored.systems, stored.scales];
         if edp_m.shape != shape || impacts.shape != shape || intensities.len() != stored.motions {

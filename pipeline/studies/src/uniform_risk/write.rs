@@ -70,14 +70,14 @@ fn write_axes(writer: &mut LabelledWriter, outcome: &ComputedStudy<'_>) -> Resul
     let study = outcome.study;
     let ids: Vec<String> = outcome.records.records.iter().map(|record| record.id.clone()).collect();
     writer.axis_text(axis::RECORD, &ids, "ground motion record")?;
-    writer.axis_f64(axis::STRENGTH, &study.strengths, "1", "uplift strength f_up/(m g)")?;
+    writer.axis(axis::STRENGTH, &study.strengths, "1", "uplift strength f_up/(m g)")?;
     for plan in &study.measures {
         let intensity = study.records.intensity.long_name();
         let long_name = format!("stripe level of {}, {intensity}", plan.measure.long_name());
-        writer.axis_f64(&axis::level(plan.measure), &plan.levels, plan.measure.unit(), &long_name)?;
+        writer.axis(&axis::level(plan.measure), &plan.levels, plan.measure.unit(), &long_name)?;
     }
     if study.risk.maf_surface {
-        writer.axis_f64(axis::THRESHOLD, &study.risk.thresholds_m, "m", "displacement threshold")?;
+        writer.axis(axis::THRESHOLD, &study.risk.thresholds_m, "m", "displacement threshold")?;
     }
     if let Some(structures) = outcome.spectra.first().and_then(|spectra| spectra.structures.first()) {
         writer.axis_text(axis::STRUCTURE, &structures.names, "possible structure")?;
@@ -87,7 +87,7 @@ fn write_axes(writer: &mut LabelledWriter, outcome: &ComputedStudy<'_>) -> Resul
         writer.axis_text(axis::SITE, &sites, "site")?;
     }
     let years = study.risk.years;
-    writer.axis_f64(axis::POE, &study.risk.poe, "1", &format!("probability of exceedance in {years} years"))
+    writer.axis(axis::POE, &study.risk.poe, "1", &format!("probability of exceedance in {years} years"))
 }
 
 fn write_records(
@@ -142,7 +142,7 @@ fn write_drawn_structures(writer: &mut LabelledWriter, records: &[Record]) -> Re
     let drawn: Vec<&DrawnStructure> = records.iter().filter_map(|record| record.structure.as_ref()).collect();
     let Some(first) = drawn.first() else { return Ok(()) };
     let numbers: Vec<u32> = drawn.iter().map(|structure| u32::try_from(structure.number).unwrap_or(u32::MAX)).collect();
-    DRAWN_STRUCTURE.write_counts(writer, &[], &numbers)?;
+    DRAWN_STRUCTURE.write_array(writer, &[], &numbers)?;
     for (quantity, _) in &first.values {
         let values: Vec<f64> = drawn.iter().map(|structure| structure.value(*quantity).unwrap_or(f64::NAN)).collect();
         DRAWN_QUANTITY.write_array(writer, &drawn_names(*quantity), &values)?;
@@ -162,7 +162,7 @@ fn write_measure(
         if stripes.at_level.is_some() { ", NaN where the record does not belong to the level" } else { "" };
     let names = [of_measure(measure)[0], ("<not_of_level>", not_of_level)];
     PEAKS.write_array(writer, &names, stripes.peaks.displacement_m())?;
-    IMPACTS.write_counts(writer, &names, stripes.peaks.impacts())?;
+    IMPACTS.write_array(writer, &names, stripes.peaks.impacts())?;
     if let Some(AtLevel { factors, shares, .. }) = &stripes.at_level {
         FACTORS.write_array(writer, &names, factors)?;
         if let Some(shares) = shares {

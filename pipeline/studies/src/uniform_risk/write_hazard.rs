@@ -53,7 +53,7 @@ fn write_curve(
     axis: &str,
     label: &str,
 ) -> Result<String, LabelledError> {
-    writer.axis_f64(axis, curve.im(), curve.unit(), &format!("{label} of the hazard curve"))?;
+    writer.axis(axis, curve.im(), curve.unit(), &format!("{label} of the hazard curve"))?;
     let names = [("<curve>", name), ("<axis>", axis)];
     HAZARD_CURVE.write(writer, &names, &[(axis, curve.maf().len())], curve)?;
     let group = HAZARD_CURVE.group(&names);

@@ -58,9 +58,9 @@ pub fn add(
     writer.attribute(CONSISTENCY.root(), "smoothness", question.settings.smoothness)?;
     writer.attribute(CONSISTENCY.root(), "repair", if repairs.is_empty() { "none" } else { "weights" })?;
     let rates: Vec<u32> = (1..).take(DEVIATION_RATES).collect();
-    writer.axis_u32(axis::RATE, &rates, "1", "annual rate at which hazards are compared, the most frequent first")?;
+    writer.axis(axis::RATE, &rates, "1", "annual rate at which hazards are compared, the most frequent first")?;
     let knots: Vec<u32> = (1..).take(KNOTS).collect();
-    writer.axis_u32(axis::KNOT, &knots, "1", "knot of the weights' exponent")?;
+    writer.axis(axis::KNOT, &knots, "1", "knot of the weights' exponent")?;
     for (measure, levels) in &question.analyses {
         let own: Vec<&Finding> = findings.iter().filter(|finding| finding.scaled_to == *measure).collect();
         let repairs = repairs.iter().find(|repairs| repairs.measure == *measure);

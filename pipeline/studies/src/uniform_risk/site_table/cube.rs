@@ -94,7 +94,7 @@ pub fn cube_path(result: &Path) -> PathBuf {
 
 /// Whether the file in `reader` says that it is of the result of this study digest.
 pub(super) fn is_of_digest(reader: &LabelledReader, digest: &str) -> Result<bool, StudiesError> {
-    Ok(reader.attribute_text("/", PROVENANCE)?.contains(&format!("study digest {digest};")))
+    Ok(reader.attribute::<String>("/", PROVENANCE)?.contains(&format!("study digest {digest};")))
 }
 
 /// The plain spectra of many sites, read from the file beside a result.
@@ -131,15 +131,15 @@ impl SiteArrays {
         if !is_of_digest(&reader, digest)? {
             return Ok(None);
         }
-        let u_m = reader.array_f64(&format!("{}/u_m", GROUPS[0]))?;
+        let u_m = reader.array::<f64>(&format!("{}/u_m", GROUPS[0]))?;
         let shape: [usize; 4] = u_m.shape.try_into().unwrap_or_default();
         Ok(Some(Self {
-            longitude_deg: reader.array_f64(LONGITUDE)?.values,
-            latitude_deg: reader.array_f64(LATITUDE)?.values,
-            measures: reader.axis_text(MEASURE)?,
-            poes: reader.axis_f64("poe")?,
-            years: reader.attribute_f64("/", YEARS)?,
-            strengths: reader.axis_f64("strength")?,
+            longitude_deg: reader.array::<f64>(LONGITUDE)?.values,
+            latitude_deg: reader.array::<f64>(LATITUDE)?.values,
+            measures: reader.axis::<String>(MEASURE)?,
+            poes: reader.axis::<f64>("poe")?,
+            years: reader.attribute::<f64>("/", YEARS)?,
+            strengths: reader.axis::<f64>("strength")?,
             u_m: Array::new(shape, u_m.values).map_err(|error| JobError::input(error.to_string()))?,
         }))
     }
@@ -283,11 +283,11 @@ impl CubeRows {
     /// The sites of the file in `reader`, one of these arrays.
     pub(super) fn read(reader: &LabelledReader, shape: &Shape) -> Result<Self, StudiesError> {
         let numbers = shape.numbers();
-        let numbers = numbers.iter().map(|(path, ..)| Ok(reader.array_f64(path)?.values));
+        let numbers = numbers.iter().map(|(path, ..)| Ok(reader.array::<f64>(path)?.values));
         Ok(Self {
             numbers: numbers.collect::<Result<_, StudiesError>>()?,
-            flags: reader.array_u8(FLAG)?.values,
-            problems: reader.array_text(PROBLEM)?.values,
+            flags: reader.array::<u8>(FLAG)?.values,
+            problems: reader.array::<String>(PROBLEM)?.values,
         })
     }
 }
@@ -311,13 +311,13 @@ impl Cube {
         writer.axis_text("site", &names, "site")?;
         let measures: Vec<String> = list.exports.iter().map(|export| export.measure.key().to_owned()).collect();
         writer.axis_text(MEASURE, &measures, "intensity measure that the records are scaled by")?;
-        writer.axis_f64("poe", &study.risk.poe, "1", "probability of exceedance in `years`")?;
+        writer.axis("poe", &study.risk.poe, "1", "probability of exceedance in `years`")?;
         let strengths: Vec<f64> = shape.strengths.iter().map(|&index| study.strengths[index]).collect();
-        writer.axis_f64("strength", &strengths, "1", "uplift strength over weight")?;
+        writer.axis("strength", &strengths, "1", "uplift strength over weight")?;
         let longitudes: Vec<f64> = sites.iter().map(|site| site.longitude_deg).collect();
         let latitudes: Vec<f64> = sites.iter().map(|site| site.latitude_deg).collect();
-        writer.array_f64(LONGITUDE, &["site"], &longitudes, "degrees_east", "longitude")?;
-        writer.array_f64(LATITUDE, &["site"], &latitudes, "degrees_north", "latitude")?;
+        writer.array(LONGITUDE, &["site"], &longitudes, "degrees_east", "longitude")?;
+        writer.array(LATITUDE, &["site"], &latitudes, "degrees_north", "latitude")?;
         let mut arrays = Vec::new();
         for (path, axes, unit, long_name) in shape.numbers() {
             arrays.push(writer.grow(&path, axes, unit, long_name)?);

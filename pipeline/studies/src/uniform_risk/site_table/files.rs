@@ -92,7 +92,7 @@ impl SiteTableFiles {
             return Err(again(&path, "is not of this result").into());
         }
         if let Some(texts) = &mut self.texts {
-            let tables = reader.attribute_texts("/", TABLES)?;
+            let tables = reader.attributes::<String>("/", TABLES)?;
             for (number, path) in site_table_paths(slice).iter().enumerate() {
                 if checksum_of_file(path).ok().as_ref() != tables.get(number) {
                     return Err(again(path, "is missing, or was changed since it was written").into());
@@ -101,7 +101,7 @@ impl SiteTableFiles {
             }
         }
         self.cube.write(CubeRows::read(&reader, &self.layout.shape)?)?;
-        Ok(reader.attribute_text("/", FINDINGS)?)
+        Ok(reader.attribute::<String>("/", FINDINGS)?)
     }
 
     /// Put the files in their places, with what was found of their sites.
