@@ -65,7 +65,6 @@ pub use influence::{DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENC
 pub use kept_groups::KeptGroups;
 pub use peaks::{FACTORS, IMPACTS, PEAKS, RISK_SURFACE, SHARES};
 pub use peaks::{SetsOfLevels, StoredPeaks};
-pub use provenance::Origin;
 pub use provenance::Provenance;
 pub use records::{DRAWN_QUANTITY, DRAWN_STRUCTURE, INTENSITY, MOTION_KEYS, RECORDS};
 pub use records::{StoredRecords, drawn_names, intensity_names};

@@ -103,54 +103,41 @@ impl Provenance {
         )
         .replace(['\n', '\r'], " ")
     }
-}
 
-/// Where the numbers of a result come from: the attributes of the root that results of every kind have.
-pub struct Origin<'a> {
-    /// Title of the study.
-    pub title: &'a str,
-    /// The resolved study.
-    pub study_toml: &'a str,
-    /// Acceleration of gravity, m/s².
-    pub gravity_m_s2: f64,
-    /// Where the records come from, in a line.
-    pub record_set: &'a str,
-    /// Whether the records are synthetic.
-    pub synthetic: bool,
-    /// What was noticed about the inputs.
-    pub warnings: &'a [String],
-    /// What someone needs to repeat the run.
-    pub provenance: &'a Provenance,
-}
-
-impl Origin<'_> {
-    /// Writes the attributes of the root.
+    /// Writes the attributes of the root that results of every kind have: of a study with this title and acceleration
+    /// of gravity (m/s²) that says `study_toml`; of `records`, their description and whether they are synthetic; and
+    /// the `warnings`, what was noticed about the inputs.
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub fn write(&self, writer: &mut LabelledWriter) -> Result<(), ResultError> {
-        let provenance = self.provenance;
+    pub fn write(
+        &self,
+        writer: &mut LabelledWriter,
+        (title, gravity_m_s2, study_toml): (&str, f64, &str),
+        (record_set, synthetic): (&str, bool),
+        warnings: &[String],
+    ) -> Result<(), ResultError> {
         let checksums =
-            serde_json::to_string(&provenance.input_checksums).map_err(|error| JobError::input(error.to_string()))?;
+            serde_json::to_string(&self.input_checksums).map_err(|error| JobError::input(error.to_string()))?;
         writer.attribute("/", "program", "uplift")?;
         writer.attribute("/", "version", uplift_job::VERSION)?;
         writer.attribute("/", "commit", uplift_job::COMMIT)?;
         writer.attribute("/", "layout", LAYOUT)?;
         writer.attribute("/", "numerics", i64::from(NUMERICS))?;
-        writer.attribute("/", "created", provenance.created.as_str())?;
-        writer.attribute("/", "command", provenance.command.as_str())?;
-        writer.attribute("/", "overrides", provenance.overrides.join("\n").as_str())?;
-        writer.attribute("/", "title", self.title)?;
-        writer.attribute("/", "study_file", provenance.study_file.as_str())?;
-        writer.attribute("/", "study_place", provenance.study_place.as_str())?;
-        writer.attribute("/", "study_toml", self.study_toml)?;
-        writer.attribute("/", "gravity_m_s2", self.gravity_m_s2)?;
-        writer.attribute("/", "record_set", self.record_set)?;
-        writer.attribute("/", "synthetic", i64::from(self.synthetic))?;
+        writer.attribute("/", "created", self.created.as_str())?;
+        writer.attribute("/", "command", self.command.as_str())?;
+        writer.attribute("/", "overrides", self.overrides.join("\n").as_str())?;
+        writer.attribute("/", "title", title)?;
+        writer.attribute("/", "study_file", self.study_file.as_str())?;
+        writer.attribute("/", "study_place", self.study_place.as_str())?;
+        writer.attribute("/", "study_toml", study_toml)?;
+        writer.attribute("/", "gravity_m_s2", gravity_m_s2)?;
+        writer.attribute("/", "record_set", record_set)?;
+        writer.attribute("/", "synthetic", i64::from(synthetic))?;
         writer.attribute("/", "input_checksums", checksums.as_str())?;
-        writer.attribute("/", "warnings", self.warnings.join("\n").as_str())?;
-        writer.attribute("/", "threads", i64::try_from(provenance.threads).unwrap_or(i64::MAX))?;
-        writer.attribute("/", "wall_time_s", provenance.wall_time_s)?;
+        writer.attribute("/", "warnings", warnings.join("\n").as_str())?;
+        writer.attribute("/", "threads", i64::try_from(self.threads).unwrap_or(i64::MAX))?;
+        writer.attribute("/", "wall_time_s", self.wall_time_s)?;
         writer.attribute("/", "platform", format!("{} {}", std::env::consts::OS, std::env::consts::ARCH).as_str())?;
         Ok(())
     }

@@ -7,7 +7,7 @@ use uplift_inputs::{NamedSet, RecordSets, SetRecord};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::layout::axis as axes;
 use uplift_result::{
-    BOUNDS, MOTIONS, Origin, Provenance, ROUNDED_SPECTRA, RULES, SET_SPECTRA, SPECTRA, SetSpectra, StoredMotion,
+    BOUNDS, MOTIONS, Provenance, ROUNDED_SPECTRA, RULES, SET_SPECTRA, SPECTRA, SetSpectra, StoredMotion,
     StoredStructures,
 };
 use uplift_spectra::{Motion, MotionSet, Noisy};
@@ -102,16 +102,9 @@ pub(crate) fn write_displacements(path: &Path, outcome: &DisplacementOutcome<'_>
 
 fn write_root(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) -> Result<(), StudiesError> {
     let DisplacementOutcome { study, records, .. } = outcome;
-    let origin = Origin {
-        title: &study.title,
-        study_toml: &study.to_toml()?,
-        gravity_m_s2: study.gravity_m_s2,
-        record_set: &records.description,
-        synthetic: records.synthetic,
-        warnings: outcome.warnings,
-        provenance: outcome.provenance,
-    };
-    origin.write(writer)?;
+    let toml = study.to_toml()?;
+    let own = (study.title.as_str(), study.gravity_m_s2, toml.as_str());
+    outcome.provenance.write(writer, own, (&records.description, records.synthetic), outcome.warnings)?;
     writer.attribute("/", "kind", Kind::Displacement.key())?;
     let structure = match study.structures {
         Structures::Oscillators(_) => "oscillator",

@@ -5,7 +5,7 @@ use std::path::Path;
 use uplift_labelled::LabelledWriter;
 use uplift_result::layout::axis;
 use uplift_result::{
-    DESIGN_SPECTRUM, DIRECTIONS, Origin, Provenance, ShakeTable, TABLE_EXCITATIONS, TABLE_SPECTRA, TableSpectra,
+    DESIGN_SPECTRUM, DIRECTIONS, Provenance, ShakeTable, TABLE_EXCITATIONS, TABLE_SPECTRA, TableSpectra,
 };
 use uplift_study::{Kind, ShakeTableStudy};
 
@@ -33,16 +33,9 @@ pub struct ShakeTableOutcome<'a> {
 pub(crate) fn write_shake_table(path: &Path, outcome: &ShakeTableOutcome<'_>) -> Result<(), StudiesError> {
     let ShakeTableOutcome { study, table, .. } = outcome;
     let mut writer = LabelledWriter::create(path)?;
-    let origin = Origin {
-        title: &study.title,
-        study_toml: &study.to_toml()?,
-        gravity_m_s2: study.gravity_m_s2,
-        record_set: &table.records,
-        synthetic: table.synthetic,
-        warnings: outcome.warnings,
-        provenance: outcome.provenance,
-    };
-    origin.write(&mut writer)?;
+    let toml = study.to_toml()?;
+    let own = (study.title.as_str(), study.gravity_m_s2, toml.as_str());
+    outcome.provenance.write(&mut writer, own, (&table.records, table.synthetic), outcome.warnings)?;
     writer.attribute("/", "kind", Kind::ShakeTable.key())?;
     let names: Vec<String> = table.levels.iter().map(|level| level.name.clone()).collect();
     let excitations: Vec<String> = table.excitations.iter().map(|one| one.exc_id.clone()).collect();

@@ -10,8 +10,8 @@ use uplift_motion::{Combination, IntensityMeasure};
 use uplift_result::declared::of_measure;
 use uplift_result::layout::{HALF_WIDTHS, URS_PRECISION, axis};
 use uplift_result::{
-    DRAWN_QUANTITY, DRAWN_STRUCTURE, FACTORS, IMPACTS, INTENSITY, KeptGroups, MOTION_KEYS, MeasureSpectra, Origin,
-    PEAKS, RECORDS, RISK_SURFACE, SHARES, StoredRecords, drawn_names, intensity_names, urs,
+    DRAWN_QUANTITY, DRAWN_STRUCTURE, FACTORS, IMPACTS, INTENSITY, KeptGroups, MOTION_KEYS, MeasureSpectra, PEAKS,
+    RECORDS, RISK_SURFACE, SHARES, StoredRecords, drawn_names, intensity_names, urs,
 };
 use uplift_uniform_risk::consistency::Keep;
 
@@ -50,16 +50,9 @@ pub(crate) fn write_result(
 
 fn write_root(writer: &mut LabelledWriter, outcome: &ComputedStudy<'_>) -> Result<(), StudiesError> {
     let ComputedStudy { study, records, .. } = outcome;
-    let origin = Origin {
-        title: &study.title,
-        study_toml: &study.to_toml()?,
-        gravity_m_s2: study.gravity_m_s2,
-        record_set: &records.description,
-        synthetic: records.synthetic,
-        warnings: outcome.warnings,
-        provenance: outcome.provenance,
-    };
-    origin.write(writer)?;
+    let toml = study.to_toml()?;
+    let own = (study.title.as_str(), study.gravity_m_s2, toml.as_str());
+    outcome.provenance.write(writer, own, (&records.description, records.synthetic), outcome.warnings)?;
     writer.attribute("/", "seed", study.seed)?;
     writer.attribute("/", "poe_years", study.risk.years)?;
     writer.attribute("/", "contour", study.risk.contour.key())?;
