@@ -1,24 +1,13 @@
 //! What can be wrong with a spring, a restrainer or the columns that it holds.
 
 use thiserror::Error;
-use uplift_plausible::{Implausible, after_value};
+use uplift_plausible::Implausible;
 use uplift_structure::StructureError;
+pub(crate) use uplift_structure::{not_negative, positive, require};
 
 /// Why a restrainer, or what it holds, cannot be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum StaticsError {
-    /// A number is outside the range that makes physical sense.
-    #[error("`{key}` is {value}{}: it must be {requirement}", after_value(.unit))]
-    OutOfRange {
-        /// Name of the quantity, as in a description.
-        key: &'static str,
-        /// The value given.
-        value: f64,
-        /// Its unit, empty for a pure number.
-        unit: &'static str,
-        /// What would be accepted.
-        requirement: &'static str,
-    },
     /// A number of a description is beyond what any restrainer has.
     #[error("`{}`{}", .0.name, .0.to_string().trim_start_matches(.0.name))]
     Implausible(Implausible),
@@ -200,7 +189,7 @@ pub enum StaticsError {
         /// Columns.
         columns: u32,
     },
-    /// The geometry of the column is wrong.
+    /// A number is outside the range that makes physical sense, or the geometry of the column is wrong.
     #[error(transparent)]
     Structure(#[from] StructureError),
 }
@@ -209,8 +198,7 @@ impl StaticsError {
     /// Keys of a description whose values are at fault, the one to change first before the others; empty where none is.
     pub fn keys(&self) -> &[&'static str] {
         match self {
-            Self::OutOfRange { key, .. }
-            | Self::Missing { key, .. }
+            Self::Missing { key, .. }
             | Self::MissingForPath { key, .. }
             | Self::Foreign { key, .. }
             | Self::Twice { key, .. } => std::slice::from_ref(key),
@@ -230,25 +218,4 @@ impl StaticsError {
             Self::Displacement { .. } | Self::BeyondFlat { .. } | Self::Restrained { .. } => &[],
         }
     }
-}
-
-/// `value` if it is finite and positive.
-pub(crate) fn positive(key: &'static str, value: f64, unit: &'static str) -> Result<f64, StaticsError> {
-    require(value > 0.0 && value.is_finite(), key, value, unit, "finite and positive")
-}
-
-/// `value` if it is finite and not negative.
-pub(crate) fn not_negative(key: &'static str, value: f64, unit: &'static str) -> Result<f64, StaticsError> {
-    require(value >= 0.0 && value.is_finite(), key, value, unit, "finite and not negative")
-}
-
-/// `value` if `holds`.
-pub(crate) fn require(
-    holds: bool,
-    key: &'static str,
-    value: f64,
-    unit: &'static str,
-    requirement: &'static str,
-) -> Result<f64, StaticsError> {
-    if holds { Ok(value) } else { Err(StaticsError::OutOfRange { key, value, unit, requirement }) }
 }

@@ -170,17 +170,26 @@ fn in_unit(unit: &str) -> String {
 }
 
 /// `value` if it is finite and positive.
-pub(crate) fn positive(key: &'static str, value: f64, unit: &'static str) -> Result<f64, StructureError> {
+///
+/// # Errors
+/// [`StructureError::OutOfRange`] if it is not.
+pub fn positive(key: &'static str, value: f64, unit: &'static str) -> Result<f64, StructureError> {
     require(value > 0.0 && value.is_finite(), key, value, unit, "finite and positive")
 }
 
 /// `value` if it is finite and not negative.
-pub(crate) fn not_negative(key: &'static str, value: f64, unit: &'static str) -> Result<f64, StructureError> {
+///
+/// # Errors
+/// [`StructureError::OutOfRange`] if it is not.
+pub fn not_negative(key: &'static str, value: f64, unit: &'static str) -> Result<f64, StructureError> {
     require(value >= 0.0 && value.is_finite(), key, value, unit, "finite and not negative")
 }
 
 /// `value` if `holds`.
-pub(crate) fn require(
+///
+/// # Errors
+/// [`StructureError::OutOfRange`] if it does not.
+pub fn require(
     holds: bool,
     key: &'static str,
     value: f64,

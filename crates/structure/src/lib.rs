@@ -81,7 +81,7 @@ pub use curved::CurvedFrame;
 pub use description::{Allowed, Kind, StructureDescription};
 pub use design::{Check, design};
 pub use equivalent::{Conditions, EquivalentSystem, PostUpliftForce};
-pub use error::StructureError;
+pub use error::{StructureError, not_negative, positive, require};
 pub use frame::{Anchorage, Frame, RestrainedFrame};
 pub use geometry::Geometry;
 pub use realization::{Realization, UncertainQuantity};
