@@ -180,7 +180,6 @@ impl Mixture {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use uplift_random::{Rng, stream};
 
     use super::*;

@@ -1,8 +1,5 @@
 //! The rates that records, or earthquakes, bring where they do not count alike.
 
-// what is not inlined into work is not compiled for the instructions that it is compiled for
-#![allow(clippy::inline_always)]
-
 use uplift_instructions::{Instructions, Vectors, Work};
 
 use crate::SkewedMean;
@@ -183,7 +180,6 @@ impl Work for AllDeviate<'_> {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::inferred::mean_of;
 

@@ -1,8 +1,5 @@
 //! What a mean over records says of the mean over all records there could be, where the records scatter unevenly.
 
-// what is not inlined into work is not compiled for the instructions that it is compiled for
-#![allow(clippy::inline_always)]
-
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 

@@ -30,7 +30,6 @@ pub(crate) fn spread(demand: &PooledDemand, equivalent_units: f64) -> [Point; 3]
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use uplift_fragility::Stripes;
 

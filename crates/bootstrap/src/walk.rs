@@ -85,7 +85,6 @@ impl<'a, const N: usize> Walk<'a, N> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use uplift_fragility::Stripes;
 

@@ -272,7 +272,6 @@ impl RecordSet {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn record(scaled_to: f64, other: f64, pair: usize, event: Option<usize>) -> SetRecord {

@@ -122,7 +122,6 @@ impl Medians {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::Seismology;
 

@@ -129,7 +129,6 @@ impl Warning {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
     use uplift_hazard::{Extrapolation, HazardCurve};
 
     use super::*;
