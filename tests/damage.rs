@@ -253,7 +253,7 @@ fn a_result_without_room_for_its_tables_is_whole() {
     let done = shell.env("UPLIFT_CACHE", "").env("UPLIFT_LIMITS", "warn").output().unwrap();
     let said = String::from_utf8_lossy(&done.stderr);
     assert_eq!(done.status.code(), Some(4), "{said}");
-    assert!(said.contains("r.h5 is whole: --again writes") && said.contains("r.urs.csv: cannot write"), "{said}");
+    assert!(said.contains("r.h5 is complete") && said.contains("r.urs.csv: cannot write"), "{said}");
     study.uplift(&["verify", "r.h5"]).ok();
 
     let again = study.uplift(&["run", "study.toml", "-o", "r.h5", "--again"]).ok();

@@ -157,5 +157,5 @@ fn a_body_wider_than_tall_is_doubted_on_the_first_line() {
     assert!(said.lines().next().unwrap().contains("subject to the mistake? below, "), "{said}");
     assert!(said.contains("mistake? pier: wider than tall"), "{said}");
     // a width that is meant, as one that `target` found, is not asked to be corrected
-    assert!(said.contains(". Correct width and height if they are exchanged\n"), "{said}");
+    assert!(said.contains(". Swap width and height if they were mixed up\n"), "{said}");
 }

@@ -117,7 +117,7 @@ fn case(evidence: &Evidence, consistency: &StoredConsistency, (site, name): (usi
         badness: times.ln().abs(),
         subject: format!("{name} by {scaled_to}"),
         what: format!("scaled records have {} times the site's {other}", in_words(consistency, site, times)),
-        what_to_do: remedy(&evidence.result, consistency, site),
+        what_to_do: remedy(evidence.result, consistency, site),
     }
 }
 
@@ -141,5 +141,5 @@ pub(super) fn remedy_of_gap(evidence: &Evidence, site: usize) -> Option<String> 
     let worst = |of: &&StoredConsistency| of.bias[site].ln().abs();
     let all = evidence.consistency.iter().filter(misses);
     let consistency = all.max_by(|a, b| worst(a).total_cmp(&worst(b)))?;
-    Some(remedy(&evidence.result, consistency, site))
+    Some(remedy(evidence.result, consistency, site))
 }

@@ -1,7 +1,7 @@
 //! What alarms are raised from: the spectra of a result with all that the file knows of them.
 
 use uplift_hazard::{HazardCurve, rate_from_probability};
-use uplift_job::text::{risk_in_words, risk_name, typed_path};
+use uplift_job::text::{risk_in_words, risk_name};
 use uplift_motion::IntensityMeasure;
 use uplift_result::{MeasureSpectra, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredSpectra};
 use uplift_study::UniformRiskStudy;
@@ -11,8 +11,8 @@ use crate::error::AlarmsError;
 /// The spectra of a result, its study, hazard and bands.
 #[derive(Debug, Clone)]
 pub struct Evidence {
-    /// The result, as it is typed in a command.
-    pub(super) result: String,
+    /// What stands for the result in a command until a face names it: an alarm is the same wherever the file lies.
+    pub(super) result: &'static str,
     pub(crate) study: UniformRiskStudy,
     pub(crate) spectra: StoredSpectra,
     /// By measure, as the spectra; weighted curves of the sites alone that are asked about.
@@ -98,7 +98,7 @@ impl Evidence {
             bands => (bands, all()),
         };
         Ok(Self {
-            result: typed_path(file.path()),
+            result: "RESULT",
             study,
             spectra,
             other_curves,

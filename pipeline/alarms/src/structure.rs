@@ -43,7 +43,7 @@ fn wider_than_tall(structure: &Structure) -> Option<Alarm> {
         _ => false,
     };
     let what = structure.system.warnings().iter().find(is_wide)?;
-    let what_to_do = "Correct width and height if they are exchanged";
+    let what_to_do = "Swap width and height if they were mixed up";
     Some(Alarm::new(
         Severity::Mistake,
         "unlikely-number",

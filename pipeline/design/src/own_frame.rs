@@ -113,8 +113,8 @@ impl FrameReport {
 
     /// The limit, where passing it and not overturning tells how often the frame fails.
     pub fn governing_limit(&self) -> Option<FrameLimit> {
-        let governs = |of: &FrameModel| of.beyond_limit.is_some_and(|limit| limit.governs(&of.overturning));
-        self.limit.filter(|_| self.models.iter().any(governs))
+        let wobbling = self.wobbling();
+        self.limit.filter(|_| wobbling.beyond_limit.is_some_and(|limit| limit.governs(&wobbling.overturning)))
     }
 }
 

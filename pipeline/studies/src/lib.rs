@@ -12,5 +12,5 @@ use uplift_job::events::Events;
 
 /// Says, where the tables beside the result at `path` cannot be written, that nothing is lost.
 pub(crate) fn whole_result<'a, E>(path: &'a Path, events: &'a dyn Events) -> impl FnOnce(&E) + 'a {
-    |_| events.note(&format!("{} is whole: --again writes the tables beside it", path.display()))
+    |_| events.note(&format!("{} is complete: only the tables beside it are missing", path.display()))
 }

@@ -15,9 +15,15 @@ const SHOWN: usize = 3;
 /// What shows the others.
 pub(super) const DETAILS: &str = "--details";
 
-/// The worst warnings, a line each; all of them in detail. A quiet terminal gets no others than probable mistakes.
-pub(super) fn print_warnings(out: &mut impl Write, alarms: &[Alarm], terminal: &Terminal) -> Result<(), CommandError> {
-    let lines = warnings(alarms, terminal);
+/// The worst warnings, a line each, of an answer from `result`; all of them in detail. A quiet terminal gets no others
+/// than probable mistakes.
+pub(super) fn print_warnings(
+    out: &mut impl Write,
+    alarms: &[Alarm],
+    result: Option<&Path>,
+    terminal: &Terminal,
+) -> Result<(), CommandError> {
+    let lines = warnings(alarms, result, terminal);
     print_lines(out, &lines, terminal.shows_details()).map(drop)
 }
 
@@ -28,7 +34,7 @@ pub(super) fn print_result_warnings(
     result: &Path,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
-    let lines = warnings(alarms, terminal);
+    let lines = warnings(alarms, Some(result), terminal);
     let shown = number_shown(&lines, terminal.shows_details());
     print_shown(out, &lines[..shown], lines.len() - shown, &format!("uplift warnings {}", typed_path(result)))
 }
@@ -36,27 +42,28 @@ pub(super) fn print_result_warnings(
 /// That the records are synthetic, of answers that have no other warning of a result.
 pub(super) fn print_synthetic(out: &mut impl Write, synthetic: bool, terminal: &Terminal) -> Result<(), CommandError> {
     let alarms: Vec<Alarm> = synthetic.then(synthetic_records).into_iter().collect();
-    print_warnings(out, &alarms, terminal)
+    print_warnings(out, &alarms, None, terminal)
 }
 
 /// As [`print_warnings`], and that there is more to see, said once.
 pub(super) fn print_warnings_and_more(
     out: &mut impl Write,
     alarms: &[Alarm],
+    result: &Path,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
-    print_warnings(out, alarms, terminal)?;
+    print_warnings(out, alarms, Some(result), terminal)?;
     if alarms.len() > SHOWN { Ok(()) } else { print_more(out, terminal) }
 }
 
-/// Prints an answer about a structure, its details if they are asked for, then its warnings and those of its result.
+/// Prints an answer about a structure, its details if they are asked for, then its warnings and those of the result.
 pub(super) fn print_in_parts<R>(
     report: &R,
     (answer, details): (
         impl FnOnce(&mut Output, &R) -> Result<(), CommandError>,
         impl FnOnce(&mut Output, &R) -> Result<(), CommandError>,
     ),
-    alarms: &[Alarm],
+    (alarms, result): (&[Alarm], &Path),
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
     let out = &mut output();
@@ -64,7 +71,7 @@ pub(super) fn print_in_parts<R>(
     if terminal.shows_details() {
         details(out, report)?;
     }
-    print_warnings_and_more(out, alarms, terminal)
+    print_warnings_and_more(out, alarms, result, terminal)
 }
 
 /// The first lines, or `all`, and how to see the others; nothing where there are none. Whether some are left out.
@@ -96,7 +103,7 @@ pub(super) fn print_shown(
 }
 
 /// Every warning with all that it is about.
-pub(crate) fn print_all_warnings(alarms: &[Alarm]) -> Result<(), CommandError> {
+pub(crate) fn print_all_warnings(alarms: &[Alarm], result: &Path) -> Result<(), CommandError> {
     let out = &mut output();
     if alarms.is_empty() {
         writeln!(out, "No warnings.")?;
@@ -105,7 +112,7 @@ pub(crate) fn print_all_warnings(alarms: &[Alarm]) -> Result<(), CommandError> {
         let Alarm { severity, subject, what, .. } = alarm;
         writeln!(out, "{:<8}  {subject}: {what}{}", severity.word(), full_stop(alarm))?;
         if !alarm.what_to_do.is_empty() {
-            writeln!(out, "          {}", sentence(&alarm.what_to_do))?;
+            writeln!(out, "          {}", remedy(alarm, Some(result)))?;
         }
         if !alarm.also.is_empty() {
             writeln!(out, "          Also: {}", alarm.also.join("; "))?;
@@ -114,15 +121,21 @@ pub(crate) fn print_all_warnings(alarms: &[Alarm]) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// What is wrong, by how much, and what to type.
-pub(super) fn warning(alarm: &Alarm) -> String {
+/// What is wrong, by how much, and what to type: with the name of the `result`, where it is known.
+pub(super) fn warning(alarm: &Alarm, result: Option<&Path>) -> String {
     let mark = if alarm.severity == Severity::Mistake { "mistake? " } else { "" };
-    format!("{mark}{alarm}{} {}", full_stop(alarm), sentence(&alarm.what_to_do)).trim_end().to_owned()
+    format!("{mark}{alarm}{} {}", full_stop(alarm), remedy(alarm, result)).trim_end().to_owned()
 }
 
-fn warnings(alarms: &[Alarm], terminal: &Terminal) -> Vec<String> {
+fn warnings(alarms: &[Alarm], result: Option<&Path>, terminal: &Terminal) -> Vec<String> {
     let is_told = |alarm: &&Alarm| !terminal.is_quiet() || alarm.severity == Severity::Mistake;
-    alarms.iter().filter(is_told).map(warning).collect()
+    alarms.iter().filter(is_told).map(|alarm| warning(alarm, result)).collect()
+}
+
+/// What to type, with the name of the `result`, where it is known.
+fn remedy(alarm: &Alarm, result: Option<&Path>) -> String {
+    let words = sentence(&alarm.what_to_do);
+    result.map_or_else(|| words.clone(), |result| words.replace("RESULT", &typed_path(result)))
 }
 
 fn full_stop(alarm: &Alarm) -> &'static str {

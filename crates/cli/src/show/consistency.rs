@@ -70,7 +70,7 @@ fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(),
     print_earthquakes(out, report)?;
     print_two_sided(out, report)?;
     print_agreement(out, report)?;
-    for line in report.synthetic.then(|| warning(&synthetic_records())).iter().chain(&report.warnings) {
+    for line in report.synthetic.then(|| warning(&synthetic_records(), None)).iter().chain(&report.warnings) {
         writeln!(out, "\nWarning: {line}")?;
     }
     Ok(())
@@ -114,7 +114,7 @@ fn more_warnings(report: &ConsistencyReport) -> usize {
 
 /// What speaks against the records, and how many other warnings there are.
 fn print_warnings(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
-    let synthetic = report.synthetic.then(|| warning(&synthetic_records()));
+    let synthetic = report.synthetic.then(|| warning(&synthetic_records(), None));
     let first = nearest(report).or_else(|| report.warnings.first().cloned());
     let shown: Vec<String> = first.into_iter().chain(synthetic).collect();
     print_shown(out, &shown, more_warnings(report), DETAILS)

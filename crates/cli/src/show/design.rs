@@ -30,7 +30,7 @@ use crate::terminal::Terminal;
 
 /// The verdict, demand and risk; in detail structure, rules, and what of the numbers is noise.
 pub(crate) fn print_design(report: &DesignReport, terminal: &Terminal) -> Result<(), CommandError> {
-    print_in_parts(report, (print_answer, print_details), &report.alarms, terminal)
+    print_in_parts(report, (print_answer, print_details), (&report.alarms, &report.source.result), terminal)
 }
 
 /// What an engineer asks first.

@@ -44,7 +44,7 @@ pub(crate) fn print_frame_response(
     for note in &report.notes {
         writeln!(out, "note      {note}")?;
     }
-    print_warnings(&mut out, &report.alarms, terminal)?;
+    print_warnings(&mut out, &report.alarms, None, terminal)?;
     print_files(report.history_file.as_deref(), figure, terminal)
 }
 

@@ -33,7 +33,7 @@ fn band(of: &Banded, shown: fn(f64) -> String) -> String {
 
 /// Demand and overturning of the frame; in detail restrainers, events and directions.
 pub(crate) fn print_frame_risk(report: &FrameRiskReport, terminal: &Terminal) -> Result<(), CommandError> {
-    print_in_parts(report, (print_answer, print_details), &report.alarms, terminal)
+    print_in_parts(report, (print_answer, print_details), (&report.alarms, &report.source.result), terminal)
 }
 
 /// The demand on the frame with its band, what its proxies say, and how often it overturns.

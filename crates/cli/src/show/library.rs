@@ -27,7 +27,7 @@ pub(crate) fn print_library(report: &LibraryReport, terminal: &Terminal) -> Resu
         writeln!(out, "{} more systems: {DETAILS}, or fits.csv", report.systems.len() - shown)?;
     }
     writeln!(out, "{}; {} analyses", report.record_set, thousands(report.analyses))?;
-    print_warnings(&mut out, &report.alarms, terminal)?;
+    print_warnings(&mut out, &report.alarms, None, terminal)?;
     if let (false, Some(folder)) = (terminal.is_quiet(), report.files.first().and_then(|file| file.parent())) {
         let name = |file: &std::path::PathBuf| file.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let names: Vec<String> = report.files.iter().map(name).collect();

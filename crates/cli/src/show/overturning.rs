@@ -18,7 +18,7 @@ use crate::terminal::Terminal;
 
 /// How often a structure overturns; in detail its models, fragility and tails.
 pub(crate) fn print_overturning(report: &OverturningReport, terminal: &Terminal) -> Result<(), CommandError> {
-    print_in_parts(report, (print_answer, print_details), &report.alarms, terminal)
+    print_in_parts(report, (print_answer, print_details), (&report.alarms, &report.source.result), terminal)
 }
 
 /// The rate of every site by measure and model, with its band.

@@ -32,7 +32,7 @@ pub(crate) fn print_response(
             report.impacts
         )?;
     }
-    print_warnings(&mut out, &report.alarms, terminal)?;
+    print_warnings(&mut out, &report.alarms, None, terminal)?;
     print_files(report.history_file.as_deref(), figure, terminal)
 }
 
@@ -74,7 +74,7 @@ pub(crate) fn print_block_response(
     if report.chatter_was_cut {
         terminal.say("note: a nearly elastic block rebounded 100,000 times in a sample interval, and was put to rest");
     }
-    print_warnings(&mut out, &report.alarms, terminal)?;
+    print_warnings(&mut out, &report.alarms, None, terminal)?;
     print_files(report.history_file.as_deref(), figure, terminal)
 }
 

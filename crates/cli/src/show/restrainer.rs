@@ -63,7 +63,7 @@ pub(crate) fn print_restrainer_design(report: &RestrainerDesign, terminal: &Term
     if terminal.shows_details() {
         print_details(&mut out, report)?;
     }
-    print_warnings(&mut out, &report.alarms, terminal)?;
+    print_warnings(&mut out, &report.alarms, None, terminal)?;
     print_more(&mut out, terminal)?;
     drop(out);
     print_files(&report.files, terminal)

@@ -125,7 +125,7 @@ fn print_cautions(out: &mut impl Write, report: &SweepReport, terminal: &Termina
     let mut said: Vec<(Severity, String, Vec<&str>)> = Vec::new();
     for variant in &report.variants {
         for alarm in &variant.alarms {
-            let line = warning(alarm);
+            let line = warning(alarm, None);
             match said.iter_mut().find(|(_, known, _)| *known == line) {
                 Some((.., variants)) => variants.push(&variant.name),
                 None => said.push((alarm.severity, line, vec![&variant.name])),

@@ -4,6 +4,7 @@ mod columns;
 mod design;
 
 use std::io::Write;
+use std::path::Path;
 
 use uplift::table::{
     COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, ReferenceFit, TableReport, TableRows,
@@ -16,7 +17,7 @@ use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
 /// The table of a result, of either kind, with what to know before it is used.
-pub(crate) fn print_table(report: &TableReport, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn print_table(report: &TableReport, result: &Path, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
     match &report.rows {
         TableRows::Coefficients(coefficients) => print_coefficients(&mut out, coefficients),
@@ -25,7 +26,7 @@ pub(crate) fn print_table(report: &TableReport, terminal: &Terminal) -> Result<(
         TableRows::Tests(tests) => shake_table::print_order(&mut out, tests),
     }?;
     // a quiet terminal gets what was asked for alone
-    print_warnings(&mut out, &report.alarms, terminal)
+    print_warnings(&mut out, &report.alarms, Some(result), terminal)
 }
 
 fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result<(), CommandError> {

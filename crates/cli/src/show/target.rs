@@ -19,7 +19,7 @@ pub(crate) fn print_target(report: &TargetReport, terminal: &Terminal) -> Result
     if terminal.shows_details() {
         print_details(out, report)?;
     }
-    print_warnings(out, &report.alarms, terminal)?;
+    print_warnings(out, &report.alarms, Some(&report.source.result), terminal)?;
     print_more(out, terminal)
 }
 

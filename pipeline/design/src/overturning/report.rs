@@ -52,7 +52,8 @@ impl OverturningReport {
     /// The limit, where passing it and not overturning tells how often the frame fails.
     pub fn governing_limit(&self) -> Option<FrameLimit> {
         let governs = |of: &SiteRisk| of.beyond_limit.is_some_and(|limit| limit.governs(&of.risk));
-        self.limit.filter(|_| self.overturning.iter().flat_map(|found| &found.sites).any(governs))
+        let wobbling = self.overturning.iter().filter(|found| found.model == "wobbling frame");
+        self.limit.filter(|_| wobbling.flat_map(|found| &found.sites).any(governs))
     }
 }
 

@@ -20,5 +20,5 @@ pub(crate) struct TableArguments {
 
 pub(crate) fn table(arguments: &TableArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let report = table_of(&arguments.options, terminal)?;
-    if arguments.json { print_json(&report) } else { print_table(&report, terminal) }
+    if arguments.json { print_json(&report) } else { print_table(&report, &arguments.options.result, terminal) }
 }

@@ -23,5 +23,5 @@ pub(crate) struct WarningsArguments {
 
 pub(crate) fn warnings(arguments: &WarningsArguments) -> Result<(), CommandError> {
     let found = alarms(&at(ResultFile::open(&arguments.result)?, &arguments.risk)?)?;
-    if arguments.json { print_json(&found) } else { print_all_warnings(&found) }
+    if arguments.json { print_json(&found) } else { print_all_warnings(&found, &arguments.result) }
 }

@@ -108,7 +108,10 @@ pub(super) fn print_verdicts(
 /// The command that makes the spectrum of the structure's own oscillator, where the result has another: the run of the
 /// result with other settings, beside it.
 pub(super) fn print_own_spectrum(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
-    let Some(settings) = &report.own_oscillator else { return Ok(()) };
+    // a study that came by standard input cannot be named
+    let Some(settings) = report.own_oscillator.as_ref().filter(|_| report.source.study_file != "-") else {
+        return Ok(());
+    };
     let ReportSource { result, study_file, overrides, .. } = &report.source;
     let kept: String = overrides.iter().flat_map(|setting| [" --set ".to_owned(), typed(setting)]).collect();
     let name = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
