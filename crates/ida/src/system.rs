@@ -38,6 +38,9 @@ pub struct ShakenFrame {
     pub rest_amplitude_rad: Option<f64>,
 }
 
+/// The kind of a frame that wobbles under both components, in tables.
+pub const WOBBLING_FRAME: &str = "wobbling frame";
+
 impl System {
     /// Its kind, a word for tables.
     pub fn kind(&self) -> &'static str {
@@ -46,7 +49,7 @@ impl System {
             Self::Block(_) => "block",
             Self::Frame(shaken) => match shaken.model {
                 Model::Planar => "planar frame",
-                Model::Wobbling => "wobbling frame",
+                Model::Wobbling => WOBBLING_FRAME,
             },
         }
     }

@@ -6,6 +6,7 @@ use uplift_job::alarm::{Alarm, Case, Severity};
 use uplift_result::StoredConsistency;
 use uplift_uniform_risk::MANY_FAILED;
 
+use super::RESULT;
 use super::curves;
 use super::evidence::{Evidence, Scope};
 
@@ -14,7 +15,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     for consistency in &evidence.consistency {
         for (site, name) in evidence.spectra.sites.iter().enumerate() {
             if let Some(times) = missed(evidence, scope, consistency, site) {
-                cases.push(case(evidence, consistency, (site, name), times));
+                cases.push(case(consistency, site, name, times));
             }
         }
     }
@@ -66,7 +67,7 @@ pub(super) fn without_repair(evidence: &Evidence, scope: &Scope) -> Option<Alarm
                     badness: consistency.max[site],
                     subject: format!("{name} by {}", consistency.scaled_to.label()),
                     what: "no weights match both hazard curves: no repaired spectrum".to_owned(),
-                    what_to_do: format!("See why: uplift consistency {} --details", evidence.result),
+                    what_to_do: format!("See why: uplift consistency {RESULT} --details"),
                 });
             }
         }
@@ -108,7 +109,7 @@ pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alar
 }
 
 /// `times` the level of the other measure do the records bring.
-fn case(evidence: &Evidence, consistency: &StoredConsistency, (site, name): (usize, &str), times: f64) -> Case {
+fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) -> Case {
     let StoredConsistency { scaled_to, other, .. } = consistency;
     let (scaled_to, other) = (scaled_to.label(), other.label());
     let is_repaired = consistency.is_repaired(site);
@@ -117,19 +118,19 @@ fn case(evidence: &Evidence, consistency: &StoredConsistency, (site, name): (usi
         badness: times.ln().abs(),
         subject: format!("{name} by {scaled_to}"),
         what: format!("scaled records have {} times the site's {other}", in_words(consistency, site, times)),
-        what_to_do: remedy(evidence.result, consistency, site),
+        what_to_do: remedy(consistency, site),
     }
 }
 
 /// What mends the spectrum of a site whose records miss its hazard of the other measure.
-fn remedy(result: &str, consistency: &StoredConsistency, site: usize) -> String {
+fn remedy(consistency: &StoredConsistency, site: usize) -> String {
     match &consistency.u_m {
         Some(_) if consistency.is_repaired(site) => {
             let key = consistency.scaled_to.key();
-            format!("Use: uplift spectrum {result} --repaired --measure {key}")
+            format!("Use: uplift spectrum {RESULT} --repaired --measure {key}")
         }
-        Some(_) => format!("See what is missing: uplift consistency {result} --details"),
-        None => format!("Repair: uplift consistency {result} --repair"),
+        Some(_) => format!("See what is missing: uplift consistency {RESULT} --details"),
+        None => format!("Repair: uplift consistency {RESULT} --repair"),
     }
 }
 
@@ -141,5 +142,5 @@ pub(super) fn remedy_of_gap(evidence: &Evidence, site: usize) -> Option<String> 
     let worst = |of: &&StoredConsistency| of.bias[site].ln().abs();
     let all = evidence.consistency.iter().filter(misses);
     let consistency = all.max_by(|a, b| worst(a).total_cmp(&worst(b)))?;
-    Some(remedy(evidence.result, consistency, site))
+    Some(remedy(consistency, site))
 }

@@ -11,8 +11,6 @@ use crate::error::AlarmsError;
 /// The spectra of a result, its study, hazard and bands.
 #[derive(Debug, Clone)]
 pub struct Evidence {
-    /// What stands for the result in a command until a face names it: an alarm is the same wherever the file lies.
-    pub(super) result: &'static str,
     pub(crate) study: UniformRiskStudy,
     pub(crate) spectra: StoredSpectra,
     /// By measure, as the spectra; weighted curves of the sites alone that are asked about.
@@ -98,7 +96,6 @@ impl Evidence {
             bands => (bands, all()),
         };
         Ok(Self {
-            result: "RESULT",
             study,
             spectra,
             other_curves,

@@ -49,6 +49,9 @@ pub use structure::{OwnRisk, own_risk_alarms, safety_factor_alarm, structure_ala
 use uplift_result::{Kind, ResultFile};
 pub use uplift_risk::COMPARED_FROM_M;
 
+/// The result in a command of an alarm.
+const RESULT: &str = Alarm::RESULT;
+
 /// The alarms in the order in which they should be read: the worst first, and what was noticed of the inputs last.
 pub fn ranked(mut alarms: Vec<Alarm>) -> Vec<Alarm> {
     alarms.sort_by_key(|alarm| (alarm.severity, alarm.kind == inputs::NOTICED));

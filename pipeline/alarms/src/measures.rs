@@ -4,7 +4,7 @@
 use uplift_motion::IntensityMeasure;
 
 use super::evidence::{Evidence, Scope};
-use super::{consistency, curves};
+use super::{RESULT, consistency, curves};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, Severity};
 use uplift_job::text::{per_cent, rounded, short, two_digits};
@@ -89,7 +89,7 @@ fn case(evidence: &Evidence, (site, subject): (usize, String), gap: Gap, banded:
             rounded(evidence.spectra.strengths[gap.strength], 4)
         ),
         what_to_do: consistency::remedy_of_gap(evidence, site)
-            .unwrap_or_else(|| format!("Choose between them: uplift measures {}", evidence.result)),
+            .unwrap_or_else(|| format!("Choose between them: uplift measures {RESULT}")),
     }
 }
 

@@ -17,7 +17,7 @@ use serde::Serialize;
 use uplift_bootstrap::{ResamplingPlan, Unit};
 use uplift_fragility::{LognormalFit, Stripes};
 use uplift_frame::Model;
-use uplift_ida::Shard;
+use uplift_ida::{Shard, WOBBLING_FRAME};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::PooledDemand;
 use uplift_structure::{Kind, Rule};
@@ -373,7 +373,7 @@ fn rows(
         };
         rows.push(question.row(model, zero.through(check.demand_m, rule)?, Some(&own)));
     }
-    let model = if demands.wobbling_m.is_some() { "wobbling frame" } else { "planar frame" };
+    let model = if demands.wobbling_m.is_some() { WOBBLING_FRAME } else { "planar frame" };
     rows.insert(0, question.row(model, own, None));
     Ok(rows)
 }

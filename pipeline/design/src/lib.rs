@@ -54,3 +54,4 @@ pub use uncertain::{
     AleatoryResult, EpistemicResult, QuantityReport, Spread, UncertainFinding, UncertainResult, UncertaintyReport,
     VarianceShare,
 };
+pub use uplift_ida::WOBBLING_FRAME;

@@ -45,6 +45,10 @@ pub struct Alarm {
 }
 
 impl Alarm {
+    /// What stands for the result in a command of `what_to_do` until a face names it: an alarm is the same wherever the
+    /// file lies.
+    pub const RESULT: &str = "RESULT";
+
     /// The alarm about one `subject`.
     pub fn new(severity: Severity, kind: &'static str, subject: &str, what: String, what_to_do: &str) -> Self {
         let (subject, what_to_do) = (subject.to_owned(), what_to_do.to_owned());

@@ -11,6 +11,6 @@ pub use error::StudiesError;
 use uplift_job::events::Events;
 
 /// Says, where the tables beside the result at `path` cannot be written, that nothing is lost.
-pub(crate) fn whole_result<'a, E>(path: &'a Path, events: &'a dyn Events) -> impl FnOnce(&E) + 'a {
+pub(crate) fn complete_result<'a, E>(path: &'a Path, events: &'a dyn Events) -> impl FnOnce(&E) + 'a {
     |_| events.note(&format!("{} is complete: only the tables beside it are missing", path.display()))
 }

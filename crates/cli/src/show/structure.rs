@@ -2,6 +2,8 @@
 
 use std::io::Write;
 
+/// The model of a frame that is held against its proxies.
+pub(super) use uplift::structure::WOBBLING_FRAME as WOBBLING;
 use uplift::structure::{Bands, EventRisk, StructureReport};
 use uplift::text::{self, per_cent, short, two_digits};
 
@@ -10,8 +12,6 @@ use crate::error::CommandError;
 
 /// The kind of a structure that is one rigid block.
 pub(super) const BLOCK: &str = "block";
-/// The model of a frame that is held against its proxies.
-pub(super) const WOBBLING: &str = "wobbling frame";
 
 /// The restitution of a model of a frame, below the lines of the structure.
 pub(super) fn restitution_line(model: &str, restitution: f64) -> String {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use uplift_fragility::LognormalFit;
-use uplift_ida::System;
+use uplift_ida::{System, WOBBLING_FRAME};
 use uplift_job::alarm::Alarm;
 use uplift_motion::IntensityMeasure;
 use uplift_spectra::Noisy;
@@ -52,7 +52,7 @@ impl OverturningReport {
     /// The limit, where passing it and not overturning tells how often the frame fails.
     pub fn governing_limit(&self) -> Option<FrameLimit> {
         let governs = |of: &SiteRisk| of.beyond_limit.is_some_and(|limit| limit.governs(&of.risk));
-        let wobbling = self.overturning.iter().filter(|found| found.model == "wobbling frame");
+        let wobbling = self.overturning.iter().filter(|found| found.model == WOBBLING_FRAME);
         self.limit.filter(|_| wobbling.flat_map(|found| &found.sites).any(governs))
     }
 }

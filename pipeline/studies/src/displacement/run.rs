@@ -20,8 +20,8 @@ use super::write::stored_motions;
 use super::{
     DisplacementOutcome, Inputs, carry_out_designs, needs, set_spectra, write_displacement_csv, write_displacements,
 };
+use crate::complete_result;
 use crate::error::StudiesError;
-use crate::whole_result;
 
 /// With fewer motions beyond a percentile than this, one of them decides it.
 const FEW_BEYOND: f64 = 5.0;
@@ -95,7 +95,7 @@ pub fn run(
     let file = ResultFile::open(path)?;
     let rows = file.design()?.map_or_else(Vec::new, |design| design.rows);
     if study.output.csv {
-        files.extend(write_displacement_csv(path, &outcome, &rows).inspect_err(whole_result(path, events))?);
+        files.extend(write_displacement_csv(path, &outcome, &rows).inspect_err(complete_result(path, events))?);
     }
     Ok(RunReport::from_outcome(&outcome, (rows, alarms(&file)?), files, place.start.elapsed().as_secs_f64()))
 }

@@ -13,8 +13,8 @@ use super::plan::needs;
 use super::report::RunReport;
 use super::spectra::spectra;
 use super::{Inputs, ShakeTableOutcome, carry_out, write_shake_table, write_shake_table_csv};
+use crate::complete_result;
 use crate::error::StudiesError;
-use crate::whole_result;
 
 /// What every result says of the model.
 const TORSION: &str = "the deck does not turn about the vertical in the model: torsion, which was up to 0.115 rad in \
@@ -44,7 +44,7 @@ pub fn run(study: &ShakeTableStudy, place: &Place<'_>, events: &dyn Events) -> R
     earlier.set_aside(events)?;
     let mut files = vec![path.to_owned()];
     if study.output.csv {
-        files.push(write_shake_table_csv(path, &outcome).inspect_err(whole_result(path, events))?);
+        files.push(write_shake_table_csv(path, &outcome).inspect_err(complete_result(path, events))?);
     }
     let alarms = alarms(&ResultFile::open(path)?)?;
     let records = (table.records.as_str(), table.synthetic);

@@ -23,8 +23,8 @@ use super::report::{MeasureReport, RunReport};
 use super::site_table::{self, SiteOutput};
 use super::work::hazard_of;
 use super::{Inputs, csv_paths, needs, write_csv, write_result};
+use crate::complete_result;
 use crate::error::StudiesError;
-use crate::whole_result;
 
 /// Carries out `study`, but for the rows of its analysis that are `known`.
 ///
@@ -119,10 +119,10 @@ pub fn run(
     checkpoint.remove_unless_shared(events);
     let mut files = vec![path.to_owned()];
     if study.output.csv && !study.sites.is_empty() {
-        write_csv(path, &outcome).inspect_err(whole_result(path, events))?;
+        write_csv(path, &outcome).inspect_err(complete_result(path, events))?;
         files.extend(csv_paths(path));
     }
-    files.extend(sites.finish().inspect_err(whole_result(path, events))?);
+    files.extend(sites.finish().inspect_err(complete_result(path, events))?);
     // the summary says what every other look at the file says
     let file = ResultFile::open(path)?;
     let (of_records, seconds) =
