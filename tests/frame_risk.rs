@@ -145,7 +145,7 @@ fn a_design_has_the_frame_beside_its_proxy() {
     assert!(first.starts_with("Verdict   free by PGV: "), "{first}");
     let settings = design["own_oscillator"].as_str().unwrap();
     let command = format!("run study.toml {settings} -o r-free.h5");
-    assert!(rest.contains(&format!("          for its own spectrum: uplift {command}\n")), "{rest}");
+    assert!(rest.contains(&format!("          for its oscillator's spectrum: uplift {command}\n")), "{rest}");
     study.uplift(&command.split(' ').collect::<Vec<_>>()).ok();
     let own = ["design", "free.toml", "--urs", "r-free.h5", "--site", "Here", "--spectrum-only", "--json"];
     assert_eq!(study.uplift(&own).json()["other_oscillator"], false);
@@ -208,6 +208,19 @@ fn a_column_that_is_pulled_back_is_told_by_its_capacity() {
     for event in ["  wobbling frame  passes capacity  ", "                  overturns        "] {
         assert!(of_overturning.contains(event), "{of_overturning}");
     }
+    // the details and the table have it, and a width that is safe against overturning is not told without it
+    let details = ["overturning", "dr.toml", "--urs", "r.h5", "--details", "-o", "o.csv"];
+    let details = study.uplift(&details).ok().stdout;
+    assert!(details.contains("\nRisk beyond the limit, capacity 0.53 m\n"), "{details}");
+    let table = rows(&study, "o.risk.csv");
+    let own = table.iter().find(|row| row["model"] == "wobbling frame" && row["site"] == "Here").unwrap();
+    let of = |column: &str| own[column].parse::<f64>().unwrap();
+    assert_eq!(of("maf_beyond_limit_per_year"), number(passed));
+    assert!(of("maf_beyond_limit_records_lower_per_year") < number(passed), "{own:?}");
+    let own = of_model("oscillator")["per_year"].to_string();
+    let width = ["target", "dr.toml", "--urs", "r.h5", "--site", "Here", "--overturning", &own, "--vary", "width"];
+    let safe = study.uplift(&width).ok().stdout;
+    assert!(safe.contains("\nLimit     the wobbling frame passes its limit, tendon yield at 0.75 m, "), "{safe}");
 }
 
 /// Overturning of the frame is that of `risk`, at every site.

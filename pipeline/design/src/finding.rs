@@ -13,7 +13,7 @@ use super::certainty::Bands;
 use super::demand::ExactDemand;
 use super::design::DesignReport;
 use super::frame_risk::{FrameRiskReport, ModelDemand};
-use super::limit::{FrameLimit, LimitEvent};
+use super::limit::{FrameLimit, LimitEvent, LimitRisk};
 use super::overturning::{CollapseReport, OverturningOptions, OverturningReport};
 use super::own_frame::FrameModel;
 use super::target::{TargetBand, TargetOptions, TargetReport};
@@ -154,20 +154,25 @@ impl DesignReport {
             rows.extend(exact.beyond_capacity.iter().flat_map(|risk| rate(EXCEEDING, risk, beyond, at)));
             rows.extend(rate("overturning", &exact.overturning, overturning, at));
         }
-        rows.extend(self.frame.iter().flat_map(|frame| &frame.models).flat_map(|model| frame_rows(model, at)));
+        if let Some(frame) = &self.frame {
+            // the capacity has its row in any case
+            let limit = frame.limit.filter(|limit| limit.event != LimitEvent::Capacity);
+            rows.extend(frame.models.iter().flat_map(|model| frame_rows(model, limit, at)));
+        }
         rows.extend(uncertain(self.uncertainty.as_ref()));
         rows
     }
 }
 
 /// Demand, required capacity and risks of a frame by one of its models.
-fn frame_rows(of: &FrameModel, at: [&str; 2]) -> Vec<FindingRow> {
+fn frame_rows(of: &FrameModel, limit: Option<FrameLimit>, at: [&str; 2]) -> Vec<FindingRow> {
     let row = |what: &str, value: f64| FindingRow::new(format!("{what}, {}", of.model), value, "m").at(at[0], at[1]);
     let mut rows = banded(&row("demand", of.demand_m), of.bands.map(|bands| bands.demand_m));
     rows.extend(of.check.map(|check| row("required capacity", check.required_capacity_m)));
     let what = |event: &str| format!("{event}, {}", of.model);
     let beyond = of.bands.and_then(|bands| bands.beyond_capacity_per_year);
     rows.extend(of.beyond_capacity.iter().flat_map(|risk| rate(&what(EXCEEDING), risk, beyond, at)));
+    rows.extend(beyond_limit(limit, of.beyond_limit.as_ref(), of.model, at));
     let overturning = of.bands.and_then(|bands| bands.overturning_per_year);
     rows.extend(rate(&what("overturning"), &of.overturning, overturning, at));
     rows
@@ -212,16 +217,20 @@ impl OverturningReport {
     }
 }
 
+/// How often a frame passes its limit by the `model`.
+fn beyond_limit(limit: Option<FrameLimit>, beyond: Option<&LimitRisk>, model: &str, at: [&str; 2]) -> Vec<FindingRow> {
+    let (Some(limit), Some(beyond)) = (limit, beyond) else { return Vec::new() };
+    let event = if limit.event == LimitEvent::Capacity { EXCEEDING } else { limit.event.words() };
+    rate(&format!("{event}, {model}"), &beyond.risk, beyond.bands, at)
+}
+
 /// The risk at each site.
 fn overturning_risks(found: &CollapseReport, limit: Option<FrameLimit>) -> Vec<FindingRow> {
     let mut rows = Vec::new();
     for of in &found.sites {
         let (what, at) = (format!("overturning, {}", found.model), [of.site.as_str(), found.im]);
         rows.extend(rate(&what, &of.risk, of.bands, at));
-        if let (Some(limit), Some(beyond)) = (limit, &of.beyond_limit) {
-            let event = if limit.event == LimitEvent::Capacity { EXCEEDING } else { limit.event.words() };
-            rows.extend(rate(&format!("{event}, {}", found.model), &beyond.risk, beyond.bands, at));
-        }
+        rows.extend(beyond_limit(limit, of.beyond_limit.as_ref(), found.model, at));
         rows.extend(of.repaired.iter().flat_map(|risk| rate(&format!("{what}, repaired"), risk, None, at)));
         let row = |rate| FindingRow::new(format!("{what}, lognormal"), rate, "1/yr").at(at[0], at[1]);
         rows.extend(of.lognormal_per_year.iter().flat_map(|rate| banded(&row(*rate), of.lognormal_bands)));

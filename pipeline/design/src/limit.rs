@@ -63,6 +63,14 @@ impl FrameLimit {
         all.min_by(|a, b| a.displacement_m.total_cmp(&b.displacement_m))
     }
 
+    /// What the frame does, with the displacement where it is not the capacity, which is told beside it.
+    pub fn in_heading(&self) -> String {
+        match self.event {
+            LimitEvent::Capacity => self.event.words().to_owned(),
+            _ => format!("{} at {} m", self.event.words(), to_the_centimetre(self.displacement_m)),
+        }
+    }
+
     /// `capacity 0.53 m`.
     pub fn in_words(&self) -> String {
         let at = to_the_centimetre(self.displacement_m);

@@ -78,6 +78,11 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
     if rows.iter().any(|(site, ..)| site.repaired.is_some()) {
         columns = columns.with("maf_consistent_per_year", |(site, ..)| site.repaired.map(|risk| risk.per_year));
     }
+    if let Some(limit) = report.limit {
+        columns = columns
+            .with("limit_m", |_| limit.displacement_m)
+            .with("maf_beyond_limit_per_year", |(site, ..)| site.beyond_limit.map(|beyond| beyond.risk.per_year));
+    }
     let mut columns = columns.build();
     let mut add = |name: &str, bands: &dyn Fn(&SiteRisk) -> Option<Bands>| {
         for (place, whose) in Bands::WHOSE.into_iter().enumerate() {
@@ -87,6 +92,7 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
     };
     add("maf", &|site| site.bands);
     add("maf_lognormal", &|site| site.lognormal_bands);
+    add("maf_beyond_limit", &|site| site.beyond_limit?.bands);
     if let Some(uncertainty) = &report.uncertainty {
         let found: Vec<_> = rows.iter().map(|(_, row, place)| found_of(uncertainty, (*place, row))).collect();
         columns.extend(uncertain::columns(uncertainty, &found));

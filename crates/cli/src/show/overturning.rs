@@ -25,10 +25,10 @@ pub(crate) fn print_overturning(report: &OverturningReport, terminal: &Terminal)
 fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
     let has_frame = report.overturning.iter().any(|found| found.model == WOBBLING);
     let limit = report.governing_limit();
-    print_headline(out, report, limit)?;
     let sites = report.overturning.first().map_or(&[][..], |found| &found.sites[..]);
-    // a frame has twice as many rows: at many sites the bands are left to the details
+    // a frame has twice as many rows: at many sites only the event that governs has its band, the others in the details
     let shows_bands = !has_frame || sites.len() < 3;
+    print_headline(out, report, limit, shows_bands || limit.is_some())?;
     let marked = |bands: Option<Bands>| marked_band_in_cell(bands.filter(|_| shows_bands));
     let overturns = |of: &SiteRisk| {
         let [per_year, ..] = risk_cells(&of.risk);
@@ -89,8 +89,10 @@ fn print_headline(
     out: &mut impl Write,
     report: &OverturningReport,
     limit: Option<FrameLimit>,
+    has_bands: bool,
 ) -> Result<(), CommandError> {
     let name = &report.structure.name;
+    let band = if has_bands { " (90 % band)" } else { "" };
     let of = |model: &'static str| report.overturning.iter().filter(move |found| found.model == model);
     if let Some(limit) = limit {
         let ratio = |of: &SiteRisk| of.beyond_limit.map_or(f64::NAN, |beyond| beyond.risk.per_year) / of.risk.per_year;
@@ -99,7 +101,7 @@ fn print_headline(
         let limit = limit.in_words();
         return Ok(writeln!(
             out,
-            "{name}: the wobbling frame passes its limit, {limit}, {how_often} it overturns; annual rates (90 % band)"
+            "{name}: the wobbling frame passes its limit, {limit}, {how_often} it overturns; annual rates{band}"
         )?);
     }
     let sites = of(WOBBLING).zip(of("oscillator")).flat_map(|(own, proxy)| own.sites.iter().zip(&proxy.sites));
@@ -107,9 +109,9 @@ fn print_headline(
     match range_of(over_oscillator) {
         Some(times) => writeln!(
             out,
-            "{name}: the wobbling frame overturns {times} times as often as its oscillator; annual rates (90 % band)"
+            "{name}: the wobbling frame overturns {times} times as often as its oscillator; annual rates{band}"
         )?,
-        None => writeln!(out, "{name}: annual rate of overturning (90 % band)")?,
+        None => writeln!(out, "{name}: annual rate of overturning{band}")?,
     }
     Ok(())
 }
@@ -147,6 +149,7 @@ fn print_details(out: &mut impl Write, report: &OverturningReport) -> Result<(),
     }
     print_fragility(out, report)?;
     print_risk(out, report)?;
+    print_beyond_limit(out, report)?;
     print_rounding(out, report)?;
     if let Some(uncertainty) = &report.uncertainty {
         print_uncertainty(out, uncertainty)?;
@@ -261,6 +264,22 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
         }
     }
     Ok(())
+}
+
+/// How often each model of a frame passes its limit.
+fn print_beyond_limit(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
+    let Some(limit) = report.limit else { return Ok(()) };
+    let sites = report.overturning.first().map_or(0, |found| found.sites.len());
+    let of_site = |place: usize| report.overturning.iter().map(move |found| (found, &found.sites[place]));
+    let all = (0..sites).flat_map(of_site);
+    let rows = all.filter_map(|(found, site)| Some((found, site, site.beyond_limit.as_ref()?)));
+    let table = Table::of(rows)
+        .left("site", |(_, site, _)| &site.site)
+        .left("im", |(found, ..)| found.im)
+        .left("model", |(found, ..)| found.model)
+        .right("per year", |(.., beyond)| risk_cells(&beyond.risk)[0].clone())
+        .right("90 % band", |(.., beyond)| beyond.bands.map_or_else(|| "-".to_owned(), |of| limits(of.quoted())));
+    Ok(writeln!(out, "\nRisk beyond the limit, {}\n{table}", limit.in_words())?)
 }
 
 /// What asterisks mean, and from where to where rounding moves counts and frequencies; nothing where there are none.

@@ -104,8 +104,8 @@ pub(super) fn print_by_earthquake(out: &mut impl Write, table: &str) -> Result<(
     Ok(())
 }
 
-/// At how many levels a frame is shaken, by each measure whose study has more: `; frame at 26 of 84 levels (all: uplift
-/// risk)`. Rates from other levels are other numbers.
+/// At how many levels a frame is shaken, by each measure whose study has more: `; frame at 26 of 84 levels (uplift risk
+/// takes all)`. Rates from other levels are other numbers.
 pub(super) fn fewer_levels<'a>(of_measures: impl IntoIterator<Item = (usize, usize, &'a str)>) -> String {
     let fewer: Vec<_> = of_measures.into_iter().filter(|(shaken, all, _)| shaken < all).collect();
     let named = |(shaken, all, im): &(usize, usize, &str)| match fewer.len() {
@@ -113,7 +113,7 @@ pub(super) fn fewer_levels<'a>(of_measures: impl IntoIterator<Item = (usize, usi
         _ => format!("{shaken} of {all} {im} levels"),
     };
     let each: Vec<String> = fewer.iter().map(named).collect();
-    if each.is_empty() { String::new() } else { format!("; frame at {} (all: uplift risk)", each.join(", ")) }
+    if each.is_empty() { String::new() } else { format!("; frame at {} (uplift risk takes all)", each.join(", ")) }
 }
 
 /// The option by which a structure is judged by another measure.

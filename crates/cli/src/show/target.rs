@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{TargetBand, TargetFrame, TargetReport};
+use uplift::structure::{LimitEvent, TargetBand, TargetFrame, TargetReport};
 use uplift::text::{self, Table, per_cent, short, thousands};
 
 use super::alarms::print_warnings;
@@ -140,6 +140,13 @@ fn print_frame(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame)
             (false, false) => "MISSED",
         });
     writeln!(out, "{table}")?;
+    if let (Some(limit), Some(beyond)) = (&frame.limit, &frame.beyond_limit) {
+        let [per_year, ..] = risk_cells(&beyond.risk);
+        // where tendons yield depends on the value that is sought
+        let size_by_it = if limit.event == LimitEvent::Capacity { ": --exceed capacity" } else { "" };
+        let limit = limit.in_words();
+        writeln!(out, "Limit     the wobbling frame passes its limit, {limit}, {per_year} per year{size_by_it}")?;
+    }
     Ok(())
 }
 

@@ -12,6 +12,7 @@ use super::{TargetEvent, TargetOptions};
 use crate::certainty::{Bands, Scatter};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
+use crate::limit::{FrameLimit, LimitRisk};
 use crate::opening::Place;
 use crate::own_frame::{FrameModel, FrameQuestion, FrameReport, OwnFrame, levels_for};
 use crate::risk::own_risk;
@@ -35,6 +36,13 @@ pub struct TargetFrame {
     pub analyses: u64,
     /// Wobbling under both components, then in the plane of the study's component.
     pub models: Vec<TargetFrameModel>,
+    /// The limit that the wobbling frame passes at the value more often than it overturns; none where overturning is
+    /// not what is asked for, and where it tells how often the frame fails.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit: Option<FrameLimit>,
+    /// How often it passes that.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beyond_limit: Option<LimitRisk>,
     /// The least value tried at which the upper limit of the wobbling frame's rate meets the target, and at all larger
     /// ones; infinite beyond the range.
     pub safe_value: f64,
@@ -164,11 +172,14 @@ impl FrameTarget<'_> {
             upper_per_year: model.upper_per_year(),
             is_safe: model.is_safe,
         };
+        let limit = report.governing_limit();
         let found = TargetFrame {
             value,
             levels,
             analyses: report.analyses,
             models,
+            limit,
+            beyond_limit: limit.and_then(|_| report.wobbling().beyond_limit),
             safe_value: at.map_or(f64::INFINITY, |at| tried[at].0),
             missed_at: at.unwrap_or(tried.len()).checked_sub(1).map(|at| tried[at].0),
             tried: tried.iter().map(of_tried).collect(),
@@ -206,7 +217,7 @@ impl FrameTarget<'_> {
             years: self.years,
             capacity_m: threshold_m,
             safety_factor: 1.0,
-            limit: None,
+            limit: frame.limit.filter(|_| threshold_m.is_none()),
             proxy_beyond_limit: None,
         };
         let report = question.answer(&peaks)?;

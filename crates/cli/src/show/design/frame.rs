@@ -98,7 +98,9 @@ pub(super) fn print_verdicts(
         .right("demand, m", |row| &row[1])
         .right("requires, m", |row| &row[2])
         .left("verdict", |row| &row[3])
-        .right(format!("{}, 1/yr", limit.map_or("overturns", |limit| limit.event.words())), |row| &row[4])
+        .right(format!("{}, 1/yr", limit.map_or_else(|| "overturns".to_owned(), |limit| limit.in_heading())), |row| {
+            &row[4]
+        })
         .to_string();
     writeln!(out, "{table}")?;
     print_by_earthquake(out, &table)?;
@@ -113,11 +115,16 @@ pub(super) fn print_own_spectrum(out: &mut impl Write, report: &DesignReport) ->
         return Ok(());
     };
     let ReportSource { result, study_file, overrides, .. } = &report.source;
-    let kept: String = overrides.iter().flat_map(|setting| [" --set ".to_owned(), typed(setting)]).collect();
+    // a key that the oscillator sets anew is not said twice
+    let is_kept = |setting: &&String| {
+        setting.split_once('=').is_none_or(|(key, _)| !settings.contains(&format!("--set {}=", key.trim())))
+    };
+    let kept = overrides.iter().filter(is_kept).flat_map(|setting| [" --set ".to_owned(), typed(setting)]);
+    let kept: String = kept.collect();
     let name = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let own = result.with_file_name(format!("{}-{}.h5", name(result), name(&report.structure.file)));
     let (study, own) = (typed(study_file), typed_path(&own));
-    Ok(writeln!(out, "          for its own spectrum: uplift run {study}{kept} {settings} -o {own}")?)
+    Ok(writeln!(out, "          for its oscillator's spectrum: uplift run {study}{kept} {settings} -o {own}")?)
 }
 
 /// A capacity that is required, m.
