@@ -4,12 +4,12 @@
 use serde::Serialize;
 use uplift_risk::{Ordinate, PooledDemand, SiteWeights};
 use uplift_structure::{EquivalentSystem, Rule, relative_error};
-use uplift_uniform_risk::{EventRisk, Stripes};
+use uplift_uniform_risk::{EventRisk, Stripes, pooled_demand};
 
 use super::certainty::{DemandBands, Scatter, demand_bands};
 use super::hazard::Hazard;
 use super::limit::{FrameLimit, LimitRisk};
-use super::risk::{OVERTURNING_M, bounded, demand_of, oscillator_capacity_m, risk_of_exceeding};
+use super::risk::{OVERTURNING_M, bounded, oscillator_capacity_m, risk_of_exceeding};
 use super::sensitivity::{Sensitivity, sensitivity};
 use super::sweep::{OF_STUDY, OWN, Sweep, ZERO_STIFFNESS};
 use crate::error::DesignError;
@@ -68,7 +68,7 @@ impl<'a> Shaken<'a> {
         (weights, system): (&'a SiteWeights<'a>, &'a EquivalentSystem),
         (target_per_year, years): (f64, f64),
     ) -> Result<Self, DesignError> {
-        let demands = (0..oscillators).map(|of| demand_of(stripes, of)).collect::<Result<Vec<_>, _>>()?;
+        let demands = (0..oscillators).map(|of| pooled_demand(stripes, of)).collect::<Result<Vec<_>, _>>()?;
         let ordinate = |demand: &PooledDemand| -> Result<Ordinate, DesignError> {
             let ordinate = weights.curve(demand)?.exact_ordinate(target_per_year)?;
             Ok(Ordinate { displacement_m: system.participation() * ordinate.displacement_m, ..ordinate })

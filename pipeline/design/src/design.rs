@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use uplift_alarms::{OwnRisk, Scope, alarms_within, own_risk_alarms, ranked, safety_factor_alarm, structure_alarms};
-use uplift_engine::analysis::{ResultJob, ShardReport};
+use uplift_engine::analysis::ShardReport;
 use uplift_ida::Shard;
 use uplift_job::JobError;
 use uplift_job::events::Events;
@@ -26,6 +26,7 @@ use uplift_questions::bootstrap::resampled;
 use uplift_result::ResultFile;
 use uplift_risk::SiteWeights;
 use uplift_study::Structure;
+use uplift_uniform_risk::consistency::Reweighing;
 use uplift_uniform_risk::{EventRisk, OneRisk, SpectraOfResult, StudyOfResult, at};
 
 use super::certainty::Scatter;
@@ -36,7 +37,6 @@ use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::rules::{MeasureVerdict, OwnCheck, RuleDemands, apply_rules, verdicts_by_curve};
 use super::spectrum::SpectrumDemand;
-use super::weights::RepairedWeights;
 use crate::error::DesignError;
 use analysis::{DesignAnalysis, OwnAnalysis, Question};
 pub use report::DesignReport;
@@ -126,8 +126,8 @@ pub fn design(
     let poe = source.rarest()?;
     let target_per_year = source.target_per_year(poe)?;
     let repaired_m = repaired_spectrum(&file, measure, [site, poe])?;
-    let repaired_weights = options.repaired.then(|| RepairedWeights::from_file(&file)).transpose()?;
-    let weights = site_weights(repaired_weights.as_ref(), place, &source)?;
+    let reweighing = if options.repaired { Reweighing::from_motions(&file)? } else { None };
+    let weights = site_weights(reweighing.as_ref(), place, (&source, options.repaired))?;
     let restitution = restitution(structure, &source.study);
     let (mut notes, own_oscillator) = differences(structure, &source, restitution);
     let other_oscillator = !notes.is_empty();
@@ -241,25 +241,23 @@ pub fn design_shard(
     let place = Place::choose(&source, options.site.as_ref().or(any_site).map(String::as_str), options.measure)?;
     let records = records_and_pairs(&source, options.manifest.as_deref(), with_pairs)?.map_err(JobError::input)?;
     let analysis = DesignAnalysis::from_structure(structure, &source, (place, target_per_year), (records, options))?;
-    let name = job_name("design", structure);
-    Ok(ResultJob { result, name: &name }.shard(
-        analysis.work(&source, (place, target_per_year), &name)?,
-        shard,
-        events,
-    )?)
+    let work = analysis.work(&source, (place, target_per_year), &job_name("design", structure))?;
+    Ok(work.shard_beside(result, shard, events)?)
 }
 
-/// What runs weigh at a place: as a repair says where there is one.
+/// What runs weigh at a place: as a repair says where one is asked for.
 fn site_weights<'a>(
-    repaired: Option<&'a RepairedWeights>,
+    reweighing: Option<&'a Reweighing>,
     place: Place<'a>,
-    source: &StudyOfResult,
+    (source, is_repaired): (&StudyOfResult, bool),
 ) -> Result<SiteWeights<'a>, DesignError> {
     let Place { site, measure, .. } = place;
-    Ok(match repaired {
-        None => SiteWeights::Alike(&measure.weights[site]),
-        Some(repaired) => SiteWeights::Repaired(repaired.at(measure, site).ok_or_else(|| not_repaired(source, place))?),
-    })
+    let runs = reweighing.and_then(|of| of.weights(measure.measure(), site));
+    if is_repaired && runs.is_none() {
+        Err(not_repaired(source, place))
+    } else {
+        Ok(SiteWeights::new(&measure.weights[site], runs))
+    }
 }
 
 /// The repaired spectrum at a site and probability, m, `[strength]`; none where there is none.

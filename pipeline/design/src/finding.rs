@@ -16,37 +16,31 @@ use super::frame_risk::{FrameRiskReport, ModelDemand};
 use super::limit::{FrameLimit, LimitEvent, LimitRisk};
 use super::overturning::{CollapseReport, OverturningOptions, OverturningReport};
 use super::own_frame::FrameModel;
+use super::report::ReportSource;
 use super::target::{TargetBand, TargetOptions, TargetReport};
 use super::uncertain::{AleatoryResult, EpistemicResult, UncertainFinding, UncertaintyReport};
 use crate::error::DesignError;
 pub use keep::keep;
 
-/// What was asked of which structure, under which result.
-struct Question<'a> {
-    inquiry: Inquiry,
-    structure: &'a Structure,
-    /// Of the result.
-    study_digest: &'a str,
-    request: Vec<(&'static str, String)>,
-}
-
-impl Question<'_> {
-    /// The answer, of which `report` is what `--json` prints.
-    fn answered(self, rows: Vec<FindingRow>, report: &impl Serialize) -> Result<Finding, DesignError> {
-        let Self { inquiry, structure, study_digest, request } = self;
-        let document = serde_json::to_string(report)
-            .map_err(|error| JobError::input(format!("the answer cannot be written as JSON: {error}")))?;
-        Ok(Finding {
-            structure: structure.name(),
-            structure_file: structure.file.display().to_string(),
-            structure_toml: structure.text.clone(),
-            inquiry,
-            request: request.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
-            study_digest: study_digest.to_owned(),
-            rows,
-            document,
-        })
-    }
+/// The answer to a question about `structure` under the result of `source`; `report` is what `--json` prints.
+fn answered(
+    (inquiry, structure, source): (Inquiry, &Structure, &ReportSource),
+    request: Vec<(&str, String)>,
+    rows: Vec<FindingRow>,
+    report: &impl Serialize,
+) -> Result<Finding, DesignError> {
+    let document = serde_json::to_string(report)
+        .map_err(|error| JobError::input(format!("the answer cannot be written as JSON: {error}")))?;
+    Ok(Finding {
+        structure: structure.name(),
+        structure_file: structure.file.display().to_string(),
+        structure_toml: structure.text.clone(),
+        inquiry,
+        request: request.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+        study_digest: source.study_digest.clone(),
+        rows,
+        document,
+    })
 }
 
 /// What a structure with a capacity does.
@@ -77,27 +71,20 @@ fn uncertain(report: Option<&UncertaintyReport>) -> Vec<FindingRow> {
             let what = format!("{}, structure not known exactly", result.of);
             FindingRow::new(what, value, result.unit).at(&result.site, result.im)
         };
+        if let Some(bound) = result.found.at_most_per_year() {
+            rows.push(row(result.found.mean()).within([f64::NAN, bound], "at most"));
+            continue;
+        }
         match &result.found {
             UncertainFinding::Epistemic(EpistemicResult { by_structure, by_all, .. }) => {
-                if let Some(bound) = by_structure.at_most_per_year {
-                    rows.push(row(by_structure.mean).within([f64::NAN, bound], "at most"));
-                    continue;
-                }
                 for (spread, band) in [(by_structure, "structure"), (by_all, "structure, records and hazard")] {
                     let [lower, .., upper] = spread.percentiles;
                     rows.push(row(spread.mean).within([lower, upper], band));
                 }
             }
-            UncertainFinding::Aleatory(AleatoryResult { value, at_most_per_year: Some(bound), .. }) => {
-                rows.push(row(*value).within([f64::NAN, *bound], "at most"));
-            }
-            UncertainFinding::Aleatory(AleatoryResult { value, by_record, by_earthquake, with_hazard, .. }) => {
-                let bands = by_record.map(|by_record| Bands {
-                    by_record,
-                    by_earthquake: *by_earthquake,
-                    with_hazard: *with_hazard,
-                });
-                rows.extend(banded(&row(*value), bands));
+            &UncertainFinding::Aleatory(AleatoryResult { value, by_record, by_earthquake, with_hazard, .. }) => {
+                let bands = by_record.map(|by_record| Bands { by_record, by_earthquake, with_hazard });
+                rows.extend(banded(&row(value), bands));
             }
         }
     }
@@ -111,20 +98,15 @@ impl DesignReport {
     /// None for the reports of this program.
     pub fn finding(&self, structure: &Structure) -> Result<Finding, DesignError> {
         let analysed = if self.exact.is_some() { "its own analysis" } else { "the spectrum alone" };
-        let question = Question {
-            inquiry: Inquiry::Design,
-            structure,
-            study_digest: &self.source.study_digest,
-            request: vec![
-                ("site", self.site.clone()),
-                ("measure", self.spectrum_words()),
-                ("poe", self.poe.to_string()),
-                ("years", self.years.to_string()),
-                ("safety factor", self.required_safety_factor.to_string()),
-                ("by", analysed.to_owned()),
-            ],
-        };
-        question.answered(self.finding_rows(), self)
+        let request = vec![
+            ("site", self.site.clone()),
+            ("measure", self.spectrum_words()),
+            ("poe", self.poe.to_string()),
+            ("years", self.years.to_string()),
+            ("safety factor", self.required_safety_factor.to_string()),
+            ("by", analysed.to_owned()),
+        ];
+        answered((Inquiry::Design, structure, &self.source), request, self.finding_rows(), self)
     }
 
     fn finding_rows(&self) -> Vec<FindingRow> {
@@ -207,13 +189,11 @@ impl OverturningReport {
         let sites: Vec<&str> = sites.iter().map(|site| site.site.as_str()).collect();
         let mut request = vec![("site", sites.join(" and ")), ("measure", measures.join(" and "))];
         request.extend(options.restitution.map(|restitution| ("restitution", restitution.to_string())));
-        let question =
-            Question { inquiry: Inquiry::Overturning, structure, study_digest: &self.source.study_digest, request };
         let mut rows: Vec<FindingRow> =
             self.overturning.iter().flat_map(|found| overturning_risks(found, self.limit)).collect();
         rows.extend(self.overturning.iter().flat_map(fragility));
         rows.extend(uncertain(self.uncertainty.as_ref()));
-        question.answered(rows, self)
+        answered((Inquiry::Overturning, structure, &self.source), request, rows, self)
     }
 }
 
@@ -269,9 +249,7 @@ impl TargetReport {
         request.extend(
             options.generic().map(|(dispersion, probability)| ("generic", format!("{dispersion}, {probability}"))),
         );
-        let question =
-            Question { inquiry: Inquiry::Target, structure, study_digest: &self.source.study_digest, request };
-        question.answered(self.finding_rows(), self)
+        answered((Inquiry::Target, structure, &self.source), request, self.finding_rows(), self)
     }
 
     fn finding_rows(&self) -> Vec<FindingRow> {
@@ -332,18 +310,13 @@ impl FrameRiskReport {
     /// # Errors
     /// None for the reports of this program.
     pub fn finding(&self, structure: &Structure) -> Result<Finding, DesignError> {
-        let question = Question {
-            inquiry: Inquiry::Risk,
-            structure,
-            study_digest: &self.source.study_digest,
-            request: vec![
-                ("site", self.site.clone()),
-                ("measure", self.im.to_owned()),
-                ("poe", self.poe.to_string()),
-                ("years", self.years.to_string()),
-                ("model", self.demands.first().map_or("", |frame| frame.model).to_owned()),
-            ],
-        };
+        let request = vec![
+            ("site", self.site.clone()),
+            ("measure", self.im.to_owned()),
+            ("poe", self.poe.to_string()),
+            ("years", self.years.to_string()),
+            ("model", self.demands.first().map_or("", |frame| frame.model).to_owned()),
+        ];
         let at = [self.site.as_str(), self.im];
         let mut rows: Vec<FindingRow> = self.demands.iter().flat_map(|demand| model_demands(demand, at)).collect();
         for event in &self.events {
@@ -354,7 +327,7 @@ impl FrameRiskReport {
         rows.extend(found.repaired.iter().flat_map(|risk| rate("overturning, repaired", risk, None, at)));
         let row = |rate| FindingRow::new("overturning, lognormal", rate, "1/yr").at(at[0], at[1]);
         rows.extend(found.lognormal_per_year.iter().flat_map(|rate| banded(&row(*rate), found.lognormal_bands)));
-        question.answered(rows, self)
+        answered((Inquiry::Risk, structure, &self.source), request, rows, self)
     }
 }
 

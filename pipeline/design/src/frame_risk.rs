@@ -32,17 +32,16 @@ use super::design::{DesignOptions, design};
 use super::hazard::Hazard;
 use super::limit::{FrameLimit, LimitRisk};
 use super::lognormal::lognormal_bands;
-use super::opening::{Place, check_tables, choose_measure, job_name, restitution, study_with_common_records};
+use super::opening::{Place, check_tables, choose_measure, job_name, restitution};
 use super::own_frame::loss;
 use super::report::{ReportSource, StructureReport};
 use super::risk::{OVERTURNING_M, own_risk};
-use super::weights::RepairedWeights;
 use crate::error::DesignError;
 use analysis::{Demands, FrameAnalysis};
 use demand::{Question, Resampled};
 use tables::{levels_path, write_tables};
 use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
-use uplift_engine::analysis::{ResultJob, ShardReport};
+use uplift_engine::analysis::ShardReport;
 use uplift_inputs::TORSION;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::{Events, Silent};
@@ -206,7 +205,8 @@ pub fn frame_risk(
         check_tables(&tables, (structure, result, manifest), options.force)?;
     }
     let file = at(ResultFile::open(result)?, &options.risk.into())?;
-    let source = study_with_common_records(&file, manifest, "a frame is shaken by the same records at every level")?;
+    file.refuse_records_at_level("a frame is shaken by the same records at every level")?;
+    let source = StudyOfResult::read(&file, manifest)?;
     let place = Place::choose(&source, options.site.as_deref(), options.measure)?;
     let Place { site, measure, .. } = place;
     let poe = source.rarest()?;
@@ -222,13 +222,12 @@ pub fn frame_risk(
         ..DesignOptions::default()
     };
     let design = design(structure, result, &asked, &Silent)?;
-    let name = job_name("risk", structure);
-    let job = ResultJob { result, name: &name };
-    let (analysed, checkpoint) = job.results(analysis.work(measure, &name)?, &options.shards, events)?;
+    let work = analysis.work(measure, &job_name("risk", structure))?;
+    let (analysed, checkpoint) = work.asked_of(result, &options.shards, events)?;
     let demands = analysis.demands(analysed);
 
-    let repaired_weights = RepairedWeights::from_file(&file)?;
-    let repaired = repaired_weights.at(measure, site);
+    let reweighing = consistency::Reweighing::from_motions(&file)?;
+    let repaired = reweighing.as_ref().and_then(|of| of.weights(measure.measure(), site));
     let weights = &measure.weights[site];
     let settings = &source.study.bootstrap;
     let plan = draws(&file, &source, &analysis)?;
@@ -247,7 +246,7 @@ pub fn frame_risk(
         // the weights of a repair are of records
         overturning.repaired = collapse(levels, (own_m, &pairs), &[(weights, repaired)], years, true)?.repaired;
     }
-    let hazard = Hazard::from_file(&file, (place.name, site), (measure, &source.study))?;
+    let hazard = Hazard::from_file(&file, &source, (measure, site))?;
     let counted = PooledDemand::new(&Stripes::new(levels, own_m)?)?;
     let bands = rate_bands(&counted, (&hazard, None), scatter, OVERTURNING_M)?;
     let limit = FrameLimit::of(structure, &analysis.frame);
@@ -314,8 +313,7 @@ pub fn frame_risk_shard(
     let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
     let measure = choose_measure(&source, options.measure)?;
     let analysis = FrameAnalysis::from_structure(structure, &source, options.model)?;
-    let name = job_name("risk", structure);
-    Ok(ResultJob { result, name: &name }.shard(analysis.work(measure, &name)?, shard, events)?)
+    Ok(analysis.work(measure, &job_name("risk", structure))?.shard_beside(result, shard, events)?)
 }
 
 /// The draws of the bands: pairs, or earthquakes with all their records.

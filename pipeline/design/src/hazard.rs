@@ -2,7 +2,6 @@
 
 use uplift_result::ResultFile;
 use uplift_risk::StripeWeights;
-use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, branch_weights};
 
 use crate::error::DesignError;
@@ -16,24 +15,14 @@ pub(super) struct Hazard<'a> {
 }
 
 impl<'a> Hazard<'a> {
-    /// At a site of a result, by its name and position.
+    /// At a site of a result, by its position.
     pub(super) fn from_file(
         file: &ResultFile,
-        (name, site): (&str, usize),
-        (measure, study): (&'a SpectraOfResult, &UniformRiskStudy),
+        source: &StudyOfResult,
+        (measure, site): (&'a SpectraOfResult, usize),
     ) -> Result<Self, DesignError> {
-        let branches = branch_weights(file, name, &measure.plan, study.risk.extrapolate)?;
+        let branches = branch_weights(file, &source.sites[site], &measure.plan, source.study.risk.extrapolate)?;
         Ok(Self { mean: &measure.weights[site], branches })
-    }
-
-    /// The same at each of the `sites` of a result, by their positions.
-    pub(super) fn from_sites(
-        file: &ResultFile,
-        (source, sites): (&StudyOfResult, &[usize]),
-        measure: &'a SpectraOfResult,
-    ) -> Result<Vec<Self>, DesignError> {
-        let of_site = |&site: &usize| Self::from_file(file, (&source.sites[site], site), (measure, &source.study));
-        sites.iter().map(of_site).collect()
     }
 
     /// The same where only the stripes at these `places` are analysed, whose weights by the mean curve are `mean`.

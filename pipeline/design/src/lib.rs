@@ -25,7 +25,6 @@ mod sweep;
 mod tables;
 mod target;
 mod uncertain;
-mod weights;
 
 pub use certainty::{Bands, DemandBands};
 pub use demand::ExactDemand;
@@ -48,7 +47,7 @@ pub use sensitivity::{DemandNoise, DemandRounding, RuleRanges, Sensitivity};
 pub use spectrum::SpectrumDemand;
 pub use target::{
     Crossing, Exceeded, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetByMeasure, TargetEvent, TargetFrame,
-    TargetFrameModel, TargetFrequency, TargetOptions, TargetReport, TargetUncertainty, TriedFrame, TriedValue, target,
+    TargetFrameModel, TargetOptions, TargetReport, TargetUncertainty, TriedFrame, TriedValue, target,
 };
 pub use uncertain::{
     AleatoryResult, EpistemicResult, QuantityReport, Spread, UncertainFinding, UncertainResult, UncertaintyReport,

@@ -3,16 +3,16 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_engine::analysis::ResultJob;
 use uplift_ida::System;
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
 use uplift_study::Structure;
+use uplift_uniform_risk::StudyOfResult;
 
 use super::certainty::Scatter;
-use super::opening::{job_name, study_with_common_records};
+use super::opening::job_name;
 use super::overturning::{OverturningAnalysis, OverturningOptions, peaks_m};
 use super::risk::{OVERTURNING_M, oscillator_capacity_m};
 use crate::error::DesignError;
@@ -79,14 +79,15 @@ pub fn limit_stripes(
         return Err(JobError::Usage(format!("--capacity-share {share}: give a share between 0 and 1")).into());
     }
     let file = ResultFile::open(result)?;
-    let reason = "limit states are counted among the same records at every level";
-    let source = study_with_common_records(&file, options.manifest.as_deref(), reason)?;
+    file.refuse_records_at_level("limit states are counted among the same records at every level")?;
+    let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
     let asked =
         OverturningOptions { manifest: options.manifest.clone(), measure: options.measure, ..Default::default() };
-    let analysis = OverturningAnalysis::from_structure(structure, &source, &asked, &mut Vec::new())?.described_alone();
-    let name = job_name("fragility", structure);
-    let job = ResultJob { result, name: &name };
-    let (analysed, checkpoint) = job.results(analysis.work(&name, &[1.0])?, &[], events)?;
+    let mut analysis = OverturningAnalysis::from_structure(structure, &source, &asked, &mut Vec::new())?;
+    // the structure as it is described alone
+    analysis.uncertain = None;
+    let work = analysis.work(&job_name("fragility", structure), &[1.0])?;
+    let (analysed, checkpoint) = work.asked_of(result, &[], events)?;
     let mut analysed = analysed.into_iter();
     let records: Vec<String> = analysis.records.set.records.iter().map(|record| record.id.clone()).collect();
     let mut found = Vec::new();

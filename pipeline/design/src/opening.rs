@@ -15,19 +15,6 @@ use uplift_uniform_risk::{SpectraOfResult, StudyOfResult};
 use super::own_frame::Pairs;
 use crate::error::DesignError;
 
-/// The study of `file`, for a job that needs the same records at every level; `reason` says what for.
-///
-/// # Errors
-/// Records selected level by level; a file that is damaged, no result, or without sites.
-pub(super) fn study_with_common_records(
-    file: &ResultFile,
-    manifest: Option<&Path>,
-    reason: &str,
-) -> Result<StudyOfResult, DesignError> {
-    file.refuse_records_at_level(reason)?;
-    Ok(StudyOfResult::read(file, manifest)?)
-}
-
 /// The site of a result at which a structure is examined, and the measure by which it is.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place<'a> {
@@ -98,30 +85,22 @@ impl ShakenRecords {
     }
 }
 
-/// The records of the result; none where they cannot be read, with the reason, unless a manifest was given for them.
-pub(super) fn records(
-    source: &StudyOfResult,
-    manifest: Option<&Path>,
-) -> Result<Result<ShakenRecords, String>, DesignError> {
-    match source.records() {
-        Err(reason) if manifest.is_some() => Err(JobError::input(reason).into()),
-        other => Ok(other.map(ShakenRecords::from_set)),
-    }
-}
-
-/// The same with the pairs that they are of, where a structure is `with_pairs`.
+/// The records of the result, with the pairs that they are of where a structure is `with_pairs`; none where they cannot
+/// be read, with the reason, unless a manifest was given for them.
 pub(super) fn records_and_pairs(
     source: &StudyOfResult,
     manifest: Option<&Path>,
     with_pairs: bool,
 ) -> Result<Result<(ShakenRecords, Option<Pairs>), String>, DesignError> {
-    if !with_pairs {
-        return Ok(records(source, manifest)?.map(|records| (records, None)));
-    }
     let per_pair = source.study.records.component.records_per_pair();
-    match source.records_and_pairs() {
+    let found = if with_pairs {
+        source.records_and_pairs().map(|(set, pairs)| (set, Some(Pairs::new(pairs, per_pair))))
+    } else {
+        source.records().map(|set| (set, None))
+    };
+    match found {
         Err(reason) if manifest.is_some() => Err(JobError::input(reason).into()),
-        other => Ok(other.map(|(set, pairs)| (ShakenRecords::from_set(set), Some(Pairs::new(pairs, per_pair))))),
+        found => Ok(found.map(|(set, pairs)| (ShakenRecords::from_set(set), pairs))),
     }
 }
 

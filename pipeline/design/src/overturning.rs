@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
-use uplift_engine::analysis::{Analysed, ResultJob, ShardReport};
+use uplift_engine::analysis::{Analysed, ShardReport};
 use uplift_fragility::Stripes as Stripe;
 use uplift_ida::{Shard, System};
 use uplift_inputs::RecordSet;
@@ -16,9 +16,10 @@ use uplift_job::events::Events;
 use uplift_job::typed::number;
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
-use uplift_risk::{PooledDemand, RunWeights, StripeWeights};
+use uplift_risk::{PooledDemand, RunWeights};
 use uplift_spectra::NUDGES;
 use uplift_study::{Structure, UniformRiskStudy};
+use uplift_uniform_risk::consistency::Reweighing;
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, StudyOfResult};
 
 use super::certainty::{Scatter, rate_bands};
@@ -26,13 +27,12 @@ use super::collapse::collapse;
 use super::hazard::Hazard;
 use super::limit::{FrameLimit, LimitRisk};
 use super::lognormal::lognormal_bands;
-use super::opening::{check_tables, job_name, site_index, study_with_common_records};
+use super::opening::{check_tables, job_name, site_index};
 use super::own_frame::{FramePeaks, of_frame};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{OVERTURNING_M, own_risk};
 use super::tables::{risk_path, write_tables};
 use super::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
-use super::weights::RepairedWeights;
 use crate::error::DesignError;
 use analysis::{OSCILLATOR, factors};
 pub(crate) use analysis::{OverturningAnalysis, peaks_m};
@@ -87,8 +87,8 @@ pub fn overturning(
         check_tables(&[(path, "im"), (&risk, "site")], (structure, result, manifest), options.force)?;
     }
     let file = ResultFile::open(result)?;
-    let reason = "overturning is counted among the same records at every level";
-    let source = study_with_common_records(&file, manifest, reason)?;
+    file.refuse_records_at_level("overturning is counted among the same records at every level")?;
+    let source = StudyOfResult::read(&file, manifest)?;
     let sites = match &options.site {
         Some(site) => vec![site_index(&source, Some(site))?],
         None => (0..source.sites.len()).collect(),
@@ -96,66 +96,37 @@ pub fn overturning(
     let mut notes = Vec::new();
     let analysis = OverturningAnalysis::from_structure(structure, &source, options, &mut notes)?;
     notes.extend(after_the_end(&source.study));
-    let name = job_name("overturning", structure);
-    let job = ResultJob { result, name: &name };
-    let (analysed, checkpoint) = job.results(analysis.work(&name, &factors())?, &options.shards, events)?;
+    let work = analysis.work(&job_name("overturning", structure), &factors())?;
+    let (analysed, checkpoint) = work.asked_of(result, &options.shards, events)?;
     let OverturningAnalysis { study, records, measures, models, uncertain, .. } = &analysis;
-    let repaired = RepairedWeights::from_file(&file)?;
+    let reweighing = Reweighing::from_motions(&file)?;
     let scatter = Scatter::from_file(&file)?;
     let limit = analysis.frame.as_ref().and_then(|(frame, _)| frame.limit);
+    let at_sites = |&measure: &_| AtSites::new(&file, (&source, &sites), (measure, reweighing.as_ref()), &scatter);
+    let weighed = measures.iter().map(at_sites).collect::<Result<Vec<_>, _>>()?;
     let mut analysed = analysed.into_iter();
-    let mut found: Vec<(&SpectraOfResult, Vec<Collapses>)> = Vec::new();
-    let mut hazards: Vec<Vec<Hazard<'_>>> = Vec::new();
-    for &measure in measures {
-        let hazard = Hazard::from_sites(&file, (&source, &sites), measure)?;
-        let weights: Vec<(&StripeWeights, Option<&RunWeights>)> =
-            sites.iter().map(|&site| (&measure.weights[site], repaired.at(measure, site))).collect();
-        let of_models = models.iter().zip(analysed.by_ref()).map(|((model, _), analysed)| {
-            let levels = &measure.plan.levels;
-            let peaks_m_at = |nudge: usize| peaks_m(&analysed, levels.len(), nudge);
-            let at_nudge = |nudge: usize| {
-                let runs = (&peaks_m_at(nudge)[..], &scatter.pairs[..]);
-                collapse(levels, runs, &weights, study.risk.years, model.can_overturn())
-            };
-            let rounded = (1..=NUDGES).map(at_nudge).collect::<Result<_, _>>()?;
-            let demand = PooledDemand::new(&Stripe::new(levels, &peaks_m_at(0))?)?;
-            let of_site = |hazard: &Hazard<'_>| rate_bands(&demand, (hazard, None), &scatter, OVERTURNING_M);
-            let bands = hazard.iter().map(of_site).collect::<Result<_, _>>()?;
-            let of_repaired = |(hazard, (_, repaired)): (&Hazard<'_>, &(&StripeWeights, Option<&RunWeights>))| {
-                let of = |own| rate_bands(&demand, (hazard, Some(own)), &scatter, OVERTURNING_M);
-                Ok::<_, DesignError>(repaired.map(of).transpose()?.flatten())
-            };
-            let repaired_bands = hazard.iter().zip(&weights).map(of_repaired).collect::<Result<_, _>>()?;
-            let lognormal_bands = lognormal_bands((levels, &peaks_m_at(0)), &hazard, &scatter)?;
+    let mut found: Vec<OfMeasure<'_>> = Vec::new();
+    for (&measure, at) in measures.iter().zip(&weighed) {
+        let levels = &measure.plan.levels;
+        let of_model = |((model, _), analysed): (&(System, _), Analysed)| {
+            let rounded_m: Vec<_> = (1..=NUDGES).map(|nudge| peaks_m(&analysed, levels.len(), nudge)).collect();
             let limit_m = limit.map(|limit| limit.displacement_m / structure.system.participation());
             let limit_m = limit_m.filter(|_| matches!(model, System::Oscillator(_)));
-            let beyond_limit = beyond_limit(&demand, (&hazard, &scatter), (limit_m, study.risk.years))?;
-            let own = at_nudge(0)?;
-            Ok::<_, DesignError>(Collapses { own, rounded, bands, beyond_limit, repaired_bands, lognormal_bands })
-        });
-        found.push((measure, of_models.collect::<Result<_, _>>()?));
-        hazards.push(hazard);
+            let peaks_m = (&peaks_m(&analysed, levels.len(), 0)[..], &rounded_m[..]);
+            at.collapses(levels, peaks_m, (model.can_overturn(), limit_m))
+        };
+        found.push((measure, models.iter().zip(analysed.by_ref()).map(of_model).collect::<Result<_, _>>()?));
     }
-    let (sites_of, years) = (&sites[..], study.risk.years);
-    let asked = FrameSites { sites: sites_of, repaired: &repaired, scatter: &scatter, limit, years };
-    let of_frame = analysis
-        .frame_peaks(&mut analysed)
-        .iter()
-        .zip(&hazards)
-        .map(|((measure, places, peaks), hazard)| asked.collapses((measure, places), hazard, peaks))
-        .collect::<Result<Vec<_>, _>>()?;
+    let peaks = analysis.frame_peaks(&mut analysed);
+    let of_frame = peaks.iter().zip(&weighed).map(|(peaks, at)| at.of_frame(peaks, limit));
+    let of_frame = of_frame.collect::<Result<Vec<_>, _>>()?;
     notes.extend(notes_on(models, &found));
     notes.extend(analysis.frame.as_ref().map(|_| self::of_frame(structure)));
     let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
-    let uncertainty = match uncertain {
-        Some(uncertain) => {
-            let described = |measure: usize, place: usize| found[measure].1[OSCILLATOR].own.risks[place].per_year;
-            let measures: Vec<(&SpectraOfResult, &[Hazard<'_>])> =
-                found.iter().zip(&hazards).map(|((measure, _), hazard)| (*measure, &hazard[..])).collect();
-            Some(uncertainty_report(uncertain, (&measures, &names), (analysed, (&records.set, &scatter)), &described)?)
-        }
-        None => None,
-    };
+    let uncertainty = uncertain
+        .as_ref()
+        .map(|uncertain| uncertainty_report(uncertain, (&found, &weighed, &names), (analysed, &records.set)))
+        .transpose()?;
     let mut alarms = alarms_of_inputs(&file, &Scope { measure: options.measure, ..Scope::default() })?;
     alarms.extend(structure_alarms(structure));
     let counts = (records.count(), scatter.pairs.len());
@@ -195,85 +166,102 @@ pub fn overturning_shard(
 ) -> Result<ShardReport, DesignError> {
     let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
     let analysis = OverturningAnalysis::from_structure(structure, &source, options, &mut Vec::new())?;
-    let name = job_name("overturning", structure);
-    Ok(ResultJob { result, name: &name }.shard(analysis.work(&name, &factors())?, shard, events)?)
+    let work = analysis.work(&job_name("overturning", structure), &factors())?;
+    Ok(work.shard_beside(result, shard, events)?)
 }
 
-/// What the stripes of the structures say by each of `measures`, with the hazard of each of the sites; `described` is
-/// the frequency for the structure as described, by the positions of measure and site.
+/// Overturning by a measure, of each model.
+type OfMeasure<'a> = (&'a SpectraOfResult, Vec<Collapses>);
+
+/// What the stripes of the structures say by each measure at each of the `sites`, beside what was `found` of the
+/// structure as described.
 fn uncertainty_report(
     uncertain: &Uncertain<'_>,
-    (measures, sites): (&[(&SpectraOfResult, &[Hazard<'_>])], &[&str]),
-    (analysed, (set, scatter)): (impl Iterator<Item = Analysed>, (&RecordSet, &Scatter)),
-    described: &dyn Fn(usize, usize) -> f64,
+    (found, weighed, sites): (&[OfMeasure<'_>], &[AtSites<'_>], &[&str]),
+    (analysed, set): (impl Iterator<Item = Analysed>, &RecordSet),
 ) -> Result<UncertaintyReport, DesignError> {
     let (mut results, mut analyses) = (Vec::new(), 0);
-    for ((index, (measure, hazard)), analysed) in measures.iter().enumerate().zip(analysed) {
-        let asked = sites.iter().zip(*hazard).enumerate().map(|(place, (&name, hazard))| SiteQuestions {
-            name,
-            hazard,
-            asked: vec![(Event::Overturning, described(index, place))],
-        });
-        let asked: Vec<SiteQuestions<'_>> = asked.collect();
+    for (((measure, found), at), analysed) in found.iter().zip(weighed).zip(analysed) {
+        let described = found[OSCILLATOR].own.risks.iter().map(|risk| vec![(Event::Overturning, risk.per_year)]);
+        let asked = sites.iter().zip(&at.hazard).zip(described);
+        let asked: Vec<_> = asked.map(|((name, hazard), asked)| SiteQuestions { name, hazard, asked }).collect();
         analyses += analysed.analyses;
-        results.extend(uncertain.results(&Stripes::new(&measure.plan, set, analysed), &asked, scatter)?);
+        results.extend(uncertain.results(&Stripes::new(&measure.plan, set, analysed), &asked, at.scatter)?);
     }
     Ok(uncertain.report(analyses, results))
 }
 
-/// How often the peaks of a model exceed `limit_m` at each site; nothing without a limit.
-fn beyond_limit(
-    demand: &PooledDemand,
-    (hazard, scatter): (&[Hazard<'_>], &Scatter),
-    (limit_m, years): (Option<f64>, f64),
-) -> Result<Vec<LimitRisk>, DesignError> {
-    let Some(limit_m) = limit_m else { return Ok(Vec::new()) };
-    hazard.iter().map(|hazard| LimitRisk::new(demand, (hazard, None), scatter, (limit_m, years))).collect()
-}
-
-/// By what the peaks of a frame are weighed.
-struct FrameSites<'a> {
-    /// Positions of the sites.
-    sites: &'a [usize],
-    repaired: &'a RepairedWeights,
+/// What peaks by one measure are weighed by, `[site]`.
+struct AtSites<'a> {
+    hazard: Vec<Hazard<'a>>,
+    repaired: Vec<Option<&'a RunWeights>>,
     scatter: &'a Scatter,
-    limit: Option<FrameLimit>,
     years: f64,
 }
 
-impl FrameSites<'_> {
-    /// Overturning at the levels of these positions among those of a measure, whose hazard is that of each site.
+impl<'a> AtSites<'a> {
+    fn new(
+        file: &ResultFile,
+        (source, sites): (&StudyOfResult, &[usize]),
+        (measure, reweighing): (&'a SpectraOfResult, Option<&'a Reweighing>),
+        scatter: &'a Scatter,
+    ) -> Result<Self, DesignError> {
+        let hazard = sites.iter().map(|&site| Hazard::from_file(file, source, (measure, site)));
+        let repaired = sites.iter().map(|&site| reweighing?.weights(measure.measure(), site)).collect();
+        Ok(Self { hazard: hazard.collect::<Result<_, _>>()?, repaired, scatter, years: source.study.risk.years })
+    }
+
+    /// Overturning of a model with these peaks, m, over `[record, level]`, and with those of its neighbours; held
+    /// against `limit_m` where there is one.
     fn collapses(
         &self,
-        (measure, places): (&SpectraOfResult, &[usize]),
-        hazard: &[Hazard<'_>],
-        peaks: &FramePeaks,
+        levels: &[f64],
+        (own_m, rounded_m): (&[f64], &[Vec<f64>]),
+        (may_overturn, limit_m): (bool, Option<f64>),
+    ) -> Result<Collapses, DesignError> {
+        let Self { hazard, repaired, scatter, years } = self;
+        let weights: Vec<_> = hazard.iter().map(|of| of.mean).zip(repaired.iter().copied()).collect();
+        let of_peaks = |peaks_m: &[f64]| collapse(levels, (peaks_m, &scatter.pairs), &weights, *years, may_overturn);
+        let demand = PooledDemand::new(&Stripe::new(levels, own_m)?)?;
+        let bands = |hazard: &Hazard<'_>, runs: Option<&RunWeights>| {
+            rate_bands(&demand, (hazard, runs), scatter, OVERTURNING_M)
+        };
+        let of_repaired = |(hazard, runs): (&Hazard<'_>, Option<&RunWeights>)| {
+            runs.map_or(Ok(None), |runs| bands(hazard, Some(runs)))
+        };
+        let beyond = |limit_m: f64| {
+            let of_site = |hazard| LimitRisk::new(&demand, (hazard, None), scatter, (limit_m, *years));
+            hazard.iter().map(of_site).collect::<Result<Vec<_>, _>>()
+        };
+        Ok(Collapses {
+            own: of_peaks(own_m)?,
+            rounded: rounded_m.iter().map(|peaks_m| of_peaks(peaks_m)).collect::<Result<_, _>>()?,
+            bands: hazard.iter().map(|hazard| bands(hazard, None)).collect::<Result<_, _>>()?,
+            beyond_limit: limit_m.map(beyond).transpose()?.unwrap_or_default(),
+            repaired_bands: hazard.iter().zip(repaired.iter().copied()).map(of_repaired).collect::<Result<_, _>>()?,
+            lognormal_bands: lognormal_bands((levels, own_m), hazard, scatter)?,
+        })
+    }
+
+    /// The same of a frame at the levels of these positions among those of the measure.
+    fn of_frame(
+        &self,
+        (measure, places, peaks): &(&SpectraOfResult, &[usize], FramePeaks),
+        limit: Option<FrameLimit>,
     ) -> Result<FrameCollapses, DesignError> {
         let levels: Vec<f64> = places.iter().map(|&place| measure.plan.levels[place]).collect();
-        let means = hazard.iter().map(|of| of.mean.at_levels(places)).collect::<Result<Vec<_>, _>>()?;
-        let of_site = |(hazard, mean): (&Hazard<'_>, _)| hazard.at_levels(mean, places);
-        let hazard = hazard.iter().zip(&means).map(of_site).collect::<Result<Vec<_>, _>>()?;
-        let repaired = self.sites.iter().map(|&site| self.repaired.at(measure, site));
-        let repaired = repaired.map(|runs| runs.map(|runs| runs.at_levels(places)).transpose());
+        let means = self.hazard.iter().map(|of| of.mean.at_levels(places)).collect::<Result<Vec<_>, _>>()?;
+        let hazard = self.hazard.iter().zip(&means).map(|(of, mean)| of.at_levels(mean, places));
+        let repaired = self.repaired.iter().map(|runs| runs.map(|runs| runs.at_levels(places)).transpose());
         let repaired = repaired.collect::<Result<Vec<_>, _>>()?;
-        let weights: Vec<_> = means.iter().zip(repaired.iter().map(Option::as_ref)).collect();
-        let of_model = |(model, peaks_m): (&'static str, &[f64])| {
-            let own = collapse(&levels, (peaks_m, &self.scatter.pairs), &weights, self.years, true)?;
-            let demand = PooledDemand::new(&Stripe::new(&levels, peaks_m)?)?;
-            let of = |hazard: &Hazard<'_>, runs: Option<&RunWeights>| {
-                rate_bands(&demand, (hazard, runs), self.scatter, OVERTURNING_M)
-            };
-            let bands = hazard.iter().map(|hazard| of(hazard, None)).collect::<Result<_, _>>()?;
-            let of_repaired = |(hazard, runs): (&Hazard<'_>, &Option<RunWeights>)| {
-                runs.as_ref().map_or(Ok(None), |runs| of(hazard, Some(runs)))
-            };
-            let repaired_bands = hazard.iter().zip(&repaired).map(of_repaired).collect::<Result<_, _>>()?;
-            let lognormal_bands = lognormal_bands((&levels, peaks_m), &hazard, self.scatter)?;
-            let limit_m = self.limit.map(|limit| limit.displacement_m);
-            let beyond_limit = beyond_limit(&demand, (&hazard, self.scatter), (limit_m, self.years))?;
-            Ok((model, Collapses { own, rounded: Vec::new(), bands, beyond_limit, repaired_bands, lognormal_bands }))
+        let at = AtSites {
+            hazard: hazard.collect::<Result<_, _>>()?,
+            repaired: repaired.iter().map(Option::as_ref).collect(),
+            scatter: self.scatter,
+            years: self.years,
         };
-        peaks.each().map(of_model).collect()
+        let asked = (true, limit.map(|limit| limit.displacement_m));
+        peaks.each().map(|(model, peaks_m)| Ok((model, at.collapses(&levels, (peaks_m, &[]), asked)?))).collect()
     }
 }
 
@@ -285,7 +273,7 @@ fn after_the_end(study: &UniformRiskStudy) -> Option<String> {
 }
 
 /// What the numbers rest on.
-fn notes_on(models: &[(System, &'static str)], found: &[(&SpectraOfResult, Vec<Collapses>)]) -> Vec<String> {
+fn notes_on(models: &[(System, &'static str)], found: &[OfMeasure<'_>]) -> Vec<String> {
     let mut notes = Vec::new();
     if let [(a, _), (b, _)] = models
         && a.restitution().to_bits() != b.restitution().to_bits()
@@ -311,7 +299,7 @@ fn notes_on(models: &[(System, &'static str)], found: &[(&SpectraOfResult, Vec<C
 /// The risk of every model at every site by every measure.
 fn own_risks(
     models: &[(System, &'static str)],
-    found: &[(&SpectraOfResult, Vec<Collapses>)],
+    found: &[OfMeasure<'_>],
     sites: &[&str],
     counts: (usize, usize),
 ) -> Vec<OwnRisk> {

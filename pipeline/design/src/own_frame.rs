@@ -216,7 +216,7 @@ pub(super) struct OwnFrame {
     restitution_from: [&'static str; 2],
     /// What it must not pass before it overturns.
     pub(super) limit: Option<FrameLimit>,
-    pairs: Pairs,
+    pub(super) pairs: Pairs,
 }
 
 impl OwnFrame {
@@ -248,11 +248,6 @@ impl OwnFrame {
             ],
             pairs,
         })
-    }
-
-    /// The frame of another structure, to be shaken by the same pairs.
-    pub(super) fn with_structure(self, structure: &Structure) -> Result<Self, DesignError> {
-        Self::from_structure(structure, self.pairs)
     }
 
     /// Why it cannot be shaken by a measure at `levels`: its records, scaled, let it leave the ground.

@@ -5,7 +5,7 @@ use uplift_fragility::Stripes as Stripe;
 use uplift_ida::System;
 use uplift_oscillator::Oscillator;
 use uplift_risk::{PooledDemand, SiteWeights};
-use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, at_most_per_year, pooled_demand};
+use uplift_uniform_risk::{EventRisk, SpectraOfResult, at_most_per_year};
 
 use crate::error::DesignError;
 
@@ -78,11 +78,6 @@ pub(super) fn happenings<'a>(
     };
     let told: Vec<f64> = runs.flat_map(tell).collect();
     Ok(PooledDemand::new(&Stripe::new(levels, &told)?)?)
-}
-
-/// All demands of one oscillator of `stripes`, sorted.
-pub(super) fn demand_of(stripes: &Stripes, oscillator: usize) -> Result<PooledDemand, DesignError> {
-    Ok(pooled_demand(stripes, oscillator)?)
 }
 
 #[cfg(test)]

@@ -27,12 +27,12 @@ use uplift_study::Structure;
 pub use band::{TargetBand, TargetUncertainty};
 pub use frame::{TargetFrame, TargetFrameModel, TriedFrame};
 pub use report::{FoundSystem, GenericTarget, LevelShare, TargetByMeasure, TargetReport, TriedValue};
-pub use request::{Exceeded, TargetEvent, TargetFrequency, TargetOptions};
+pub use request::{Exceeded, TargetEvent, TargetOptions};
 pub use search::Crossing;
 
 use super::certainty::Scatter;
 use super::hazard::Hazard;
-use super::opening::{Place, check_tables, study_with_common_records};
+use super::opening::{Place, check_tables};
 use super::own_frame::{OwnFrame, STOPPED, of_frame};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
@@ -84,16 +84,18 @@ pub fn target(
         check_tables(&[(path, table::FIRST_COLUMN)], (structure, result, manifest), options.overwriting.force)?;
     }
     let file = ResultFile::open(result)?;
-    let reason = "a target is looked for with the same records at every level";
-    let source = study_with_common_records(&file, manifest, reason)?;
+    file.refuse_records_at_level("a target is looked for with the same records at every level")?;
+    let source = StudyOfResult::read(&file, manifest)?;
     let place = Place::choose(&source, options.site.as_deref(), options.measure)?;
     let Place { site, measure, .. } = place;
     let curve = file.mean_curve(place.name, measure.measure())?;
-    let years = options.frequency().years().unwrap_or(source.study.risk.years);
-    let target_per_year = options.frequency().per_year(years)?;
+    let years = options.poe.and(options.years).unwrap_or(source.study.risk.years);
+    let target_per_year = options.target_per_year(years)?;
     let (range, own_value) = range(structure, options)?;
-    let hazard = Hazard::from_file(&file, (place.name, site), (measure, &source.study))?;
-    let others = other_measures(&file, &source, place)?;
+    let hazard = Hazard::from_file(&file, &source, (measure, site))?;
+    let others = source.measures.iter().filter(|other| other.measure() != measure.measure());
+    let with_hazard = |other| Ok((other, Hazard::from_file(&file, &source, (other, site))?));
+    let others = others.map(with_hazard).collect::<Result<Vec<_>, DesignError>>()?;
     let scatter = Scatter::from_file(&file)?;
     let wobbles = OwnFrame::is_described(structure);
     let without_frame = why_left_out(structure, options);
@@ -128,7 +130,7 @@ pub fn target(
     notes.extend(assumptions(&file, by_proxy));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
-    let counts = (trials.record_count(), trials.pairs().len());
+    let counts = (trials.records.count(), scatter.pairs.len());
     let event = options.event().words();
     let mut risks = vec![own_risk((&event, found.risk), (place.name, measure), counts)];
     risks.extend(frame.iter().flat_map(|of| of.own_risks(&event, place, counts)));
@@ -136,9 +138,10 @@ pub fn target(
     let bands = frequencies.bands(value, target_per_year);
     let safe = tried.iter().find(|(tried, _)| tried.total_cmp(&safe_value).is_eq());
     let by_other_measures = judged_by(&others, &mut trials, ([safe_value, value], target_per_year))?;
+    let uncertainty = |around| TargetUncertainty::from_tried(around, &tried, target_per_year);
     let mut report = TargetReport {
-        uncertainty: trials.around().map(|around| TargetUncertainty::from_tried(around, &tried, target_per_year)),
-        structure: StructureReport::from_structure(structure, Some(trials.restitution())),
+        uncertainty: trials.around.as_ref().map(uncertainty),
+        structure: StructureReport::from_structure(structure, Some(trials.restitution)),
         site: place.name.to_owned(),
         im: measure.measure().label(),
         im_unit: measure.measure().unit(),
@@ -158,7 +161,7 @@ pub fn target(
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
         risk: found.risk,
         by_other_measures,
-        kept: kept(structure, trials.restitution()),
+        kept: kept(structure, trials.restitution),
         found: FoundSystem::from_system(&found.candidate.system),
         per_year_within_one_percent: noise,
         bands,
@@ -166,7 +169,7 @@ pub fn target(
         at_return_periods,
         generic: generic.flatten(),
         tried: tried.iter().map(|tried| TriedValue::from_attempt(tried, target_per_year)).collect(),
-        analyses: trials.analyses(),
+        analyses: trials.analyses,
         notes,
         alarms: ranked(alarms),
         files: Vec::new(),
@@ -178,16 +181,6 @@ pub fn target(
     }
     trials.finish();
     Ok(report)
-}
-
-/// Every measure but that of `place`, with its hazard there.
-fn other_measures<'a>(
-    file: &ResultFile,
-    source: &'a StudyOfResult,
-    Place { name, site, measure }: Place<'_>,
-) -> Result<Vec<(&'a SpectraOfResult, Hazard<'a>)>, DesignError> {
-    let others = source.measures.iter().filter(|other| other.measure() != measure.measure());
-    others.map(|other| Ok((other, Hazard::from_file(file, (name, site), (other, &source.study))?))).collect()
 }
 
 /// What other measures say of the safe value, or of the best estimate where there is none.

@@ -13,6 +13,5 @@ mod result_job;
 mod shard;
 mod work;
 
-pub use result_job::ResultJob;
 pub use shard::{MOST_SHARDS, ShardReport, carry_out_shard, hold, join, run_shard, shard_path};
 pub use work::{Analysed, LabelledPlan, Work, rate, seconds};

@@ -1,6 +1,6 @@
 //! The structure itself, and those that it may be, under the records and the hazard of a spectrum.
 
-use uplift_engine::analysis::{LabelledPlan, ResultJob, Work};
+use uplift_engine::analysis::{LabelledPlan, Work};
 use uplift_engine::checkpoint::Checkpoint;
 use uplift_ida::System;
 use uplift_job::JobError;
@@ -54,9 +54,8 @@ impl OwnAnalysis {
         let measure = place.measure;
         let at = (place, target_per_year);
         let analysis = DesignAnalysis::from_structure(structure, source, at, (records, options))?;
-        let name = job_name("design", structure);
-        let job = ResultJob { result: &source.path, name: &name };
-        let (analysed, checkpoint) = job.results(analysis.work(source, at, &name)?, &options.shards, events)?;
+        let work = analysis.work(source, at, &job_name("design", structure))?;
+        let (analysed, checkpoint) = work.asked_of(&source.path, &options.shards, events)?;
         let set = &analysis.records.set;
         let mut analysed = analysed.into_iter();
         let own = Stripes::new(&measure.plan, set, analysed.next().ok_or(JobError::Interrupted)?);
@@ -64,7 +63,7 @@ impl OwnAnalysis {
         let of_uncertain = analysed.next().map(|analysed| Stripes::new(&measure.plan, set, analysed));
         let scatter = Scatter::from_file(file)?;
         let years = source.study.risk.years;
-        let hazard = Hazard::from_file(file, (place.name, place.site), (measure, &source.study))?;
+        let hazard = Hazard::from_file(file, source, (measure, place.site))?;
         let oscillators = (&own, analysis.sweep.oscillators.len());
         let shaken = Shaken::new(oscillators, (weights, &structure.system), (target_per_year, years))?;
         let exact = exact_demand(&shaken, own.analyses, &analysis.sweep, (&hazard, &scatter))?;

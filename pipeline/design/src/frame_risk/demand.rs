@@ -124,9 +124,10 @@ impl Question<'_> {
     /// The row of a model, beside the frame itself if it is not that.
     pub(super) fn row(&self, model: &'static str, of: Resampled, frame: Option<&Resampled>) -> ModelDemand {
         let error = frame.map(|frame| {
-            let replicates = of.replicates_m.iter().zip(&frame.replicates_m);
-            let errors = replicates.map(|(proxy_m, frame_m)| error_of(*proxy_m, *frame_m)).collect();
-            self.band(error_of(of.demand_m, frame.demand_m), errors)
+            // 0 where both are zero, or both infinite: they say the same
+            let error = |(proxy_m, frame_m): (&f64, &f64)| relative_error(*proxy_m, *frame_m).unwrap_or(0.0);
+            let errors = of.replicates_m.iter().zip(&frame.replicates_m).map(error).collect();
+            self.band(error((&of.demand_m, &frame.demand_m)), errors)
         });
         ModelDemand {
             model,
@@ -137,11 +138,6 @@ impl Question<'_> {
             risk_curve: of.risk_curve,
         }
     }
-}
-
-/// `proxy/frame − 1`; 0 where both are zero, or both infinite: they say the same.
-pub(super) fn error_of(proxy_m: f64, frame_m: f64) -> f64 {
-    relative_error(proxy_m, frame_m).unwrap_or(0.0)
 }
 
 impl Resampled {
@@ -192,12 +188,5 @@ mod tests {
         assert!(row.risk_curve.windows(2).all(|pair| pair[0].per_year >= pair[1].per_year));
         let own = question.row("frame", frame, None);
         assert_eq!((own.error, own.demand_m.value), (None, 2.0));
-    }
-
-    #[test]
-    fn errors_of_what_overturns_are_numbers() {
-        let inf = f64::INFINITY;
-        assert_eq!([error_of(inf, inf), error_of(0.0, 0.0), error_of(1.0, inf)], [0.0, 0.0, -1.0]);
-        assert_eq!(error_of(inf, 1.0), inf);
     }
 }

@@ -4,7 +4,6 @@ use uplift_engine::analysis::{Analysed, LabelledPlan, Work};
 use uplift_ida::System;
 use uplift_inputs::RecordSet;
 use uplift_job::JobError;
-use uplift_motion::IntensityMeasure;
 use uplift_spectra::nudges;
 use uplift_structure::UncertainQuantity;
 use uplift_study::{Structure, Uncertainty, UniformRiskStudy};
@@ -19,14 +18,6 @@ use crate::uncertain::Uncertain;
 
 /// Place of the equivalent oscillator among the models.
 pub(super) const OSCILLATOR: usize = 0;
-
-/// The measure `wanted` of a result; all where none is.
-fn measures(source: &StudyOfResult, wanted: Option<IntensityMeasure>) -> Result<Vec<&SpectraOfResult>, DesignError> {
-    match wanted {
-        Some(measure) => Ok(vec![choose_measure(source, Some(measure))?]),
-        None => Ok(source.measures.iter().collect()),
-    }
-}
 
 /// Peaks of the only system of an analysis, m, `[record, level]`, where the scale factors of all levels have factors on
 /// them, of which this is the one at `factor`.
@@ -48,7 +39,7 @@ pub(crate) struct OverturningAnalysis<'a> {
     /// Why one that can wobble is left out.
     pub(super) without_frame: Option<String>,
     /// The structures that it may be; none where all of it is known.
-    pub(super) uncertain: Option<Uncertain<'a>>,
+    pub(crate) uncertain: Option<Uncertain<'a>>,
 }
 
 impl<'a> OverturningAnalysis<'a> {
@@ -59,7 +50,10 @@ impl<'a> OverturningAnalysis<'a> {
         options: &OverturningOptions,
         notes: &mut Vec<String>,
     ) -> Result<Self, DesignError> {
-        let measures = measures(source, options.measure)?;
+        let measures = match options.measure {
+            Some(measure) => vec![choose_measure(source, Some(measure))?],
+            None => source.measures.iter().collect(),
+        };
         let mut models = models(structure, source, options.restitution, notes)?;
         let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
         let stops = OwnFrame::is_described(structure) && !OwnFrame::can_be_shaken(structure) && !options.proxy;
@@ -88,11 +82,6 @@ impl<'a> OverturningAnalysis<'a> {
         }
         let uncertain = uncertain_structures(structure, options.restitution, (&models[OSCILLATOR].0, records.count()))?;
         Ok(Self { study, records, measures, models, frame, without_frame, uncertain })
-    }
-
-    /// The same of the structure as it is described alone, without those that it may be.
-    pub(crate) fn described_alone(self) -> Self {
-        Self { uncertain: None, ..self }
     }
 
     /// Oscillator and block, then the models of the frame, each with the origin of its restitution.

@@ -157,7 +157,7 @@ pub struct TargetUncertainty {
 impl TargetUncertainty {
     /// Of the structures `around` every value that was `tried`.
     pub(super) fn from_tried(around: &Around<'_>, tried: &[(f64, Attempt)], target_per_year: f64) -> Self {
-        let (kind, sampling, seed) = around.sampled();
+        let Around { of, per_record: structures, .. } = *around;
         let branches = tried.first().map_or(1, |(_, attempt)| attempt.structures.len());
         let values: Vec<f64> = tried.iter().map(|(value, _)| *value).collect();
         let needed = |branch: usize| {
@@ -168,7 +168,7 @@ impl TargetUncertainty {
             let [lower, _, median, _, upper] = Spread::from_values((0..branches).map(needed).collect()).percentiles;
             [lower, median, upper]
         });
-        let (structures, quantities) = (around.per_record(), around.quantities());
+        let (kind, sampling, seed, quantities) = (of.kind.key(), of.sampling.key(), of.seed, QuantityReport::all(of));
         Self { kind, sampling, seed, structures, quantities, by_structure }
     }
 }

@@ -17,13 +17,6 @@ pub(super) struct Candidate {
     pub(super) systems: Vec<System>,
 }
 
-impl Candidate {
-    /// What each of them must not exceed, m of its oscillator.
-    pub(super) fn thresholds_m(&self, event: TargetEvent) -> Vec<f64> {
-        self.systems.iter().map(|system| threshold_m(event, &self.system, system)).collect()
-    }
-}
-
 /// A value that was analysed.
 #[derive(Debug, Clone)]
 pub(super) struct Attempt {

@@ -145,13 +145,14 @@ impl FrameTarget<'_> {
         trials: &mut Trials<'_>,
         [safe, best, most]: [f64; 3],
     ) -> Result<(Option<TargetFrame>, Option<String>), DesignError> {
-        let Some(pairs) = trials.take_components() else { return Ok((None, None)) };
+        let Some(pairs) = trials.components.take() else { return Ok((None, None)) };
         let value = if safe.is_finite() { safe } else { best };
         let places = levels_for(self.place.measure, self.place.site, self.target_per_year);
         let levels: Vec<f64> = places.iter().map(|&place| self.place.measure.plan.levels[place]).collect();
         let Some(first) = self.structure_at(value)? else { return Ok((None, Some(NO_COLUMNS.to_owned()))) };
         let mut frame = OwnFrame::from_structure(&first, pairs)?;
-        if let Some(reason) = trials.leaves_the_ground(&frame, &levels)? {
+        let at = (self.place.measure.measure(), &levels[..]);
+        if let Some(reason) = frame.leaves_the_ground(&trials.records.set, at)? {
             return Ok((None, Some(reason)));
         }
         let (mut report, models) = self.shaken(trials, (&frame, &first), (&places, &levels), true)?;
@@ -159,7 +160,7 @@ impl FrameTarget<'_> {
         while tried.len() < MOST_VALUES {
             let Some(next) = self.next(&tried, most) else { break };
             let Some(structure) = self.structure_at(next)? else { break };
-            frame = frame.with_structure(&structure)?;
+            frame = OwnFrame::from_structure(&structure, frame.pairs)?;
             let (own, models) = self.shaken(trials, (&frame, &structure), (&places, &levels), false)?;
             report.analyses += own.analyses;
             tried.extend(models.into_iter().map(|model| (next, model)));

@@ -58,36 +58,6 @@ impl TargetEvent {
     }
 }
 
-/// How often it may happen.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum TargetFrequency {
-    /// So often a year.
-    PerYear(f64),
-    /// With this probability within the years, those of the study where none are given (Eq. 4.8).
-    Probability(f64, Option<f64>),
-    /// Once in so many years on average.
-    ReturnPeriod(f64),
-}
-
-impl TargetFrequency {
-    /// The years that were given.
-    pub(super) fn years(self) -> Option<f64> {
-        match self {
-            Self::Probability(_, years) => years,
-            Self::PerYear(_) | Self::ReturnPeriod(_) => None,
-        }
-    }
-
-    /// As a mean annual frequency, 1/yr.
-    pub(super) fn per_year(self, years: f64) -> Result<f64, DesignError> {
-        Ok(match self {
-            Self::PerYear(per_year) => per_year,
-            Self::Probability(probability, _) => rate_from_probability(probability, years)?,
-            Self::ReturnPeriod(years) => 1.0 / years,
-        })
-    }
-}
-
 /// A displacement that must not be exceeded too often.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Exceeded {
@@ -218,13 +188,13 @@ impl TargetOptions {
         }
     }
 
-    /// How often it may.
-    pub fn frequency(&self) -> TargetFrequency {
-        match (self.overturning.or(self.per_year), self.poe) {
-            (Some(per_year), _) => TargetFrequency::PerYear(per_year),
-            (None, Some(poe)) => TargetFrequency::Probability(poe, self.years),
-            (None, None) => TargetFrequency::ReturnPeriod(self.return_period.unwrap_or_default()),
-        }
+    /// How often it may, 1/yr; a probability is one in `years` (Eq. 4.8).
+    pub(super) fn target_per_year(&self, years: f64) -> Result<f64, DesignError> {
+        Ok(match (self.overturning.or(self.per_year), self.poe) {
+            (Some(per_year), _) => per_year,
+            (None, Some(poe)) => rate_from_probability(poe, years)?,
+            (None, None) => 1.0 / self.return_period.unwrap_or_default(),
+        })
     }
 
     /// Dispersion β of a generic lognormal fragility, and its probability at the level to design for.
@@ -239,16 +209,12 @@ impl TargetOptions {
             TargetEvent::BeyondCapacity(factor) => (None, Some(factor)),
             TargetEvent::Overturning => (None, None),
         };
-        let per_year = match self.frequency() {
-            TargetFrequency::PerYear(per_year) => Some(per_year),
-            TargetFrequency::Probability(..) | TargetFrequency::ReturnPeriod(_) => None,
-        };
         number_alarms(
             "target",
             &[
                 (USUAL_THRESHOLD, "--exceed", displacement_m),
                 (USUAL_SAFETY_FACTOR, "--safety-factor", safety_factor),
-                (USUAL_TARGET, "the allowed frequency", per_year),
+                (USUAL_TARGET, "the allowed frequency", self.overturning.or(self.per_year)),
             ],
         )
     }
@@ -273,13 +239,13 @@ impl TargetOptions {
             TargetEvent::BeyondCapacity(factor) => asked.push((SAFETY_FACTOR, "--safety-factor", factor)),
             TargetEvent::Overturning => {}
         }
-        match self.frequency() {
-            TargetFrequency::PerYear(per_year) => asked.push((PER_YEAR, "the target", per_year)),
-            TargetFrequency::Probability(probability, years) => {
+        match (self.overturning.or(self.per_year), self.poe) {
+            (Some(per_year), _) => asked.push((PER_YEAR, "the target", per_year)),
+            (None, Some(probability)) => {
                 asked.push((PROBABILITY, "--poe", probability));
-                asked.extend(years.map(|years| (YEARS, "--years", years)));
+                asked.extend(self.years.map(|years| (YEARS, "--years", years)));
             }
-            TargetFrequency::ReturnPeriod(years) => asked.push((RETURN_PERIOD, "--return-period", years)),
+            (None, None) => asked.push((RETURN_PERIOD, "--return-period", self.return_period.unwrap_or_default())),
         }
         asked.extend(self.return_periods.iter().map(|&years| (RETURN_PERIOD, "--at", years)));
         if let Some((dispersion, probability)) = self.generic() {

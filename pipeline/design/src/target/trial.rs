@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use uplift_engine::analysis::{Analysed, LabelledPlan, ResultJob, Work};
+use uplift_engine::analysis::{Analysed, LabelledPlan, Work};
 use uplift_engine::checkpoint::Checkpoint;
 use uplift_hazard::HazardCurve;
 use uplift_ida::{Peaks, Plan, System};
@@ -37,16 +37,18 @@ pub(super) struct Trials<'a> {
     scatter: &'a Scatter,
     options: &'a TargetOptions,
     years: f64,
-    records: ShakenRecords,
+    pub(super) records: ShakenRecords,
     /// The pairs that they are of, until a frame is shaken by them; none without a frame.
-    components: Option<Pairs>,
-    restitution: f64,
-    /// The structures that it may be; none where all of it is known.
-    around: Option<Around<'a>>,
+    pub(super) components: Option<Pairs>,
+    /// Coefficient of restitution of the oscillators.
+    pub(super) restitution: f64,
+    /// The structures that every value may be; none where all of it is known.
+    pub(super) around: Option<Around<'a>>,
     events: &'a dyn Events,
     name: String,
     checkpoint: Option<Checkpoint>,
-    analyses: u64,
+    /// Nonlinear time histories so far.
+    pub(super) analyses: u64,
 }
 
 impl<'a> Trials<'a> {
@@ -86,16 +88,6 @@ impl<'a> Trials<'a> {
         })
     }
 
-    /// The pairs of the records, once.
-    pub(super) fn take_components(&mut self) -> Option<Pairs> {
-        self.components.take()
-    }
-
-    /// Why `frame` cannot be shaken at `levels`.
-    pub(super) fn leaves_the_ground(&self, frame: &OwnFrame, levels: &[f64]) -> Result<Option<String>, DesignError> {
-        frame.leaves_the_ground(&self.records.set, (self.measure.measure(), levels))
-    }
-
     /// The peaks of `frame` at `levels`, of its planar model too where it is asked for.
     pub(super) fn shake(
         &mut self,
@@ -107,35 +99,9 @@ impl<'a> Trials<'a> {
         drop(self.checkpoint.take());
         let mut plans: Vec<_> = frame.plans(&self.records, (self.measure.measure(), levels))?.into();
         plans.truncate(1 + usize::from(with_planar));
-        let job = ResultJob { result: self.result, name: &self.name };
-        let (analysed, checkpoint) = job.results(Work::new(&self.name, plans), &[], self.events)?;
+        let (analysed, checkpoint) = Work::new(&self.name, plans).asked_of(self.result, &[], self.events)?;
         self.checkpoint = Some(checkpoint);
         Ok(frame.peaks(analysed.first().ok_or(JobError::Interrupted)?, analysed.get(1)))
-    }
-
-    /// Coefficient of restitution of the oscillators.
-    pub(super) fn restitution(&self) -> f64 {
-        self.restitution
-    }
-
-    /// The structures that every value may be; none where all of it is known.
-    pub(super) fn around(&self) -> Option<&Around<'a>> {
-        self.around.as_ref()
-    }
-
-    /// Records that shake them.
-    pub(super) fn record_count(&self) -> usize {
-        self.records.count()
-    }
-
-    /// The positions of the records of each of their pairs.
-    pub(super) fn pairs(&self) -> &[Vec<usize>] {
-        &self.scatter.pairs
-    }
-
-    /// Nonlinear time histories so far.
-    pub(super) fn analyses(&self) -> u64 {
-        self.analyses
     }
 
     /// Refuses a target rarer than what a structure may do of which no run shows it: whatever is found, the stripes
@@ -144,7 +110,7 @@ impl<'a> Trials<'a> {
     /// # Errors
     /// Such a target, at `site`.
     pub(super) fn refuse_untellable(&self, site: &str, target_per_year: f64) -> Result<(), DesignError> {
-        let unseen = bounded(EventRisk::new(0.0, [0.0; 2], self.years)?, &self.weights, self.pairs());
+        let unseen = bounded(EventRisk::new(0.0, [0.0; 2], self.years)?, &self.weights, &self.scatter.pairs);
         let Some(bound) = unseen.at_most_per_year.filter(|bound| *bound > target_per_year) else { return Ok(()) };
         let levels = &self.measure.plan.levels;
         let measure = self.measure.measure();
@@ -156,7 +122,7 @@ impl<'a> Trials<'a> {
             levels[levels.len() - 1],
             measure.unit(),
             rate(self.weights.stripes().upper_tail_per_year()),
-            records_in_words(self.record_count(), self.pairs().len()),
+            records_in_words(self.records.count(), self.scatter.pairs.len()),
             rate(bound),
             uplift_study::levels_key(measure)
         ))
@@ -235,7 +201,7 @@ impl<'a> Trials<'a> {
             threshold_m(self.options.event(), &candidate.system, system) < OVERTURNING_M || system.can_overturn()
         };
         if candidate.systems.iter().any(may_happen) {
-            risk = bounded(risk, &self.weights, self.pairs());
+            risk = bounded(risk, &self.weights, &self.scatter.pairs);
         }
         let record_per_year: Vec<f64> =
             (0..self.records.count()).map(|record| of(&|one| one.record_per_year[record])).collect();
@@ -314,14 +280,15 @@ impl<'a> Trials<'a> {
         let levels: Vec<f64> = asked.iter().map(|(_, level)| *level).collect();
         let label = format!("{}, {} return periods", self.measure.measure().label(), levels.len());
         let analysed = self.analyse(&label, &levels, std::slice::from_ref(&attempt.candidate))?;
-        let thresholds_m = attempt.candidate.thresholds_m(self.options.event());
+        let (candidate, event) = (&attempt.candidate, self.options.event());
         let records = self.records.count();
         let runs = records * self.per_record();
         let share = |(scale, &(return_period_years, level)): (usize, &(f64, f64))| {
             let happens = |run: usize| {
                 let (record, place) = (run / self.per_record(), run % self.per_record());
                 let own = if self.is_of_each_record() { run } else { place };
-                analysed.peaks.at_m([record, place, scale]) > thresholds_m[own]
+                let limit_m = threshold_m(event, &candidate.system, &candidate.systems[own]);
+                analysed.peaks.at_m([record, place, scale]) > limit_m
             };
             let count = (0..runs).filter(|run| happens(*run)).count();
             let probability = count as f64 / runs as f64;
@@ -355,8 +322,7 @@ impl<'a> Trials<'a> {
         let remark = self.cost(&plan, candidates.len()).map(|cost| ("uncertainty".to_owned(), cost));
         let labelled =
             LabelledPlan { label: label.to_owned(), remark, plan, motions: &self.records.motions, known: None };
-        let job = ResultJob { result: self.result, name: &self.name };
-        let (analysed, checkpoint) = job.results(Work::new(&self.name, vec![labelled]), &[], self.events)?;
+        let (analysed, checkpoint) = Work::new(&self.name, vec![labelled]).asked_of(self.result, &[], self.events)?;
         self.checkpoint = Some(checkpoint);
         analysed.into_iter().next().ok_or(JobError::Interrupted.into())
     }
@@ -377,7 +343,7 @@ impl<'a> Trials<'a> {
 
     /// Structures that a record shakes at every value.
     pub(super) fn per_record(&self) -> usize {
-        self.around.as_ref().map_or(1, Around::per_record)
+        self.around.as_ref().map_or(1, |around| around.per_record)
     }
 
     fn is_of_each_record(&self) -> bool {

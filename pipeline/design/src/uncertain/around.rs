@@ -5,7 +5,6 @@ use uplift_ida::System;
 use uplift_structure::EquivalentSystem;
 use uplift_study::{Structure, Uncertainty, UncertaintyKind};
 
-use super::report::QuantityReport;
 use super::{branches, draws, realized};
 use crate::error::DesignError;
 
@@ -13,12 +12,12 @@ use crate::error::DesignError;
 #[derive(Debug)]
 pub(crate) struct Around<'a> {
     structure: &'a Structure,
-    of: &'a Uncertainty,
+    pub(crate) of: &'a Uncertainty,
     restitution: f64,
     /// Points of the unit cube: one a branch; or those of each record, one record after the other.
     points: Vec<Vec<f64>>,
     /// Structures that shake under a record.
-    per_record: usize,
+    pub(crate) per_record: usize,
 }
 
 impl<'a> Around<'a> {
@@ -46,11 +45,6 @@ impl<'a> Around<'a> {
         self.of.kind == UncertaintyKind::Aleatory && !self.of.is_known()
     }
 
-    /// Structures that shake under a record.
-    pub(crate) fn per_record(&self) -> usize {
-        self.per_record
-    }
-
     /// The oscillators of `varied`: one a branch; or those of each record, one record after the other.
     pub(crate) fn systems(&self, varied: &EquivalentSystem) -> Result<Vec<System>, DesignError> {
         let system = |point: &Vec<f64>| realized((self.structure, varied), self.of, self.restitution, point);
@@ -61,15 +55,5 @@ impl<'a> Around<'a> {
     /// branches.
     pub(crate) fn hazard_number(&self, branch: usize) -> Option<f64> {
         self.points[branch].get(self.of.quantities.len()).copied()
-    }
-
-    /// The key of its kind, how it is sampled, and where the random numbers begin.
-    pub(crate) fn sampled(&self) -> (&'static str, &'static str, u64) {
-        (self.of.kind.key(), self.of.sampling.key(), self.of.seed)
-    }
-
-    /// What is not known exactly, of the structure as described.
-    pub(crate) fn quantities(&self) -> Vec<QuantityReport> {
-        QuantityReport::all(self.of)
     }
 }

@@ -11,7 +11,7 @@ use uplift_uniform_risk::Stripes;
 
 use super::report::{AleatoryResult, UncertainFinding};
 use super::{Event, SiteQuestions, Uncertain};
-use crate::certainty::{Scatter, demand_bands, rate_bands};
+use crate::certainty::{Bands, Scatter, demand_bands, rate_bands};
 use crate::error::DesignError;
 use crate::risk::{HAPPENS, OVERTURNING_M, happenings};
 
@@ -46,27 +46,20 @@ pub(super) fn findings(
     let scatter = drawn(scatter, draws);
     // the draws of a record lie one after the other, each a row of levels
     let demands_m = stripes.peaks.displacement_m();
-    let pool = |demands_m: &[f64]| -> Result<PooledDemand, DesignError> {
-        Ok(PooledDemand::new(&Stripe::new(&stripes.levels, demands_m)?)?)
+    let demand = PooledDemand::new(&Stripe::new(&stripes.levels, demands_m)?)?;
+    let capacity_m = |system| Event::BeyondCapacity.threshold_m(system).unwrap_or(f64::INFINITY);
+    let runs = demands_m.chunks_exact(stripes.levels.len()).zip(uncertain.systems.iter().map(capacity_m));
+    let beyond = happenings(&stripes.levels, runs)?;
+    let result = |value: f64, bands: Option<Bands>| AleatoryResult {
+        value,
+        at_most_per_year: None,
+        by_record: bands.map(|bands| bands.by_record),
+        by_earthquake: bands.and_then(|bands| bands.by_earthquake),
+        with_hazard: bands.and_then(|bands| bands.with_hazard),
     };
-    let demand = pool(demands_m)?;
-    let levels = stripes.levels.len();
-    let beyond = happenings(
-        &stripes.levels,
-        demands_m
-            .chunks_exact(levels)
-            .zip(&uncertain.systems)
-            .map(|(row_m, system)| (row_m, Event::BeyondCapacity.threshold_m(system).unwrap_or(f64::INFINITY))),
-    )?;
     let rate = |site: &SiteQuestions<'_>, of: &PooledDemand, threshold_m: f64| -> Result<AleatoryResult, DesignError> {
-        let bands = rate_bands(of, (site.hazard, None), &scatter, threshold_m)?;
-        Ok(AleatoryResult {
-            value: RiskCurve::new(of, site.hazard.mean)?.mean_annual_frequency(threshold_m)?,
-            at_most_per_year: None,
-            by_record: bands.map(|bands| bands.by_record),
-            by_earthquake: bands.and_then(|bands| bands.by_earthquake),
-            with_hazard: bands.and_then(|bands| bands.with_hazard),
-        })
+        let per_year = RiskCurve::new(of, site.hazard.mean)?.mean_annual_frequency(threshold_m)?;
+        Ok(result(per_year, rate_bands(of, (site.hazard, None), &scatter, threshold_m)?))
     };
     let finding = |site: &SiteQuestions<'_>, event: Event| match event {
         Event::Overturning => rate(site, &demand, OVERTURNING_M),
@@ -75,13 +68,7 @@ pub(super) fn findings(
             let factor = uncertain.participation;
             let ordinate = RiskCurve::new(&demand, site.hazard.mean)?.exact_ordinate(target_per_year)?;
             let bands = demand_bands(&demand, (site.hazard, None), &scatter, (target_per_year, factor, None))?;
-            Ok(AleatoryResult {
-                value: factor * ordinate.displacement_m,
-                at_most_per_year: None,
-                by_record: bands.map(|bands| bands.demand_m.by_record),
-                by_earthquake: bands.and_then(|bands| bands.demand_m.by_earthquake),
-                with_hazard: bands.and_then(|bands| bands.demand_m.with_hazard),
-            })
+            Ok(result(factor * ordinate.displacement_m, bands.map(|bands| bands.demand_m)))
         }
     };
     let asked = sites.iter().flat_map(|site| site.asked.iter().map(move |(event, _)| (site, *event)));

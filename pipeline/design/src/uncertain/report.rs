@@ -46,7 +46,7 @@ pub struct QuantityReport {
 
 impl QuantityReport {
     /// Those of `of`.
-    pub(super) fn all(of: &Uncertainty) -> Vec<Self> {
+    pub(crate) fn all(of: &Uncertainty) -> Vec<Self> {
         let report = |(place, quantity): (usize, &uplift_structure::UncertainQuantity)| {
             let distribution = &of.vector.distributions()[place];
             let group = of.vector.copula().groups().iter().find(|group| group.contains(&place));

@@ -44,7 +44,7 @@ pub struct Analysed {
 /// All analyses that a job asks for.
 #[derive(Debug)]
 pub struct Work<'a> {
-    title: String,
+    pub(super) title: String,
     plans: Vec<LabelledPlan<'a>>,
     /// Of each plan.
     keys: Vec<RowKeys>,
