@@ -134,13 +134,14 @@ fn remedy(consistency: &StoredConsistency, site: usize) -> String {
     }
 }
 
-/// The same where a spectrum by PGV and one by PGA disagree because the records miss the hazard at a `site`; none where
-/// they have it by both measures.
-pub(super) fn remedy_of_gap(evidence: &Evidence, site: usize) -> Option<String> {
+/// The same where a spectrum by PGV and one by PGA disagree because the records miss the hazard at a `site`, by the
+/// measure asked about or by the worse; none where they have it by both.
+pub(super) fn remedy_of_gap(evidence: &Evidence, scope: &Scope, site: usize) -> Option<String> {
     let misses =
         |of: &&StoredConsistency| of.bias[site].is_finite() && of.verdict[site].as_str() == Verdict::Inconsistent.key();
     let worst = |of: &&StoredConsistency| of.bias[site].ln().abs();
-    let all = evidence.consistency.iter().filter(misses);
-    let consistency = all.max_by(|a, b| worst(a).total_cmp(&worst(b)))?;
+    let all = || evidence.consistency.iter().filter(misses);
+    let asked = all().find(|of| scope.measure == Some(of.scaled_to));
+    let consistency = asked.or_else(|| all().max_by(|a, b| worst(a).total_cmp(&worst(b))))?;
     Some(remedy(consistency, site))
 }

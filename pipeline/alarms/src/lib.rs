@@ -115,7 +115,10 @@ fn spectra_alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, Alar
         alarms.extend(consistency::alarms(evidence, scope));
     }
     alarms.extend(consistency::without_repair(evidence, scope));
-    alarms.extend(consistency::failing_samples(evidence, scope));
+    // of the whole result, or of what is asked by repaired spectra: plain ones have nothing to do with weights
+    if scope.repaired || *scope == Scope::default() {
+        alarms.extend(consistency::failing_samples(evidence, scope));
+    }
     Ok(alarms)
 }
 

@@ -66,13 +66,13 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
             let Some(gap) = largest_gap(one, other, &strengths) else { continue };
             let banded = one.band_m.is_some() && other.band_m.is_some();
             let subject = format!("{name}, {}", evidence.risk(poe));
-            cases.push(case(evidence, (site, subject), gap, banded));
+            cases.push(case((evidence, scope), (site, subject), gap, banded));
         }
     }
     Alarm::from_cases("measures-disagree", cases)
 }
 
-fn case(evidence: &Evidence, (site, subject): (usize, String), gap: Gap, banded: bool) -> Case {
+fn case((evidence, scope): (&Evidence, &Scope), (site, subject): (usize, String), gap: Gap, banded: bool) -> Case {
     let times = gap.ratio.max(1.0 / gap.ratio);
     let [larger, smaller] = if gap.ratio > 1.0 { ["PGA", "PGV"] } else { ["PGV", "PGA"] };
     let allowed = match &evidence.bands {
@@ -88,7 +88,7 @@ fn case(evidence: &Evidence, (site, subject): (usize, String), gap: Gap, banded:
             if times < 1e6 { two_digits(times) } else { short(times) },
             rounded(evidence.spectra.strengths[gap.strength], 4)
         ),
-        what_to_do: consistency::remedy_of_gap(evidence, site)
+        what_to_do: consistency::remedy_of_gap(evidence, scope, site)
             .unwrap_or_else(|| format!("Choose between them: uplift measures {RESULT}")),
     }
 }

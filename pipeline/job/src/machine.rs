@@ -25,7 +25,7 @@ pub use memory::{Memory, memory};
 
 use crate::error::JobError;
 use crate::events::Events;
-use crate::text::bytes;
+use crate::text::{bytes, bytes_free};
 
 /// The variable of the environment that says what becomes of a job that cannot fit: `refuse`, as without it, or `warn`.
 pub const LIMITS_VARIABLE: &str = "UPLIFT_LIMITS";
@@ -117,13 +117,13 @@ impl Needs {
                 "about {needed} of memory are needed, and there are {} ({}): reduce strengths, levels, thresholds, \
                  sites, records or replicates, leave large arrays out (`risk.maf_surface = false`), or use a larger \
                  machine",
-                bytes(most.bytes),
+                bytes_free(most.bytes),
                 most.of
             )),
             (_, Some(available)) if self.memory_bytes > available.bytes => room.tight.push(format!(
                 "about {needed} of memory are needed, and {} are free now ({}): it may become slow, or be ended by \
                  the system",
-                bytes(available.bytes),
+                bytes_free(available.bytes),
                 available.of
             )),
             _ => {}
@@ -134,14 +134,14 @@ impl Needs {
                 room.cannot.push(format!(
                     "{least} to {most} of disk are needed, and {} are free ({}): free some, write elsewhere with \
                      `-o`, or reduce the study",
-                    bytes(limit.bytes),
+                    bytes_free(limit.bytes),
                     limit.of
                 ));
             } else if self.disk_bytes > limit.bytes {
                 room.tight.push(format!(
                     "up to {most} of disk are needed, and there are {} ({}): it may suffice, since results are \
                      compressed",
-                    bytes(limit.bytes),
+                    bytes_free(limit.bytes),
                     limit.of
                 ));
             }

@@ -147,6 +147,16 @@ pub fn bytes(number: u64) -> String {
     }
 }
 
+/// What there is of a need in [`bytes`], rounded down: as much as is needed is never there where it is not.
+pub fn bytes_free(number: u64) -> String {
+    let unit = match number {
+        ..1_000_000 => 1000,
+        1_000_000..1_000_000_000 => 1_000_000,
+        _ => 100_000_000,
+    };
+    bytes(number - number % unit)
+}
+
 /// "60 records of 30 pairs", where pairs have several; else "30 records", "1 record".
 pub fn records_in_words(records: usize, pairs: usize) -> String {
     let of_pairs = if pairs < records { format!(" of {}", counted(pairs, "pair")) } else { String::new() };
@@ -184,7 +194,16 @@ mod tests {
     }
 
     #[test]
+    fn what_is_there_is_rounded_down_and_what_is_needed_up() {
+        for (number, needed, free) in [(1_020_000, "2 MB", "1 MB"), (1500, "2 kB", "1 kB"), (3_000_000, "3 MB", "3 MB")]
+        {
+            assert_eq!((bytes(number).as_str(), bytes_free(number).as_str()), (needed, free));
+        }
+    }
+
+    #[test]
     fn one_is_no_plural() {
+        assert_eq!([1.0, 50.0].map(|years| risk_in_words(0.001, years)), ["0.1 % in 1 year", "0.1 % in 50 years"]);
         let told = [(60, 30), (30, 30), (2, 1), (1, 1)].map(|(records, pairs)| records_in_words(records, pairs));
         assert_eq!(told, ["60 records of 30 pairs", "30 records", "2 records of 1 pair", "1 record"]);
         let factors = |counts: [usize; 2]| [counted(counts[0], "pair"), counted(counts[1], "level")];

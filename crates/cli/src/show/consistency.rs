@@ -246,8 +246,8 @@ fn print_two_sided(out: &mut impl Write, report: &ConsistencyReport) -> Result<(
     }
     writeln!(
         out,
-        "\nBoth analyses together, factors of the level: location of the set (other records can correct it), and \
-         spread\n(no single set avoids it)"
+        "\nBoth analyses together, factors of the level: location, which other records can correct, and spread, which\n\
+         no single set avoids"
     )?;
     let table = Table::of(&report.two_sided)
         .left("site", |row| &row.site)

@@ -103,9 +103,9 @@ fn print_end(out: &mut impl Write, head: &RunHead, terminal: &Terminal) -> Resul
     if terminal.is_quiet() {
         return Ok(());
     }
-    let result = shown_path(result).display();
+    let (shown, typed) = (shown_path(result).display(), typed_path(result));
     let done_already = if head.done_already { " (done already; recompute: --again)" } else { "" };
-    writeln!(out, "\nResult   {result}{done_already}")?;
+    writeln!(out, "\nResult   {shown}{done_already}")?;
     // every result with spectra has the first two beside it
     let is_usual = |name: &str| name.ends_with(".urs.csv") || name.ends_with(".regression.csv");
     let tables = tables.iter().map(|table| shown_path(table).display().to_string());
@@ -113,7 +113,7 @@ fn print_end(out: &mut impl Write, head: &RunHead, terminal: &Terminal) -> Resul
     if !tables.is_empty() {
         writeln!(out, "Tables   {}", tables.join(", "))?;
     }
-    Ok(writeln!(out, "Report   uplift report {result}")?)
+    Ok(writeln!(out, "Report   uplift report {typed}")?)
 }
 
 /// How other strengths and return periods are asked for.

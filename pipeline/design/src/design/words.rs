@@ -1,7 +1,7 @@
 //! What a design says in words: how the structure and the study differ, and what could not be done.
 
 use uplift_job::JobError;
-use uplift_job::text::rounded;
+use uplift_job::text::{rounded, typed_path};
 use uplift_oscillator::PostUplift;
 use uplift_study::Structure;
 use uplift_uniform_risk::StudyOfResult;
@@ -31,12 +31,12 @@ pub(super) fn require_zero_stiffness(source: &StudyOfResult) -> Result<(), Desig
 /// Why there is no repaired spectrum of a site.
 pub(super) fn not_repaired(source: &StudyOfResult, place: Place<'_>) -> DesignError {
     JobError::input(format!(
-        "{}: has no repaired spectrum of {} by {}: compute it, or see why there is none: `uplift consistency {} \
-         --repair`",
+        "{}: has no repaired spectrum of {} by {}: `uplift consistency {} --repair --details` computes it, or says \
+         why there is none",
         source.path.display(),
         place.name,
         place.measure.measure().label(),
-        source.path.display()
+        typed_path(&source.path)
     ))
     .into()
 }

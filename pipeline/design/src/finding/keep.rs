@@ -70,8 +70,12 @@ fn tell_of_another_file(finding: &Finding, earlier: &[StoredFinding], events: &d
     let (replaced, left): (Vec<&StoredFinding>, Vec<&StoredFinding>) =
         earlier.iter().filter(of_another).partition(|of| of.finding.group() == group);
     let file = &finding.structure_file;
-    if !replaced.is_empty() {
-        events.note(&format!("{file} has changed: this answer replaces the one for what it was before"));
+    if let Some(earlier) = replaced.first().map(|of| &of.finding.structure_file) {
+        events.note(&if earlier == file {
+            format!("{file} has changed: this answer replaces the one for what it was before")
+        } else {
+            format!("{file} replaces {earlier}, which has the same name: rename one to keep both answers")
+        });
     }
     if !left.is_empty() {
         let questions: Vec<String> = left.iter().map(|of| of.finding.question()).collect();

@@ -45,14 +45,19 @@ pub fn risk_option(poe: f64, years: f64) -> String {
 
 /// A risk in words: `2 % in 50 years`, or `475 years (9.991 % in 50 years)`.
 pub fn risk_in_words(poe: f64, years: f64) -> String {
-    let probability = format!("{} in {years} years", per_cent(poe));
+    let probability = format!("{}{}", per_cent(poe), in_years(years));
     asked_return_period(poe, years).map_or(probability.clone(), |period| format!("{period} years ({probability})"))
+}
+
+/// ` in 50 years`.
+fn in_years(years: f64) -> String {
+    format!(" in {years} year{}", if years == 1.0 { "" } else { "s" })
 }
 
 /// Several risks, parted by `between`: `2 %, 10 % in 50 years`, or `475 years, 2 % in 50 years`.
 pub fn risks_in_words(poes: &[f64], years: f64, between: &str) -> String {
     let is_probability = |poe: f64| asked_return_period(poe, years).is_none();
-    let behind = format!(" in {years} years");
+    let behind = in_years(years);
     // behind all of them at once where none is a return period
     if poes.iter().all(|&poe| is_probability(poe)) {
         return poes.iter().map(|&poe| risk_name(poe, years)).collect::<Vec<_>>().join(between) + &behind;
@@ -65,7 +70,7 @@ pub fn risks_in_words(poes: &[f64], years: f64, between: &str) -> String {
 /// where all are return periods.
 pub fn kind_of_risks(poes: &[f64], years: f64) -> Option<String> {
     let is_probability = |&poe: &f64| asked_return_period(poe, years).is_none();
-    poes.iter().any(is_probability).then(|| format!("probabilities in {years} years"))
+    poes.iter().any(is_probability).then(|| format!("probabilities{}", in_years(years)))
 }
 
 /// The return period that a probability stands for, years, where it is a round number and the probability is none.

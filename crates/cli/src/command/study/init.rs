@@ -6,7 +6,7 @@ use clap::Args;
 use uplift::init::init as write;
 
 use crate::error::CommandError;
-use crate::show::{print_files, shown_path};
+use crate::show::{print_files, typed_path};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -21,7 +21,7 @@ pub(crate) fn init(arguments: &InitArguments, terminal: &Terminal) -> Result<(),
     let files = write(&arguments.folder)?;
     print_files(&files, terminal)?;
     if let Some(study) = files.first() {
-        terminal.say(&format!("Next: uplift run {}", shown_path(study).display()));
+        terminal.say(&format!("Next: uplift run {}", typed_path(study)));
     }
     Ok(())
 }
