@@ -56,9 +56,7 @@ fn fragility(report: &OverturningReport) -> Vec<Column> {
 
 /// A row a site, measure and model.
 fn risk(report: &OverturningReport) -> Vec<Column> {
-    let sites = report.overturning.first().map_or(0, |found| found.sites.len());
-    let of_site = |place: usize| report.overturning.iter().map(move |found| (&found.sites[place], found, place));
-    let rows: Vec<(&SiteRisk, &CollapseReport, usize)> = (0..sites).flat_map(of_site).collect();
+    let rows: Vec<(&SiteRisk, &CollapseReport, usize)> = report.by_site().collect();
     let mut columns = ColumnsOf::new(rows.iter().copied())
         .with("site", |(site, ..)| site.site.as_str())
         .with("im", |(_, found, _)| found.im)

@@ -269,10 +269,7 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
 /// How often each model of a frame passes its limit.
 fn print_beyond_limit(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
     let Some(limit) = report.limit else { return Ok(()) };
-    let sites = report.overturning.first().map_or(0, |found| found.sites.len());
-    let of_site = |place: usize| report.overturning.iter().map(move |found| (found, &found.sites[place]));
-    let all = (0..sites).flat_map(of_site);
-    let rows = all.filter_map(|(found, site)| Some((found, site, site.beyond_limit.as_ref()?)));
+    let rows = report.by_site().filter_map(|(site, found, _)| Some((found, site, site.beyond_limit.as_ref()?)));
     let table = Table::of(rows)
         .left("site", |(_, site, _)| &site.site)
         .left("im", |(found, ..)| found.im)

@@ -49,6 +49,12 @@ pub struct OverturningReport {
 }
 
 impl OverturningReport {
+    /// The risks site by site, each with its measure and model and the position of the site.
+    pub fn by_site(&self) -> impl Iterator<Item = (&SiteRisk, &CollapseReport, usize)> {
+        let sites = self.overturning.first().map_or(0, |found| found.sites.len());
+        (0..sites).flat_map(|place| self.overturning.iter().map(move |found| (&found.sites[place], found, place)))
+    }
+
     /// The limit, where passing it and not overturning tells how often the frame fails.
     pub fn governing_limit(&self) -> Option<FrameLimit> {
         let governs = |of: &SiteRisk| of.beyond_limit.is_some_and(|limit| limit.governs(&of.risk));
