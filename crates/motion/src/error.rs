@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::recording::RecordFormat;
+use crate::unit::AccelerationUnit;
 
 /// Why a file cannot be read, without the number that the operating system has for it.
 fn unreadable_because(error: &std::io::Error) -> String {
@@ -199,7 +200,10 @@ pub enum MotionError {
         text: String,
     },
     /// The head names a unit that is not known.
-    #[error("{name}, line {line}: unknown acceleration unit in \"{text}\"; known units: {accepted}")]
+    #[error(
+        "{name}, line {line}: unknown acceleration unit in \"{text}\"; known units: {}",
+        AccelerationUnit::ACCEPTED
+    )]
     HeaderUnit {
         /// The file.
         name: String,
@@ -207,8 +211,6 @@ pub enum MotionError {
         line: usize,
         /// The line's text.
         text: String,
-        /// The accepted words.
-        accepted: &'static str,
     },
     /// The values are counts of a recorder, and the head does not say what one count is.
     #[error(
@@ -224,12 +226,13 @@ pub enum MotionError {
         text: String,
     },
     /// Neither the file nor the caller says the unit.
-    #[error("{name}: the file does not say its unit of acceleration; give the unit, one of: {accepted}")]
+    #[error(
+        "{name}: the file does not say its unit of acceleration; give the unit, one of: {}",
+        AccelerationUnit::ACCEPTED
+    )]
     MissingUnit {
         /// The file.
         name: String,
-        /// The accepted words.
-        accepted: &'static str,
     },
     /// Neither the file nor the caller says the time step.
     #[error(

@@ -14,21 +14,12 @@ impl Accelerogram {
     /// At the samples the integral is exact for an acceleration that is linear between them;
     /// the measure does not look for a larger value between two samples.
     pub fn pgv_m_s(&self) -> f64 {
-        let mut velocity_m_s = 0.0;
-        largest_magnitude(self.intervals().map(|(a0, a1)| {
-            velocity_m_s += 0.5 * self.dt_s() * (a0 + a1);
-            velocity_m_s
-        }))
+        largest_magnitude(self.velocity_m_s().into_iter())
     }
 
     /// Ground velocity at every sample \[m/s\], from rest; what [`Accelerogram::pgv_m_s`] is the peak of.
     pub fn velocity_m_s(&self) -> Vec<f64> {
-        let mut velocity_m_s = 0.0;
-        let later = self.intervals().map(|(a0, a1)| {
-            velocity_m_s += 0.5 * self.dt_s() * (a0 + a1);
-            velocity_m_s
-        });
-        std::iter::once(0.0).chain(later).collect()
+        integral(self.acceleration_m_s2(), self.dt_s())
     }
 
     /// Ground velocity at the last sample \[m/s\]: that of a record with a sound baseline is small
@@ -66,8 +57,18 @@ impl Accelerogram {
     }
 }
 
-fn largest_magnitude(values: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn largest_magnitude(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |largest, value| value.abs().max(largest))
+}
+
+/// Integral of a signal, linear between its samples, from the first to every sample.
+pub(crate) fn integral(signal: &[f64], dt_s: f64) -> Vec<f64> {
+    let mut sum = 0.0;
+    let steps = signal.windows(2).map(|ends| {
+        sum += 0.5 * dt_s * (ends[0] + ends[1]);
+        sum
+    });
+    std::iter::once(0.0).chain(steps).collect()
 }
 
 /// Real roots of c0 + c1 s + c2 s², without cancellation; NaN or infinite where there is none.

@@ -59,6 +59,7 @@ mod wavelet;
 
 use crate::accelerogram::Accelerogram;
 use crate::error::MotionError;
+use crate::peaks::{integral, largest_magnitude};
 use extract::extract;
 use search::{Peak, Scalogram};
 use transform::Resolution;
@@ -174,7 +175,7 @@ fn classify_at(
 
 /// Velocity at the first `count` samples \[m/s\], from rest.
 fn velocity_m_s(motion: &Accelerogram, count: usize) -> Vec<f64> {
-    transform::integral(&motion.acceleration_m_s2()[..count], motion.dt_s())
+    integral(&motion.acceleration_m_s2()[..count], motion.dt_s())
 }
 
 /// Takes the pulse at `peak` out and judges it.
@@ -186,8 +187,8 @@ fn analyse(velocities: &[Vec<f64>; 2], dt_s: f64, peak: &Peak, resolution: Resol
     let turned: Vec<f64> = turned.collect();
     let extraction = extract(&turned, dt_s, peak, resolution);
 
-    let peak_velocity_m_s = peak_of(&turned);
-    let pgv_ratio = peak_of(&extraction.residual) / peak_velocity_m_s;
+    let peak_velocity_m_s = largest_magnitude(turned.iter().copied());
+    let pgv_ratio = largest_magnitude(extraction.residual.iter().copied()) / peak_velocity_m_s;
     let energy_ratio = energy(&extraction.residual) / energy(&turned);
     let indicator = indicator(pgv_ratio, energy_ratio, 100.0 * peak_velocity_m_s);
     let late = is_late(&turned, &extraction.residual);
@@ -208,10 +209,6 @@ fn analyse(velocities: &[Vec<f64>; 2], dt_s: f64, peak: &Peak, resolution: Resol
 fn indicator(pgv_ratio: f64, energy_ratio: f64, pgv_cm_s: f64) -> f64 {
     let pc = 0.63 * pgv_ratio + 0.777 * energy_ratio;
     9.384 * (0.76 - pc - 0.0616 * pgv_cm_s) * (pc + 6.914e-4 * pgv_cm_s - 1.072) - 6.179
-}
-
-fn peak_of(signal: &[f64]) -> f64 {
-    signal.iter().fold(0.0, |largest, value| value.abs().max(largest))
 }
 
 fn energy(signal: &[f64]) -> f64 {

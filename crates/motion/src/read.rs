@@ -53,6 +53,11 @@ impl Default for ReadOptions {
 }
 
 impl ReadOptions {
+    /// The unit that is `stated`, else the caller's; `name` is the file.
+    fn unit_or(&self, stated: Option<AccelerationUnit>, name: &str) -> Result<AccelerationUnit, MotionError> {
+        stated.or(self.unit).ok_or_else(|| MotionError::MissingUnit { name: name.to_owned() })
+    }
+
     /// The accelerogram of `values` in `unit`; `name` is the file.
     fn accelerogram(
         &self,

@@ -11,7 +11,7 @@ use uplift_motion::{
     Accelerogram, IntensityMeasure, ReadOptions, RecordPair, STANDARD_GRAVITY_M_S2, read_at2, read_path,
 };
 
-fn records_folder() -> Option<PathBuf> {
+pub(crate) fn records_folder() -> Option<PathBuf> {
     let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/records");
     let folder = std::env::var_os("UPLIFT_RECORDS").map_or_else(|| beside.into(), PathBuf::from);
     folder.join("manifest.csv").is_file().then_some(folder)
@@ -33,7 +33,7 @@ fn cells(line: &str) -> Vec<String> {
     cells
 }
 
-fn rows(text: &str) -> Vec<BTreeMap<String, String>> {
+pub(crate) fn rows(text: &str) -> Vec<BTreeMap<String, String>> {
     let mut lines = text.lines();
     let names = cells(lines.next().unwrap());
     lines

@@ -9,6 +9,7 @@ use std::io::Write;
 use std::time::Instant;
 
 use flate2::{Compression, write::GzEncoder};
+use proptest::prelude::*;
 use uplift_motion::{
     AccelerationUnit, MotionError, ReadOptions, RecordFile, RecordFormat, read_auto, read_record, read_record_file,
 };
@@ -120,6 +121,49 @@ fn damaged_gives_an_answer(format: RecordFormat, bytes: &[u8], last: &str) {
             let _ = read(&damaged);
             let options = ReadOptions { format: Some(format), ..ReadOptions::default() };
             check(&read_record(&damaged, "the file", &options), bytes.len());
+        }
+    }
+}
+
+proptest! {
+    /// A sample with bytes changed, put in and taken out; any bytes and any text by themselves, and within a sample.
+    #[test]
+    fn any_bytes_give_an_answer(
+        (_, sample, _) in prop::sample::select(SAMPLES.to_vec()),
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..3_u8), 1..8),
+        bytes in prop::collection::vec(any::<u8>(), 0..400),
+        text in "[-+0-9.eEdD,;()=|< \\t\\n%#a-zA-Zé]{0,200}",
+        at in any::<prop::sample::Index>(),
+    ) {
+        let mut changed = sample.to_vec();
+        for (index, byte, change) in changes {
+            let at = index.index(changed.len());
+            match change {
+                0 => changed[at] = byte,
+                1 => changed.insert(at, byte),
+                _ => { changed.remove(at); }
+            }
+        }
+        let (begin, end) = sample.split_at(at.index(sample.len()));
+        let [one, other] = [&bytes[..], text.as_bytes()].map(|middle| [begin, middle, end].concat());
+        for damaged in [&changed[..], &bytes, text.as_bytes(), &one, &other] {
+            for options in all_options() {
+                check(&read_record(damaged, "the file", &options), damaged.len());
+            }
+        }
+    }
+}
+
+#[test]
+fn long_nonsense_is_answered_briefly_and_soon() {
+    let pieces = "1-123|1.-123|1,|-|x|0.1 |1e5.|.|units |acc |dt = |time step |KEY: value\n|Memo\n|acc units\n|é";
+    for piece in pieces.split('|') {
+        let nonsense = piece.repeat(500_000 / piece.len()).into_bytes();
+        for options in all_options() {
+            check(&read_record(&nonsense, "the file", &options), nonsense.len());
+        }
+        for (_, sample, _) in SAMPLES {
+            let _ = (read(&[&nonsense[..], sample].concat()), read(&[sample, &nonsense].concat()));
         }
     }
 }

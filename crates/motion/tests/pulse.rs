@@ -6,13 +6,14 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
-use std::path::PathBuf;
 use std::time::Instant;
 
 use proptest::prelude::*;
 use uplift_motion::{
     Accelerogram, MotionError, PulseClassification, ReadOptions, classify_pulse, may_be_pulse_like, read_path,
 };
+
+use crate::golden::{records_folder, rows};
 
 /// Numbers that look independent and uniform in [-1, 1): `SplitMix64`.
 fn noise(seed: u64) -> impl FnMut() -> f64 {
@@ -52,6 +53,10 @@ struct Made {
     noise_m_s: f64,
     seed: u64,
 }
+
+/// A strong pulse, without noise.
+const STRONG: Made =
+    Made { dt_s: 0.01, amplitude_m_s: 1.0, period_s: 2.0, phase: 0.5, orientation_deg: 70.0, noise_m_s: 0.0, seed: 1 };
 
 impl Made {
     fn velocities(&self) -> [Vec<f64>; 2] {
@@ -141,15 +146,7 @@ proptest! {
 
 #[test]
 fn the_same_pulse_is_no_pulse_when_it_is_weak_or_late() {
-    let made = Made {
-        dt_s: 0.01,
-        amplitude_m_s: 1.0,
-        period_s: 2.0,
-        phase: 0.5,
-        orientation_deg: 70.0,
-        noise_m_s: 0.0,
-        seed: 1,
-    };
+    let made = STRONG;
     let strong = made.classified();
     assert!(strong.is_pulse_like, "{strong:?}");
     assert_eq!(strong, made.classified());
@@ -215,15 +212,7 @@ fn a_pair_without_motion_and_pairs_beyond_physics() {
 
 #[test]
 fn lengths_may_differ_and_time_steps_may_not() {
-    let made = Made {
-        dt_s: 0.01,
-        amplitude_m_s: 1.0,
-        period_s: 2.0,
-        phase: 0.0,
-        orientation_deg: 30.0,
-        noise_m_s: 0.1,
-        seed: 3,
-    };
+    let made = Made { phase: 0.0, orientation_deg: 30.0, noise_m_s: 0.1, seed: 3, ..STRONG };
     let [h1, long] = made.velocities().map(|velocity| with_velocity(0.01, &velocity));
     let samples = |motion: &Accelerogram| motion.acceleration_m_s2()[..3000].to_vec();
     let short = [&h1, &long].map(|motion| Accelerogram::new(0.01, samples(motion)).unwrap());
@@ -281,28 +270,20 @@ struct Real {
     found: PulseClassification,
 }
 
-/// Every pair of the manifest, classified; the fields used hold no commas in quotes before them.
+/// Every pair of the manifest, classified.
 fn real_records() -> Option<Vec<Real>> {
-    let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/records");
-    let folder = std::env::var_os("UPLIFT_RECORDS").map_or_else(|| beside.into(), PathBuf::from);
-    let manifest = std::fs::read_to_string(folder.join("manifest.csv")).ok()?;
-    let known = ["ord105", "ff", "nf", "nfp"];
+    let folder = records_folder()?;
+    let manifest = std::fs::read_to_string(folder.join("manifest.csv")).unwrap();
     let mut seconds = 0.0;
-    let mut record = |line: &str| {
-        let cells: Vec<&str> = line.split(',').collect();
-        let mut motions = cells
-            .iter()
-            .filter(|cell| cell.contains(".AT2"))
-            .map(|file| read_path(&folder.join(file), &ReadOptions::default()).unwrap());
-        let [h1, h2] = [motions.next().unwrap(), motions.next().unwrap()];
-        let tags = cells.iter().find(|cell| !cell.is_empty() && cell.split(' ').all(|word| known.contains(&word)));
-        let tags = tags.unwrap().split(' ').map(str::to_owned).collect();
+    let record = |row: BTreeMap<String, String>| {
+        let read = |file: &str| read_path(&folder.join(&row[file]), &ReadOptions::default()).unwrap();
+        let [h1, h2] = ["file_h1", "file_h2"].map(read);
         let start = Instant::now();
         let found = classify_pulse(&h1, &h2).unwrap();
         seconds += start.elapsed().as_secs_f64();
-        Real { rsn: cells[1].parse().unwrap(), tags, found }
+        Real { rsn: row["rsn"].parse().unwrap(), tags: row["set_tags"].split(' ').map(str::to_owned).collect(), found }
     };
-    let records: Vec<Real> = manifest.lines().skip(1).map(&mut record).collect();
+    let records: Vec<Real> = rows(&manifest).into_iter().map(record).collect();
     println!("{:.1} ms a pair", 1e3 * seconds / records.len() as f64);
     Some(records)
 }

@@ -1,8 +1,9 @@
 //! The pulse around a wavelet: ten wavelets of one scale, taken out of the velocity one by one.
 
 use super::search::{NEIGHBOURHOOD, Peak};
-use super::transform::{Blocks, Kernel, Resolution, integral};
+use super::transform::{Blocks, Kernel, Resolution};
 use super::wavelet;
+use crate::peaks::integral;
 
 /// Number of wavelets that make a pulse.
 const WAVELETS: usize = 10;
@@ -85,16 +86,13 @@ fn subtract(signal: &mut [f64], dt_s: f64, coefficient: f64, centre_s: f64, scal
 
 #[cfg(test)]
 mod tests {
+    use super::super::energy;
     use super::*;
 
     const DT_S: f64 = 0.005;
 
     fn peak(centre_s: f64, low: f64, high: f64) -> Peak {
         Peak { centre_s, scales_s: [low, high], coefficients: [1.0, 0.0] }
-    }
-
-    fn energy(signal: &[f64]) -> f64 {
-        signal.iter().map(|v| v * v).sum()
     }
 
     #[test]

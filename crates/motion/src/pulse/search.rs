@@ -1,7 +1,8 @@
 //! Where the potential pulses of a pair are: time, scale and orientation of its strongest wavelets.
 
-use super::transform::{Blocks, FINEST, Kernel, Resolution, integral};
+use super::transform::{Blocks, FINEST, Kernel, Resolution};
 use super::wavelet;
+use crate::peaks::integral;
 
 /// Shortest and longest pseudo-period searched \[s\].
 const PERIODS_S: [f64; 2] = [0.25, 15.0];

@@ -46,16 +46,6 @@ impl Blocks {
     }
 }
 
-/// Integral of a signal, linear between its samples, from the first to every sample.
-pub(super) fn integral(signal: &[f64], dt_s: f64) -> Vec<f64> {
-    let mut sum = 0.0;
-    let steps = signal.windows(2).map(|ends| {
-        sum += 0.5 * dt_s * (ends[0] + ends[1]);
-        sum
-    });
-    std::iter::once(0.0).chain(steps).collect()
-}
-
 /// The wavelet of one scale as its integrals over blocks, times a^(−1/2).
 pub(super) struct Kernel {
     /// The block in which the wavelet starts; before the first block where negative.
@@ -113,6 +103,7 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::peaks::integral;
     use proptest::prelude::*;
 
     #[test]

@@ -59,13 +59,9 @@ pub struct At2Record {
 /// [`MotionError::InFile`] where they make no [`Accelerogram`], [`MotionError::Gravity`].
 pub fn read_at2(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<At2Record, MotionError> {
     let text = decode(bytes);
-    let header = parse_header(&text, name)?;
-    let unit = header
-        .unit
-        .or(options.unit)
-        .ok_or_else(|| MotionError::MissingUnit { name: name.to_owned(), accepted: AccelerationUnit::ACCEPTED })?;
-
     let source = Source { name, format: RecordFormat::At2 };
+    let header = parse_header(&text, source)?;
+    let unit = options.unit_or(header.unit, name)?;
     let values = source.all_numbers(&text, header.lines.len(), header.point_count)?;
     let accelerogram = options.accelerogram(name, header.dt_s, unit, values)?;
     Ok(At2Record { header, accelerogram })
@@ -113,29 +109,29 @@ fn is_point_line(line: &str) -> bool {
     find_word(line, "NPTS").is_some() && find_word(line, "DT").is_some()
 }
 
-fn parse_header(text: &str, name: &str) -> Result<At2Header, MotionError> {
+fn parse_header(text: &str, source: Source) -> Result<At2Header, MotionError> {
     let mut lines = Vec::new();
     let mut unit = None;
     for (index, line) in text.lines().take(LONGEST_HEAD).enumerate() {
         lines.push(line.trim().to_owned());
         if is_point_line(line) {
-            let (point_count, dt_s) = parse_point_line(line, name, index + 1)?;
+            let (point_count, dt_s) = parse_point_line(line, source, index + 1)?;
             return Ok(At2Header { lines, unit, point_count, dt_s });
         }
         // The title above may mention anything.
         if index > 0 && find_word(line, "UNITS").is_some() {
-            unit = Some(parse_unit_line(line, name, index + 1)?);
+            unit = Some(parse_unit_line(line, source, index + 1)?);
         }
     }
-    Err(MotionError::NoPointCount { name: name.to_owned(), searched: LONGEST_HEAD })
+    Err(MotionError::NoPointCount { name: source.name.to_owned(), searched: LONGEST_HEAD })
 }
 
 /// "ACCELERATION TIME SERIES IN UNITS OF G" and its like.
-fn parse_unit_line(line: &str, name: &str, number: usize) -> Result<AccelerationUnit, MotionError> {
+fn parse_unit_line(line: &str, source: Source, number: usize) -> Result<AccelerationUnit, MotionError> {
     let upper = line.to_ascii_uppercase();
     let other = ["VELOCITY", "DISPLACEMENT", "SPECTR"];
     if !upper.contains("ACC") && other.iter().any(|quantity| upper.contains(quantity)) {
-        return Err(MotionError::NotAcceleration { name: name.to_owned(), line: number, text: excerpt(line) });
+        return Err(MotionError::NotAcceleration { name: source.name.to_owned(), line: number, text: excerpt(line) });
     }
     let after = find_word(line, "UNITS").map_or("", |end| &line[end..]);
     after
@@ -143,23 +139,12 @@ fn parse_unit_line(line: &str, name: &str, number: usize) -> Result<Acceleration
         .map(|word| word.trim_end_matches('.'))
         .find(|word| !word.is_empty() && !word.eq_ignore_ascii_case("of"))
         .and_then(|word| word.parse().ok())
-        .ok_or_else(|| MotionError::HeaderUnit {
-            name: name.to_owned(),
-            line: number,
-            text: excerpt(line),
-            accepted: AccelerationUnit::ACCEPTED,
-        })
+        .ok_or_else(|| source.unknown_unit(number, line))
 }
 
 /// Number of points and time step \[s\].
-fn parse_point_line(line: &str, name: &str, number: usize) -> Result<(u64, f64), MotionError> {
-    let unreadable = |key| MotionError::HeaderValue {
-        name: name.to_owned(),
-        line: number,
-        key,
-        text: excerpt(line),
-        expected: "NPTS= 4000, DT= .0050 SEC",
-    };
+fn parse_point_line(line: &str, source: Source, number: usize) -> Result<(u64, f64), MotionError> {
+    let unreadable = |key| source.unreadable(number, key, line, "NPTS= 4000, DT= .0050 SEC");
     let (point_count, dt_s) = if let Some(assigned) = assigned_value(line, "NPTS") {
         (Some(assigned), assigned_value(line, "DT"))
     } else {

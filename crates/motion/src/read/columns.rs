@@ -4,12 +4,12 @@ mod head;
 
 use head::Head;
 
+use super::head::Source;
 use super::number::{parse_number, why_no_number};
-use super::{ReadOptions, decode, excerpt};
+use super::{ReadOptions, decode};
 use crate::accelerogram::Accelerogram;
 use crate::error::MotionError;
-use crate::recording::{Recording, RecordingDescription};
-use crate::unit::AccelerationUnit;
+use crate::recording::{RecordFormat, Recording, RecordingDescription};
 
 const DECIMAL_COMMA: &str = " (is a comma a decimal mark? Write a point)";
 
@@ -34,7 +34,7 @@ const DECIMAL_COMMA: &str = " (is a comma a decimal mark? Write a point)";
 /// [`MotionError::ColumnCount`], [`MotionError::UnevenTime`], [`MotionError::Gravity`], and
 /// [`MotionError::InFile`] where the values make no [`Accelerogram`].
 pub fn read_columns(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Accelerogram, MotionError> {
-    let mut table = Table::parse(&decode(bytes), name)?;
+    let mut table = Table::parse(&decode(bytes), Source { name, format: RecordFormat::Columns })?;
     let unit = table.head.unit()?;
     let dt_s = match &table.times {
         Some(times) => uniform_step_s(times, table.decimal_comma_hint, name)?,
@@ -42,10 +42,7 @@ pub fn read_columns(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<A
             table.head.dt_s().or(options.dt_s).ok_or_else(|| MotionError::MissingTimeStep { name: name.to_owned() })?
         }
     };
-    let unit = unit
-        .or(options.unit)
-        .ok_or_else(|| MotionError::MissingUnit { name: name.to_owned(), accepted: AccelerationUnit::ACCEPTED })?;
-    options.accelerogram(name, dt_s, unit, table.accelerations)
+    options.accelerogram(name, dt_s, options.unit_or(unit, name)?, table.accelerations)
 }
 
 /// Reads columns; they say nothing of earthquake and station.
@@ -73,7 +70,7 @@ struct Table {
 }
 
 impl Table {
-    fn parse(text: &str, name: &str) -> Result<Self, MotionError> {
+    fn parse(text: &str, source: Source) -> Result<Self, MotionError> {
         let mut times = Vec::new();
         let mut accelerations = Vec::new();
         let mut head = Head::default();
@@ -83,11 +80,11 @@ impl Table {
             let above = accelerations.is_empty();
             if comment || (above && is_head(content)) {
                 if above {
-                    head.note(name, index + 1, content)?;
+                    head.note(source, index + 1, content)?;
                 }
                 continue;
             }
-            let row = parse_row(content, name, index + 1)?;
+            let row = parse_row(content, source, index + 1)?;
             let first = accelerations.is_empty();
             let two_columns = first || !times.is_empty();
             let (acceleration, time) = match row {
@@ -95,7 +92,7 @@ impl Table {
                 Row::Two(time_s, acceleration) if two_columns => (acceleration, Some(time_s)),
                 _ => {
                     return Err(MotionError::ColumnCount {
-                        name: name.to_owned(),
+                        name: source.name.to_owned(),
                         line: index + 1,
                         found: if two_columns { 1 } else { 2 },
                         expected: if two_columns { "2 as above" } else { "1 as above" },
@@ -152,15 +149,8 @@ fn comma_hint(text: &str) -> &'static str {
     if text.contains(',') { DECIMAL_COMMA } else { "" }
 }
 
-fn parse_row(content: &str, name: &str, line: usize) -> Result<Row, MotionError> {
-    let number = |token: &str| {
-        parse_number(token).ok_or_else(|| MotionError::Number {
-            name: name.to_owned(),
-            line,
-            token: excerpt(token),
-            reason: why_no_number(token),
-        })
-    };
+fn parse_row(content: &str, source: Source, line: usize) -> Result<Row, MotionError> {
+    let number = |token: &str| parse_number(token).ok_or_else(|| source.no_number(line, token, why_no_number(token)));
     // One comma or semicolon may end the line; two in a row leave a cell empty.
     let content = content.strip_suffix([',', ';']).unwrap_or(content);
     let (mut columns, mut count) = ([""; 2], 0);
@@ -173,19 +163,14 @@ fn parse_row(content: &str, name: &str, line: usize) -> Result<Row, MotionError>
             count += 1;
         }
         if count == count_before {
-            return Err(MotionError::Number {
-                name: name.to_owned(),
-                line,
-                token: String::new(),
-                reason: "is an empty cell",
-            });
+            return Err(source.no_number(line, "", "is an empty cell"));
         }
     }
     match count {
         1 => Ok(Row::One(number(columns[0])?)),
         2 => Ok(Row::Two(number(columns[0])?, number(columns[1])?)),
         _ => Err(MotionError::ColumnCount {
-            name: name.to_owned(),
+            name: source.name.to_owned(),
             line,
             found: count,
             expected: "1 (acceleration) or 2 (time, acceleration)",
@@ -223,6 +208,7 @@ fn uniform_step_s(times: &[Time], hint: &'static str, name: &str) -> Result<f64,
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::unit::AccelerationUnit;
 
     fn read(text: &str, dt_s: Option<f64>) -> Result<Accelerogram, MotionError> {
         let options = ReadOptions { dt_s, unit: Some(AccelerationUnit::CmPerS2), ..ReadOptions::default() };

@@ -133,16 +133,8 @@ impl<'a> DataLine<'a> {
             // The peak in counts holds the offset of the recorder.
             Unit::Counts => (self.scale_of_counts(source, head, number)?, None),
         };
-        let mut values = read_block(source, lines, Format::find(self.line), self.point_count, 1)?;
-        if unit.factor != 1.0 {
-            for value in &mut values {
-                *value *= unit.factor;
-            }
-        }
-        let accelerogram = options.accelerogram(source.name, dt_s, unit.unit, values)?;
-        let mut description = head.describe();
-        description.stated_pga_m_s2 = stated.map(|(value, unit)| unit.to_m_s2(value, options).abs());
-        Ok(Recording { accelerogram, description })
+        let values = read_block(source, lines, Format::find(self.line), self.point_count, 1)?;
+        unit.recording((source.name, options), dt_s, values, head.describe(), stated)
     }
 
     /// The time step: real-header value 62 in milliseconds, else the rate on this line. It must make
@@ -170,12 +162,7 @@ impl<'a> DataLine<'a> {
 
     /// The unit by name and by code (table 2 of the format), which may not contradict each other.
     fn unit(&self, source: Source, options: &ReadOptions, head: &Head, number: usize) -> Result<Unit, MotionError> {
-        let unknown = || MotionError::HeaderUnit {
-            name: source.name.to_owned(),
-            line: number,
-            text: excerpt(self.line),
-            accepted: AccelerationUnit::ACCEPTED,
-        };
+        let unknown = || source.unknown_unit(number, self.line);
         let text = after(self.rest, "units").unwrap_or("");
         let text = text.trim_start_matches(|c: char| c.is_whitespace() || c == '=' || c == ':');
         let word = text.split(['(', ',']).next().unwrap_or("").trim();
@@ -194,11 +181,7 @@ impl<'a> DataLine<'a> {
             }
             (Some(unit), _) | (None, Some(unit)) => Ok(unit),
             (None, None) if code.is_some() => Err(unknown()),
-            (None, None) => {
-                options.unit.map(|unit| Unit::Acceleration(FileUnit { unit, factor: 1.0 })).ok_or_else(|| {
-                    MotionError::MissingUnit { name: source.name.to_owned(), accepted: AccelerationUnit::ACCEPTED }
-                })
-            }
+            (None, None) => Ok(Unit::Acceleration(FileUnit { unit: options.unit_or(None, source.name)?, factor: 1.0 })),
         }
     }
 

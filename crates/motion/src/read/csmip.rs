@@ -17,10 +17,9 @@ use head::Head;
 use super::fortran::{Format, NumberedLines, read_block};
 use super::head::Source;
 use super::volume::{FileUnit, after, has, leading_count, leading_number};
-use super::{ReadOptions, decode, excerpt};
+use super::{ReadOptions, decode};
 use crate::error::MotionError;
 use crate::recording::{RecordFormat, Recording};
-use crate::unit::AccelerationUnit;
 
 /// Whether the beginning of a file has one of the titles.
 pub(super) fn looks_like(head: &str) -> bool {
@@ -120,11 +119,11 @@ impl<'a> DataLine<'a> {
         let says_unit = has(self.rest, "unit") || has(self.rest, " in ");
         let unit = match FileUnit::find(self.rest) {
             Some(unit) => unit,
-            None if says_unit => return Err(unknown_unit(source, number, self.line)),
+            None if says_unit => return Err(source.unknown_unit(number, self.line)),
             None => head.unit_or(source, options)?,
         };
         let values = read_block(source, lines, Format::find(self.line), self.point_count, 1)?;
-        recording(source, options, head, dt_s, unit, values)
+        unit.recording((source.name, options), dt_s, values, head.describe(), head.stated_peak())
     }
 }
 
@@ -159,35 +158,7 @@ fn component_of_pairs(
         });
     }
     let values = pairs.iter().map(|&[_, value]| value).collect();
-    recording(source, options, head, dt_s, unit, values)
-}
-
-fn recording(
-    source: Source,
-    options: &ReadOptions,
-    head: &Head,
-    dt_s: f64,
-    unit: FileUnit,
-    mut values: Vec<f64>,
-) -> Result<Recording, MotionError> {
-    if unit.factor != 1.0 {
-        for value in &mut values {
-            *value *= unit.factor;
-        }
-    }
-    let accelerogram = options.accelerogram(source.name, dt_s, unit.unit, values)?;
-    let mut description = head.describe();
-    description.stated_pga_m_s2 = head.stated_peak().map(|(value, unit)| unit.to_m_s2(value, options).abs());
-    Ok(Recording { accelerogram, description })
-}
-
-fn unknown_unit(source: Source, line: usize, text: &str) -> MotionError {
-    MotionError::HeaderUnit {
-        name: source.name.to_owned(),
-        line,
-        text: excerpt(text),
-        accepted: AccelerationUnit::ACCEPTED,
-    }
+    unit.recording((source.name, options), dt_s, values, head.describe(), head.stated_peak())
 }
 
 #[cfg(test)]

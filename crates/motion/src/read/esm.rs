@@ -49,7 +49,7 @@ pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Re
         .ok_or_else(|| source.unreadable(line, "SAMPLING_INTERVAL_S", step, "SAMPLING_INTERVAL_S: 0.005000"))?;
     let (line, count) = head.entry("NDATA").ok_or_else(|| source.lacks("NDATA"))?;
     let point_count = count.parse().map_err(|_| source.unreadable(line, "NDATA", count, "NDATA: 19128"))?;
-    let unit = head.unit(name, options)?;
+    let unit = head.unit(source, options)?;
 
     let values = source.all_numbers(&text, head.line_count, point_count)?;
     let accelerogram = options.accelerogram(name, dt_s, unit, values)?;
@@ -107,17 +107,13 @@ impl<'a> Head<'a> {
         Err(MotionError::NoAcceleration { name: name.to_owned(), format: RecordFormat::Esm, found })
     }
 
-    fn unit(&self, name: &str, options: &ReadOptions) -> Result<AccelerationUnit, MotionError> {
-        let accepted = AccelerationUnit::ACCEPTED;
-        let Some((line, word)) = self.entry("UNITS") else {
-            return options.unit.ok_or_else(|| MotionError::MissingUnit { name: name.to_owned(), accepted });
-        };
+    fn unit(&self, source: Source, options: &ReadOptions) -> Result<AccelerationUnit, MotionError> {
+        let Some((line, word)) = self.entry("UNITS") else { return options.unit_or(None, source.name) };
         word.parse().map_err(|_| {
-            let (name, text) = (name.to_owned(), excerpt(word));
             if ["cm/s", "m/s", "cm", "m"].contains(&word.to_lowercase().as_str()) {
-                MotionError::NotAcceleration { name, line, text }
+                MotionError::NotAcceleration { name: source.name.to_owned(), line, text: excerpt(word) }
             } else {
-                MotionError::HeaderUnit { name, line, text, accepted }
+                source.unknown_unit(line, word)
             }
         })
     }

@@ -6,7 +6,6 @@
 use std::iter::{Enumerate, Peekable};
 use std::str::Lines;
 
-use super::excerpt;
 use super::head::Source;
 use super::number::parse_number;
 use crate::error::MotionError;
@@ -166,12 +165,7 @@ fn read_line(
             return Ok(());
         }
         if let Some(token) = format.without_point(line) {
-            return Err(MotionError::Number {
-                name: source.name.to_owned(),
-                line: number,
-                token: excerpt(token),
-                reason: "has no decimal point, though the declared format has one",
-            });
+            return Err(source.no_number(number, token, "has no decimal point, though the declared format has one"));
         }
     }
     source.numbers(number, line, values)

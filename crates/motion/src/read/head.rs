@@ -36,14 +36,19 @@ impl Source<'_> {
         MotionError::HeaderValue { name: self.name.to_owned(), line, key, text: excerpt(text), expected }
     }
 
+    /// The unit that `text` on `line` (counted from one) names is not known.
+    pub(super) fn unknown_unit(&self, line: usize, text: &str) -> MotionError {
+        MotionError::HeaderUnit { name: self.name.to_owned(), line, text: excerpt(text) }
+    }
+
+    /// `token` on `line` (counted from one) is no number, for this reason.
+    pub(super) fn no_number(&self, line: usize, token: &str, reason: &'static str) -> MotionError {
+        MotionError::Number { name: self.name.to_owned(), line, token: excerpt(token), reason }
+    }
+
     /// Appends the numbers of `text` on `line` (counted from one).
     pub(super) fn numbers(&self, line: usize, text: &str, values: &mut Vec<f64>) -> Result<(), MotionError> {
-        numbers_of_line(text, values).map_err(|token| MotionError::Number {
-            name: self.name.to_owned(),
-            line,
-            token: excerpt(token),
-            reason: why_no_number(token),
-        })
+        numbers_of_line(text, values).map_err(|token| self.no_number(line, token, why_no_number(token)))
     }
 
     /// The numbers of `text` below the `head` lines, of which there must be as many as `declared`.

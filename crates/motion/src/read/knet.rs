@@ -11,7 +11,8 @@
 use super::date::moment;
 use super::head::Source;
 use super::number::parse_number;
-use super::{ReadOptions, decode, excerpt};
+use super::volume::behind;
+use super::{ReadOptions, decode};
 use crate::error::MotionError;
 use crate::recording::{Orientation, RecordFormat, Recording, RecordingDescription};
 use crate::unit::AccelerationUnit;
@@ -95,7 +96,7 @@ impl<'a> Head<'a> {
                 break;
             }
             lines.push(start.trim_end());
-            if after_name(start, "Memo").is_some() {
+            if behind(start, "Memo").is_some() {
                 break;
             }
         }
@@ -106,7 +107,7 @@ impl<'a> Head<'a> {
     fn entry(&self, name: &str) -> Option<(usize, &'a str)> {
         let mut lines = self.lines.iter().enumerate();
         lines
-            .find_map(|(index, line)| Some((index + 1, after_name(line, name)?)))
+            .find_map(|(index, line)| Some((index + 1, behind(line, name)?.trim())))
             .filter(|(_, value)| !value.is_empty())
     }
 
@@ -140,12 +141,7 @@ impl<'a> Head<'a> {
         let positive = |token: &str| parse_number(token.trim()).filter(|number| *number > 0.0);
         let factor = positive(full_scale).zip(positive(counts)).map(|(full, counts)| full / counts);
         let factor = factor.filter(|factor| factor.is_normal()).ok_or_else(unreadable)?;
-        let unit = word.parse().map_err(|_| MotionError::HeaderUnit {
-            name: source.name.to_owned(),
-            line,
-            text: excerpt(text),
-            accepted: AccelerationUnit::ACCEPTED,
-        })?;
+        let unit = word.parse().map_err(|_| source.unknown_unit(line, text))?;
         Ok((factor, unit))
     }
 
@@ -170,12 +166,6 @@ impl<'a> Head<'a> {
             ..RecordingDescription::default()
         }
     }
-}
-
-/// What follows `name` at the beginning of a line, in any case.
-fn after_name<'a>(line: &'a str, name: &str) -> Option<&'a str> {
-    let beginning = line.get(..name.len())?;
-    beginning.eq_ignore_ascii_case(name).then(|| line[name.len()..].trim())
 }
 
 /// Channel, direction and sensor of a direction code: "N-S" and its like of K-NET, 1 to 6 of KiK-net (in files

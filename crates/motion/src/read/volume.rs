@@ -4,7 +4,8 @@
 use super::ReadOptions;
 use super::date::seconds_since_1970;
 use super::number::parse_number;
-use crate::recording::Orientation;
+use crate::error::MotionError;
+use crate::recording::{Orientation, Recording, RecordingDescription};
 use crate::unit::AccelerationUnit;
 
 /// What is after `key` (in small letters) in `text`, written in any case.
@@ -12,6 +13,12 @@ pub(super) fn after<'a>(text: &'a str, key: &str) -> Option<&'a str> {
     // Small ASCII letters stand at the same places as the capital ones.
     let at = text.to_ascii_lowercase().find(key)?;
     text.get(at + key.len()..)
+}
+
+/// What is behind `key` at the beginning of `text`, written in any case.
+pub(super) fn behind<'a>(text: &'a str, key: &str) -> Option<&'a str> {
+    text.get(..key.len()).filter(|begin| begin.eq_ignore_ascii_case(key))?;
+    text.get(key.len()..)
 }
 
 /// Whether `text` has `key` (in small letters), written in any case.
@@ -79,6 +86,25 @@ impl FileUnit {
     /// `value`, in this unit, in m/s².
     pub(super) fn to_m_s2(self, value: f64, options: &ReadOptions) -> f64 {
         self.unit.to_m_s2(self.factor * value, options.gravity_m_s2)
+    }
+
+    /// The component of `values` in this unit, of the file `name`, with what its head says and the peak that it states.
+    pub(super) fn recording(
+        self,
+        (name, options): (&str, &ReadOptions),
+        dt_s: f64,
+        mut values: Vec<f64>,
+        description: RecordingDescription,
+        stated: Option<(f64, Self)>,
+    ) -> Result<Recording, MotionError> {
+        if self.factor != 1.0 {
+            for value in &mut values {
+                *value *= self.factor;
+            }
+        }
+        let accelerogram = options.accelerogram(name, dt_s, self.unit, values)?;
+        let stated_pga_m_s2 = stated.map(|(value, unit)| unit.to_m_s2(value, options).abs());
+        Ok(Recording { accelerogram, description: RecordingDescription { stated_pga_m_s2, ..description } })
     }
 }
 
@@ -157,9 +183,7 @@ pub(super) fn event_name(line: &str) -> Option<String> {
         text.get(..4).is_some_and(|begin| WEEKDAYS.iter().any(|weekday| begin.eq_ignore_ascii_case(weekday)))
     };
     let line = line.trim();
-    let rest = ["record of", "rcrd of"].into_iter().find_map(|key| {
-        line.get(..key.len()).filter(|begin| begin.eq_ignore_ascii_case(key)).and_then(|_| line.get(key.len()..))
-    });
+    let rest = ["record of", "rcrd of"].into_iter().find_map(|key| behind(line, key));
     let mut name = rest.unwrap_or(line).trim_start();
     let date = name.match_indices(" of ").find(|(at, _)| name.get(at + 4..).is_some_and(begins_with_weekday));
     if let Some((at, _)) = date {

@@ -6,6 +6,7 @@
 
 use crate::error::MotionError;
 use crate::read::excerpt;
+use crate::read::head::Source;
 use crate::read::number::parse_number;
 use crate::unit::AccelerationUnit;
 
@@ -42,12 +43,12 @@ impl Head {
         only(&self.steps_s)
     }
 
-    /// Takes note of what a line above the values says; `name` and `line` are for messages.
+    /// Takes note of what a line above the values says; `source` and `line` are for messages.
     ///
     /// # Errors
     ///
     /// [`MotionError::HeaderValue`] where a time step is not a number.
-    pub(super) fn note(&mut self, name: &str, line: usize, text: &str) -> Result<(), MotionError> {
+    pub(super) fn note(&mut self, source: Source, line: usize, text: &str) -> Result<(), MotionError> {
         if text.len() > LONGEST_LINE || line > LAST_LINE {
             return Ok(());
         }
@@ -56,23 +57,18 @@ impl Head {
         let other_subject = ["pga", "pgv", "pgd", "peak", "max", "max.", "maximum", "gravity"];
         if !words.iter().any(|word| other_subject.contains(word)) {
             for candidate in (0..words.len()).filter_map(|at| unit_at(&words, at)) {
-                let (name, text, accepted) = (name.to_owned(), excerpt(text), AccelerationUnit::ACCEPTED);
+                let (name, short) = (source.name.to_owned(), excerpt(text));
                 match candidate {
                     Unit::Acceleration(unit) => self.units.push(unit),
-                    Unit::Other => self.refusal = Some(MotionError::NotAcceleration { name, line, text }),
-                    Unit::Unknown => self.refusal = Some(MotionError::HeaderUnit { name, line, text, accepted }),
+                    Unit::Other => self.refusal = Some(MotionError::NotAcceleration { name, line, text: short }),
+                    Unit::Unknown => self.refusal = Some(source.unknown_unit(line, text)),
                 }
             }
         }
         for at in 0..words.len() {
             if let Some((digits, unit_s)) = step_at(&words, at) {
-                let number = parse_number(digits).ok_or_else(|| MotionError::HeaderValue {
-                    name: name.to_owned(),
-                    line,
-                    key: "the time step",
-                    text: excerpt(text),
-                    expected: "dt = 0.01 s",
-                })?;
+                let unreadable = || source.unreadable(line, "the time step", text, "dt = 0.01 s");
+                let number = parse_number(digits).ok_or_else(unreadable)?;
                 self.steps_s.push(number * unit_s);
             }
         }
@@ -214,13 +210,14 @@ fn time_unit_s(word: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recording::RecordFormat;
     use AccelerationUnit::{CmPerS2, G, MPerS2};
     use proptest::prelude::*;
 
     fn noted(text: &str) -> Result<(Option<AccelerationUnit>, Option<f64>), MotionError> {
-        let mut head = Head::default();
+        let (mut head, source) = (Head::default(), Source { name: "a.txt", format: RecordFormat::Columns });
         for (index, line) in text.lines().enumerate() {
-            head.note("a.txt", index + 1, line)?;
+            head.note(source, index + 1, line)?;
         }
         Ok((head.unit()?, head.dt_s()))
     }

@@ -4,7 +4,7 @@ use crate::error::MotionError;
 use crate::read::date::seconds_since_1970;
 use crate::read::head::Source;
 use crate::read::volume::{
-    FileUnit, after, event_name, has, leading_number, magnitude, moment_s, orientation, origin_time,
+    FileUnit, after, behind, event_name, has, leading_number, magnitude, moment_s, orientation, origin_time,
     plausible_magnitude, stated_peak, words,
 };
 use crate::recording::{Orientation, RecordingDescription};
@@ -119,11 +119,7 @@ impl<'a> Head<'a> {
 
     /// What follows `key` (in small letters) on the first line that begins with it.
     fn line(&self, key: &str) -> Option<&'a str> {
-        self.lines.iter().find_map(|line| {
-            let line = line.trim_start();
-            line.get(..key.len()).filter(|begin| begin.eq_ignore_ascii_case(key))?;
-            line.get(key.len()..)
-        })
+        self.lines.iter().find_map(|line| behind(line.trim_start(), key))
     }
 
     /// The peak that the head states: real-header value 64 in the unit of the data, else the text.

@@ -6,10 +6,10 @@ use crate::read::fortran::{Format, read_header};
 use crate::read::head::Source;
 use crate::read::number::parse_number;
 use crate::read::volume::{
-    FileUnit, after, event_name, has, leading_count, magnitude, moment_s, orientation, origin_time, stated_peak, words,
+    FileUnit, after, behind, event_name, has, leading_count, magnitude, moment_s, orientation, origin_time,
+    stated_peak, words,
 };
 use crate::recording::RecordingDescription;
-use crate::unit::AccelerationUnit;
 
 /// Lines of text and of header values of Volume 1.
 const VOLUME_1_TEXT: usize = 13;
@@ -96,7 +96,7 @@ impl<'a> Head<'a> {
 
     /// What follows `key` (in small letters) on the first line that begins with it.
     fn line_after(&self, key: &str) -> Option<&'a str> {
-        after(self.lines.iter().find(|line| begins(line, key))?, key)
+        self.lines.iter().find_map(|line| behind(line.trim_start(), key))
     }
 
     /// `NO. OF POINTS =  12080`
@@ -111,9 +111,8 @@ impl<'a> Head<'a> {
     /// [`MotionError::MissingUnit`].
     pub(super) fn unit_or(&self, source: Source, options: &ReadOptions) -> Result<FileUnit, MotionError> {
         let named = self.after("units of").map(|text| text.split("  ").next().unwrap_or(text));
-        named.and_then(FileUnit::find).or(options.unit.map(|unit| FileUnit { unit, factor: 1.0 })).ok_or_else(|| {
-            MotionError::MissingUnit { name: source.name.to_owned(), accepted: AccelerationUnit::ACCEPTED }
-        })
+        let given = || Ok(FileUnit { unit: options.unit_or(None, source.name)?, factor: 1.0 });
+        named.and_then(FileUnit::find).map_or_else(given, Ok)
     }
 
     /// The peak that the head states. Volume 1 prints it to a thousandth of g; its real-header value 7
@@ -167,7 +166,8 @@ impl<'a> Head<'a> {
     /// where it is one of a data centre (`15481673.CI.WLT.--.HN`), gives the network.
     fn station(&self) -> (Option<String>, Option<String>) {
         let keys = ["station no.", "station id."];
-        let position = self.lines.iter().position(|line| keys.iter().any(|key| begins(line, key)));
+        let position =
+            self.lines.iter().position(|line| keys.iter().any(|key| behind(line.trim_start(), key).is_some()));
         let Some((at, line)) = position.and_then(|at| Some((at, self.lines.get(at)?))) else { return (None, None) };
         let code = line.split_whitespace().nth(2).unwrap_or("");
         let identifier = self.lines.get(at.saturating_sub(1)).and_then(|line| line.split_whitespace().next());
@@ -188,10 +188,6 @@ impl<'a> Head<'a> {
         let corner = low.split(|c: char| !(c.is_ascii_digit() || c == '.')).filter_map(parse_number).next_back();
         corner.filter(|&corner_hz| corner_hz > 0.0)
     }
-}
-
-fn begins(line: &str, key: &str) -> bool {
-    line.trim_start().get(..key.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(key))
 }
 
 /// Where the sensor is, behind the direction: `360 Deg   (Sta Chn: 1)   Location: Roof - North`.
