@@ -3,9 +3,8 @@
 mod catalogue;
 mod curve;
 mod design;
+mod options;
 
 pub use curve::{CurveRow, RestrainerCurve, RestrainerCurveOptions, StackReport, ThresholdRow, curve};
-pub use design::{
-    AtDemand, DesignTarget, RestrainerDesign, RestrainerDesignOptions, StackTarget, StopperOptions, StopperReport,
-    design, stack_name,
-};
+pub use design::{AtDemand, RestrainerDesign, StackTarget, StopperReport, design, stack_name};
+pub use options::{LimitOptions, RestrainerDesignOptions};

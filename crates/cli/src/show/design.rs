@@ -20,8 +20,8 @@ use uplift_structure::Rule;
 use self::frame::{print_mark, print_own_spectrum, print_verdicts, rule_cell};
 use super::alarms::print_in_parts;
 use super::structure::{
-    BLOCK, band_after, demand_in_words, fewer_levels, lines, measure_option, rate, record_set, restitution_line,
-    risk_cells,
+    BLOCK, band_after, demand_in_words, fewer_levels, measure_option, print_moved, print_notes, print_structure, rate,
+    record_set, restitution_line, risk_cells,
 };
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use super::{shown_path, typed_path};
@@ -133,10 +133,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
 }
 
 fn print_details(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
-    writeln!(out)?;
-    for line in lines(&report.structure) {
-        writeln!(out, "{line}")?;
-    }
+    print_structure(out, &report.structure)?;
     for of in report.frame.iter().flat_map(|frame| &frame.models) {
         writeln!(out, "{}", restitution_line(of.model, of.restitution))?;
     }
@@ -149,9 +146,7 @@ fn print_details(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         text::rate(report.target_per_year)
     )?;
     writeln!(out, "           {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;
-    for note in &report.notes {
-        writeln!(out, "note       {note}")?;
-    }
+    print_notes(out, &report.notes)?;
     print_demands(out, report)?;
     print_rules(out, report)?;
     if let Some(exact) = &report.exact {
@@ -411,13 +406,5 @@ fn print_rounding(out: &mut impl Write, rules: &[RuleOutcome], rounding: &Demand
     }
     tell("u > capacity, per year", rounding.beyond_capacity_per_year, rate);
     tell("overturning, per year", Some(rounding.overturning_per_year), rate);
-    if !moved.is_empty() {
-        writeln!(
-            out,
-            "*: the last digits are not significant (rounding, docs/method.md, section 1.5). Range over strengths \
-             some 1e-15 lower and higher:\n{}",
-            moved.join("\n")
-        )?;
-    }
-    Ok(())
+    print_moved(out, &moved, "strengths")
 }

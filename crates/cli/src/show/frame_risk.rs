@@ -10,7 +10,8 @@ use uplift::text::{
 use super::alarms::print_in_parts;
 use super::shown_path;
 use super::structure::{
-    BLOCK, WOBBLING, band_after, demand_in_words, lines, measure_option, record_set, restitution_line, risk_cells,
+    BLOCK, WOBBLING, band_after, demand_in_words, measure_option, print_notes, print_structure, record_set,
+    restitution_line, risk_cells,
 };
 use crate::error::CommandError;
 use crate::terminal::Terminal;
@@ -79,10 +80,7 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
 }
 
 fn print_details(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
-    writeln!(out)?;
-    for line in lines(&report.structure) {
-        writeln!(out, "{line}")?;
-    }
+    print_structure(out, &report.structure)?;
     writeln!(
         out,
         "{} ({})",
@@ -98,9 +96,7 @@ fn print_details(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
         text::rate(report.target_per_year)
     )?;
     writeln!(out, "           {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;
-    for note in &report.notes {
-        writeln!(out, "note       {note}")?;
-    }
+    print_notes(out, &report.notes)?;
     print_demands(out, report)?;
     print_state(out, report)?;
     print_events(out, report)?;

@@ -9,8 +9,8 @@ use uplift_spectra::Noisy;
 use super::alarms::print_in_parts;
 use super::shown_path;
 use super::structure::{
-    WOBBLING, band_in_cell, fewer_levels, limits, lines, marked_band_in_cell, print_by_earthquake, rate, record_set,
-    risk_cells,
+    WOBBLING, band_in_cell, fewer_levels, limits, marked_band_in_cell, print_by_earthquake, print_moved, print_notes,
+    print_structure, rate, record_set, risk_cells,
 };
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use crate::error::CommandError;
@@ -128,10 +128,7 @@ fn range_of(mut ratios: impl Iterator<Item = f64>) -> Option<String> {
 }
 
 fn print_details(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
-    writeln!(out)?;
-    for line in lines(&report.structure) {
-        writeln!(out, "{line}")?;
-    }
+    print_structure(out, &report.structure)?;
     for model in &report.models {
         let (restitution, origin) = (model.restitution, model.restitution_from);
         match (model.size_m, model.slenderness_rad) {
@@ -144,9 +141,7 @@ fn print_details(out: &mut impl Write, report: &OverturningReport) -> Result<(),
         }
     }
     writeln!(out, "records    {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;
-    for note in &report.notes {
-        writeln!(out, "note       {note}")?;
-    }
+    print_notes(out, &report.notes)?;
     print_fragility(out, report)?;
     print_risk(out, report)?;
     print_beyond_limit(out, report)?;
@@ -301,13 +296,5 @@ fn print_rounding(out: &mut impl Write, report: &OverturningReport) -> Result<()
             }
         }
     }
-    if !moved.is_empty() {
-        writeln!(
-            out,
-            "*: the last digits are not significant (rounding, docs/method.md, section 1.5). Range over scale factors \
-             some 1e-15 lower and higher:\n{}",
-            moved.join("\n")
-        )?;
-    }
-    Ok(())
+    print_moved(out, &moved, "scale factors")
 }

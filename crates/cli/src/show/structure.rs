@@ -7,7 +7,7 @@ pub(super) use uplift::structure::WOBBLING_FRAME as WOBBLING;
 use uplift::structure::{Bands, EventRisk, StructureReport};
 use uplift::text::{self, per_cent, short, two_digits};
 
-use super::shown_path;
+use super::{ROUNDING_DECIDES, shown_path};
 use crate::error::CommandError;
 
 /// The kind of a structure that is one rigid block.
@@ -19,9 +19,9 @@ pub(super) fn restitution_line(model: &str, restitution: f64) -> String {
     format!("           {what:<24} {restitution:.4}")
 }
 
-/// The structure in words: what is it, and which oscillator is it equivalent to; with its restitution where there is
-/// one to tell.
-pub(super) fn lines(structure: &StructureReport) -> Vec<String> {
+/// The structure in words, below an empty line: what is it, and which oscillator is it equivalent to; with its
+/// restitution where there is one to tell.
+pub(super) fn print_structure(out: &mut impl Write, structure: &StructureReport) -> Result<(), CommandError> {
     let StructureReport { name, kind, table_3_1_row, .. } = structure;
     let file = shown_path(&structure.file).display();
     let mut lines = vec![
@@ -43,7 +43,25 @@ pub(super) fn lines(structure: &StructureReport) -> Vec<String> {
         None => "           displacement capacity    none: the force stays".to_owned(),
     });
     lines.extend(structure.warnings.iter().map(|warning| format!("warning    {warning}")));
-    lines
+    Ok(writeln!(out, "\n{}", lines.join("\n"))?)
+}
+
+/// What else is to be known, a line each.
+pub(super) fn print_notes(out: &mut impl Write, notes: &[String]) -> Result<(), CommandError> {
+    for note in notes {
+        writeln!(out, "note       {note}")?;
+    }
+    Ok(())
+}
+
+/// What asterisks mean, and from where to where rounding `moved` numbers over such values; nothing where there are
+/// none.
+pub(super) fn print_moved(out: &mut impl Write, moved: &[String], over: &str) -> Result<(), CommandError> {
+    if moved.is_empty() {
+        return Ok(());
+    }
+    let moved = moved.join("\n");
+    Ok(writeln!(out, "{ROUNDING_DECIDES}. Range over {over} some 1e-15 lower and higher:\n{moved}")?)
 }
 
 /// The record set; a wobbling frame takes both components of it, and what moves in a plane that of the study.

@@ -6,7 +6,7 @@ use uplift::structure::{LimitEvent, TargetBand, TargetFrame, TargetReport};
 use uplift::text::{self, Table, per_cent, short, thousands};
 
 use super::alarms::print_warnings;
-use super::structure::{lines, rate, risk_cells};
+use super::structure::{print_notes, print_structure, rate, risk_cells};
 use super::uncertainty::{kind_in_words, print_quantities};
 use super::{print_more, shown_path};
 use crate::error::CommandError;
@@ -151,10 +151,7 @@ fn print_frame(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame)
 }
 
 fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
-    writeln!(out)?;
-    for line in lines(&report.structure) {
-        writeln!(out, "{line}")?;
-    }
+    print_structure(out, &report.structure)?;
     writeln!(out, "records    {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;
     let TargetReport { event, site, im, quantity, target_per_year, value, .. } = report;
     let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
@@ -164,9 +161,7 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
         rate(*target_per_year),
         1.0 / target_per_year
     )?;
-    for note in &report.notes {
-        writeln!(out, "note       {note}")?;
-    }
+    print_notes(out, &report.notes)?;
     let missed = unit(report.missed_at.to_string());
     writeln!(out, "\nSmallest {quantity} that meets the target: {}; {missed} misses it", unit(value.to_string()))?;
     let [per_year, probability, return_period] = risk_cells(&report.risk);

@@ -6,6 +6,7 @@ use uplift::text::{Table, share};
 use uplift::validate::{GroupReport, PRule, ValidateReport};
 use uplift_validation::{Pairs, Quantiles};
 
+use super::structure::print_notes;
 use super::{print_files, print_more, shown_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
@@ -63,10 +64,7 @@ fn print_details(mut out: &mut impl Write, report: &ValidateReport) -> Result<()
     print_tests(&mut out, report)?;
     print_sizes(&mut out, report)?;
     print_distances(&mut out, report)?;
-    for note in &report.notes {
-        writeln!(out, "note       {note}")?;
-    }
-    Ok(())
+    print_notes(out, &report.notes)
 }
 
 fn print_tests(out: &mut impl Write, report: &ValidateReport) -> Result<(), CommandError> {

@@ -1,8 +1,10 @@
 //! One system after the other: every motion at every level, then what that says of the system.
 
 use serde::Serialize;
+use uplift_block::RockingBlock;
 use uplift_fragility::{Stripes, SurfaceTrial, exceedance_counts, standard_deviation};
 use uplift_ida::{Peaks, Plan, ScaledMotion, System, Watch, analyse};
+use uplift_oscillator::Oscillator;
 use uplift_spectra::{Motion, percentile};
 
 use super::fits::{FitReport, OVERTURNING_M, SurfaceReport};
@@ -128,7 +130,25 @@ pub(super) fn system_report(
         first += levels.len();
     }
     let surface = (of.system.can_overturn()).then(|| SurfaceReport::fit(&trials(of, motions, &plan, &peaks)));
-    Ok(with_parameters(of, motions.gravity_m_s2, reports, surface))
+    let (block, oscillator) = match &of.system {
+        System::Block(block) => (Some(block), None),
+        System::Oscillator(oscillator) => (None, Some(oscillator)),
+        System::Frame(_) => (None, None),
+    };
+    Ok(SystemReport {
+        kind: of.system.kind(),
+        size_m: block.map(RockingBlock::size_m),
+        slenderness_rad: block.map(RockingBlock::slenderness_rad),
+        strength: oscillator.map(Oscillator::strength),
+        uplift_displacement_m: oscillator.map(Oscillator::uplift_displacement_m),
+        capacity_m: oscillator.map(Oscillator::capacity_m).filter(|capacity_m| capacity_m.is_finite()),
+        restitution: of.system.restitution(),
+        uplift_acceleration_g: of.uplift_m_s2 / motions.gravity_m_s2,
+        p_rad_s: of.p_rad_s,
+        response: of.response_is(),
+        measures: reports,
+        surface,
+    })
 }
 
 fn measure_report(
@@ -174,35 +194,6 @@ fn trials(of: &LibrarySystem, motions: &Motions<'_>, plan: &Plan<'_>, peaks: &Pe
         }
     }
     trials
-}
-
-fn with_parameters(
-    of: &LibrarySystem,
-    gravity_m_s2: f64,
-    measures: Vec<MeasureReport>,
-    surface: Option<SurfaceReport>,
-) -> SystemReport {
-    let (block, oscillator) = match &of.system {
-        System::Block(block) => (Some(block), None),
-        System::Oscillator(oscillator) => (None, Some(oscillator)),
-        System::Frame(_) => (None, None),
-    };
-    SystemReport {
-        kind: of.system.kind(),
-        size_m: block.map(uplift_block::RockingBlock::size_m),
-        slenderness_rad: block.map(uplift_block::RockingBlock::slenderness_rad),
-        strength: oscillator.map(uplift_oscillator::Oscillator::strength),
-        uplift_displacement_m: oscillator.map(uplift_oscillator::Oscillator::uplift_displacement_m),
-        capacity_m: oscillator
-            .map(uplift_oscillator::Oscillator::capacity_m)
-            .filter(|capacity_m| capacity_m.is_finite()),
-        restitution: of.system.restitution(),
-        uplift_acceleration_g: of.uplift_m_s2 / gravity_m_s2,
-        p_rad_s: of.p_rad_s,
-        response: of.response_is(),
-        measures,
-        surface,
-    }
 }
 
 impl SystemReport {

@@ -76,10 +76,6 @@ pub fn compute(plan: &PulsePlan, watch: &impl Watch) -> Result<Vec<PulseSpectra>
         .collect()
 }
 
-fn refused(error: BlockError) -> LaboratoryError {
-    LaboratoryError::Blocks(vec![error])
-}
-
 fn go_on(watch: &impl Watch) -> Result<(), LaboratoryError> {
     if watch.cancelled() { Err(JobError::Interrupted.into()) } else { Ok(()) }
 }
@@ -90,7 +86,7 @@ fn spectrum(plan: PulseSpectrumPlan, watch: &impl Watch) -> Result<Spectrum, Lab
     for &acceleration in &plan.accelerations {
         go_on(watch)?;
         let row = PulseSpectrumPlan { accelerations: vec![acceleration], ..plan.clone() };
-        points.extend(pulse_spectrum(&row).map_err(refused)?.points());
+        points.extend(pulse_spectrum(&row)?.points());
         watch.finished(plan.sizes.len() as u64);
     }
     Ok(Spectrum { plan, points })
@@ -99,16 +95,15 @@ fn spectrum(plan: PulseSpectrumPlan, watch: &impl Watch) -> Result<Spectrum, Lab
 /// The blocks of Figure 2.6.
 fn blocks(plan: &PulsePlan, shape: RickerShape, watch: &impl Watch) -> Result<BlockResponses, LaboratoryError> {
     let of_plan = &plan.blocks;
-    let pulse = of_plan.pulse(shape).map_err(refused)?;
+    let pulse = of_plan.pulse(shape)?;
     let respond_of = |size_m: f64, slenderness_rad: f64| {
         respond(&plan.block(size_m, slenderness_rad)?, pulse, FreeRocking::FirstPeak)
     };
     let mut responses = Vec::with_capacity(of_plan.sizes_m.len() * of_plan.slendernesses_rad.len());
     for &slenderness_rad in of_plan.slendernesses_rad.iter() {
         go_on(watch)?;
-        let row: Result<Vec<_>, _> =
-            of_plan.sizes_m.par_iter().map(|&size_m| respond_of(size_m, slenderness_rad)).collect();
-        responses.extend(row.map_err(refused)?);
+        let row = of_plan.sizes_m.par_iter().map(|&size_m| respond_of(size_m, slenderness_rad));
+        responses.extend(row.collect::<Result<Vec<_>, BlockError>>()?);
         watch.finished(of_plan.sizes_m.len() as u64);
     }
     Ok(BlockResponses {

@@ -2,7 +2,7 @@
 
 mod report;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use uplift_alarms::{Scope, alarms_of_inputs, ranked};
 use uplift_design::{DesignError, DesignOptions, DesignReport, FrameReport, design as design_by_spectrum};
@@ -19,6 +19,7 @@ use uplift_structure::{Kind, StructureDescription};
 use uplift_study::{ColumnShape, Structure};
 
 use super::catalogue;
+use super::options::RestrainerDesignOptions;
 use crate::error::LaboratoryError;
 use crate::pushover::pushed;
 pub use report::{AtDemand, RestrainerDesign, StackTarget, StopperReport};
@@ -31,61 +32,6 @@ const SLACK_M: f64 = 0.002;
 const PRESTRESS_SHARE: f64 = 0.04;
 /// Gap of a duct of which the effect is reported where the structure has none, m: the specimen's of Chapter 6.
 const DUCT_GAP_M: f64 = 0.0087;
-
-/// What the stack is for.
-#[derive(Debug, Clone, PartialEq)]
-pub enum DesignTarget {
-    /// A secant stiffness of springs and tendon, N/m.
-    Stiffness(f64),
-    /// A displacement capacity, m.
-    Capacity(f64),
-    /// The capacity that a uniform risk spectrum asks for: demand times safety factor.
-    Spectrum {
-        /// Result file.
-        result: PathBuf,
-        /// Site, risk, measure and safety factor.
-        options: Box<DesignOptions>,
-    },
-    /// A force that stays.
-    ZeroStiffness,
-    /// A force that rises.
-    PositiveStiffness,
-}
-
-/// A stopper beside the stack.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StopperOptions {
-    /// Deformation of the springs at which it engages, m.
-    pub gap_m: f64,
-    /// Stiffness `EA/L` of its rods, N/m.
-    pub stiffness_n_m: f64,
-}
-
-/// What is asked of a design. Tendon, prestress and path are those of the structure's restrainer.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RestrainerDesignOptions {
-    /// The catalogue, CSV.
-    pub catalogue: PathBuf,
-    /// What the stack is for.
-    pub target: DesignTarget,
-    /// Travel at which a stiffness is asked for, m; 4b, twice what free columns can go, where none is given.
-    pub at_m: Option<f64>,
-    /// What limits the stack; tendon, prestress and path of it are replaced by those of the structure.
-    pub limits: Option<Limits>,
-    /// By what stacks are ranked.
-    pub ranking: Ranking,
-    /// A stopper to be sized for each.
-    pub stopper: Option<StopperOptions>,
-    /// The stack whose tolerances are reported, as it is called in the list, `6 x 2 x 160/82/10`; the first where none
-    /// is given.
-    pub tolerances_of: Option<String>,
-    /// Most stacks that are reported.
-    pub most: usize,
-    /// Where all of them are written, CSV.
-    pub table: Option<PathBuf>,
-    /// Whether an existing file there is overwritten.
-    pub force: bool,
-}
 
 /// Finds stacks out of a catalogue for the columns of a structure.
 ///
@@ -112,22 +58,18 @@ pub fn design(
         ))
         .into());
     };
-    let limits = Limits {
-        tendon,
-        prestress_n: parts.prestress_n,
-        path: columns.path(),
-        ..options.limits.unwrap_or(Limits::behind(tendon))
-    };
+    let limits = Limits { prestress_n: parts.prestress_n, path: columns.path(), ..options.limits.behind(tendon) };
     let discs = catalogue::read(&options.catalogue)?;
     let (target, told, alarms) = target_of(structure, options, events)?;
-    let all = select(&columns, &discs, target, &limits, options.ranking)?;
+    let all = select(&columns, &discs, target, &limits, options.rank)?;
     if all.is_empty() {
         return Err(JobError::Usage(none_found(&columns, &discs, (target, &told), &limits, options)).into());
     }
     let stacks: Vec<Candidate> = all.iter().take(options.most.max(1)).cloned().collect();
     let with = |stack: &Candidate| columns.clone().with_restrainer(stack.restrainer.clone(), limits.path);
     let stopper = |(stack, stopper)| stopper_behind(stack, &with(stack)?, stopper, limits.tendon_factor);
-    let stoppers = stacks.iter().zip(options.stopper.into_iter().cycle()).map(stopper);
+    let asked = options.stopper_gap_m.zip(options.stopper_stiffness_n_m);
+    let stoppers = stacks.iter().zip(asked.into_iter().cycle()).map(stopper);
     let stoppers = stoppers.collect::<Result<_, LaboratoryError>>()?;
     let at_demand = match told.demand_m {
         None => Vec::new(),
@@ -165,9 +107,7 @@ pub fn design(
         found: all.len(),
         stacks,
         at_demand,
-        proxy: matches!(options.target, DesignTarget::Spectrum { .. })
-            && structure.column_shape == ColumnShape::Cylinder
-            && frame.is_none(),
+        proxy: options.urs.is_some() && structure.column_shape == ColumnShape::Cylinder && frame.is_none(),
         frame,
         without_frame,
         stoppers,
@@ -182,17 +122,17 @@ pub fn design(
 fn stopper_behind(
     stack: &Candidate,
     held: &uplift_statics::RestrainedColumns,
-    stopper: StopperOptions,
+    (gap_m, stiffness_n_m): (f64, f64),
     tendon_factor: f64,
 ) -> Result<StopperReport, LaboratoryError> {
-    let yields = stopper_yield_force_n(&stack.restrainer, stopper.gap_m, stopper.stiffness_n_m, tendon_factor);
+    let yields = stopper_yield_force_n(&stack.restrainer, gap_m, stiffness_n_m, tendon_factor);
     let most_yield_n = match yields {
         // a stack that is flat before the gap closes has no use for a stopper
         Err(StaticsError::StopperBehindFlat { .. }) => None,
         found => found?,
     };
     let engages_at_n = match stack.restrainer.parts().spring {
-        uplift_statics::Spring::Discs(discs) => discs.law().force_n(stopper.gap_m),
+        uplift_statics::Spring::Discs(discs) => discs.law().force_n(gap_m),
         _ => f64::NAN,
     };
     let elongation_m = stack.restrainer.elongation_at_force_m(engages_at_n);
@@ -217,8 +157,8 @@ fn with_stack(
     events: &dyn Events,
 ) -> Result<(Option<FrameReport>, Option<String>), LaboratoryError> {
     let none = (None, None);
-    let DesignTarget::Spectrum { result, options: design } = &options.target else { return Ok(none) };
-    let Some(capacity_m) = stack.capacity_m.filter(|_| !design.proxy) else { return Ok(none) };
+    let Some(result) = &options.urs else { return Ok(none) };
+    let Some(capacity_m) = stack.capacity_m.filter(|_| !options.proxy) else { return Ok(none) };
     if structure.column_shape != ColumnShape::Cylinder {
         return Ok(none);
     }
@@ -227,8 +167,7 @@ fn with_stack(
         ..structure.description
     };
     let stacked = resolved(structure, &description, Some(held.clone()))?;
-    let design = DesignOptions { spectrum_only: false, ..(**design).clone() };
-    let found = design_by_spectrum(&stacked, result, &design, events)?;
+    let found = design_by_spectrum(&stacked, result, &options.by_spectrum(), events)?;
     Ok((found.frame, found.without_frame))
 }
 
@@ -285,15 +224,14 @@ fn target_of(
         let told = report(words, free.stiffness_for_capacity_n_m(capacity_m), Some(capacity_m));
         Ok((Target::Capacity { capacity_m }, told, Vec::new()))
     };
-    match &options.target {
-        DesignTarget::Stiffness(stiffness_n_m) => {
-            let stiffness_n_m = *stiffness_n_m;
+    match (options.stiffness_n_m, options.capacity_m, &options.urs) {
+        (Some(stiffness_n_m), ..) => {
             let words = format!("{:.0} kN/m at {at_m:.4} m", 1e-3 * stiffness_n_m);
             Ok((Target::Stiffness { stiffness_n_m, at_m }, report(words, stiffness_n_m, None), Vec::new()))
         }
-        DesignTarget::Capacity(capacity_m) => capacity(format!("a capacity of {capacity_m:.4} m"), *capacity_m),
-        DesignTarget::Spectrum { result, options: design } => {
-            let design = DesignOptions { spectrum_only: true, ..(**design).clone() };
+        (_, Some(capacity_m), _) => capacity(format!("a capacity of {capacity_m:.4} m"), capacity_m),
+        (.., Some(result)) => {
+            let design = DesignOptions { spectrum_only: true, ..options.by_spectrum() };
             let found = design_by_spectrum(&without_restrainers(structure)?, result, &design, events)?;
             // the capacity that a rule asks for does not depend on the one that there is; the larger of both rules
             let required =
@@ -318,11 +256,11 @@ fn target_of(
             let told = StackTarget { demand_m: Some(required_m / design.safety_factor), ..told };
             Ok((target, told, alarms_of_demand(result, &found)?))
         }
-        DesignTarget::ZeroStiffness => {
+        _ if options.zero_stiffness => {
             let words = format!("a force that stays up to {at_m:.4} m");
             Ok((Target::ZeroStiffness { at_m }, report(words, critical_stiffness_n_m, None), Vec::new()))
         }
-        DesignTarget::PositiveStiffness => {
+        _ => {
             let words = format!("a force that rises up to {at_m:.4} m");
             Ok((Target::PositiveStiffness { at_m }, report(words, critical_stiffness_n_m, None), Vec::new()))
         }

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use uplift::result::is_hdf5;
-use uplift::{RunOptions, load_uniform_risk, result_of};
+use uplift::{load_uniform_risk, result_of};
 use uplift_study::{Bootstrap, Repair, Structure};
 
 use super::Overwriting;
-use super::study::command_line;
+use super::study::run_options;
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 
@@ -61,14 +61,7 @@ impl ResultArguments {
             return Ok(FoundResult { path: self.input.clone(), bootstrap: None, repair: false });
         }
         let study = load_uniform_risk(&self.input, &self.overrides)?;
-        let options = RunOptions {
-            study_file: self.input.clone(),
-            output: None,
-            command: command_line(),
-            overrides: self.overrides.clone(),
-            force: self.force(),
-            ..RunOptions::default()
-        };
+        let options = run_options(&self.input, &self.overrides, None, self.force());
         let path = result_of(&study, &options, terminal)?;
         let repair = study.consistency.repair == Repair::Weights;
         Ok(FoundResult { path, bootstrap: Some(study.bootstrap.clone()), repair })

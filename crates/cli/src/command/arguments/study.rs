@@ -18,7 +18,7 @@ pub(crate) struct StudyArguments {
     pub(crate) study: PathBuf,
     /// Set a key of the study, e.g. records.first=20
     #[arg(long = "set", value_name = "KEY=VALUE")]
-    overrides: Vec<String>,
+    pub(crate) overrides: Vec<String>,
 }
 
 impl StudyArguments {
@@ -40,7 +40,7 @@ impl StudyArguments {
         let own = Self { study: self.study.clone(), overrides };
         let study = own.load_any()?;
         let output = output.map(Path::to_owned).or_else(|| Some(slice_path(&study.output().file, slice?)));
-        let options = run_options(&own, output, force);
+        let options = run_options(&own.study, &own.overrides, output, force);
         Ok((study, options))
     }
 }
@@ -51,16 +51,9 @@ pub(crate) fn command_line() -> String {
 }
 
 /// The options of a run that was typed.
-pub(crate) fn run_options(study: &StudyArguments, output: Option<PathBuf>, force: bool) -> RunOptions {
-    let overrides = study.overrides.clone();
-    RunOptions {
-        study_file: study.study.clone(),
-        output,
-        command: command_line(),
-        overrides,
-        force,
-        ..RunOptions::default()
-    }
+pub(crate) fn run_options(file: &Path, overrides: &[String], output: Option<PathBuf>, force: bool) -> RunOptions {
+    let (study_file, overrides) = (file.to_owned(), overrides.to_vec());
+    RunOptions { study_file, output, command: command_line(), overrides, force, ..RunOptions::default() }
 }
 
 /// Reads `1/8`.

@@ -30,7 +30,8 @@ pub(crate) fn check(arguments: &CheckArguments, terminal: &Terminal) -> Result<(
         return print_study(&study);
     }
     terminal.set_interruption_message(format!("interrupted: {STOPPED}"));
-    let plan = plan(&study, &run_options(&arguments.study, None, false), terminal)
+    let StudyArguments { study: file, overrides } = &arguments.study;
+    let plan = plan(&study, &run_options(file, overrides, None, false), terminal)
         .map_err(|error| if is_stopped(&error) { CommandError::Interrupted(STOPPED) } else { error.into() })?;
     if arguments.json { print_json(&plan) } else { print_plan(&plan, terminal) }?;
     Ok(plan.head().room.refuse(terminal)?)
