@@ -231,17 +231,15 @@ pub fn design_shard(
     shard: Shard,
     events: &dyn Events,
 ) -> Result<ShardReport, DesignError> {
-    let file = at(ResultFile::open(result)?, &options.risk.into())?;
-    let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
+    let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
-    let target_per_year = source.target_per_year(source.rarest()?)?;
+    // one shard serves every site
+    let site = options.site.as_ref().or(source.sites.first()).map(String::as_str);
+    let Place { measure, .. } = Place::choose(&source, site, options.measure)?;
     let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
-    // the levels of a frame are those of a site; oscillators are the same at all of them
-    let any_site = source.sites.first().filter(|_| !with_pairs);
-    let place = Place::choose(&source, options.site.as_ref().or(any_site).map(String::as_str), options.measure)?;
     let records = records_and_pairs(&source, options.manifest.as_deref(), with_pairs)?.map_err(JobError::input)?;
-    let analysis = DesignAnalysis::from_structure(structure, &source, (place, target_per_year), (records, options))?;
-    let work = analysis.work(&source, (place, target_per_year), &job_name("design", structure))?;
+    let analysis = DesignAnalysis::from_structure(structure, (&source, measure), (records, options))?;
+    let work = analysis.work(&source, &job_name("design", structure))?;
     Ok(work.shard_beside(result, shard, events)?)
 }
 

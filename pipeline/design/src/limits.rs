@@ -106,12 +106,12 @@ pub fn limit_stripes(
         }
     }
     let frame_models = || analysis.models().skip(analysis.models.len()).map(|(model, _)| model);
-    for (measure, places, peaks) in analysis.frame_peaks(&mut analysed) {
+    for (measure, levels, peaks) in analysis.frame_peaks(&mut analysed) {
         for ((model, demands_m), system) in peaks.each().zip(frame_models()) {
             found.push(LimitStripes {
                 measure: measure.measure(),
                 model,
-                levels: places.iter().map(|&place| measure.plan.levels[place]).collect(),
+                levels: levels.values.clone(),
                 records: records.clone(),
                 demands_m: demands_m.to_vec(),
                 participation: participation(system, structure),

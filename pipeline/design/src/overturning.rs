@@ -28,7 +28,7 @@ use super::hazard::Hazard;
 use super::limit::{FrameLimit, LimitRisk};
 use super::lognormal::lognormal_bands;
 use super::opening::{check_tables, job_name, site_index};
-use super::own_frame::{FramePeaks, of_frame};
+use super::own_frame::{FrameLevels, FramePeaks, of_frame};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{OVERTURNING_M, own_risk};
 use super::tables::{risk_path, write_tables};
@@ -130,7 +130,7 @@ pub fn overturning(
     let mut alarms = alarms_of_inputs(&file, &Scope { measure: options.measure, ..Scope::default() })?;
     alarms.extend(structure_alarms(structure));
     let counts = (records.count(), scatter.pairs.len());
-    alarms.extend(own_risk_alarms(&own_risks(models, &found, &names, counts)));
+    alarms.extend(own_risk_alarms(&own_risks(models, (&found, &of_frame), &names, counts)));
     let records = u32::try_from(records.count()).unwrap_or(u32::MAX);
     let mut report = OverturningReport {
         structure: StructureReport::from_structure(structure, None),
@@ -246,10 +246,10 @@ impl<'a> AtSites<'a> {
     /// The same of a frame at the levels of these positions among those of the measure.
     fn of_frame(
         &self,
-        (measure, places, peaks): &(&SpectraOfResult, &[usize], FramePeaks),
+        (_, levels, peaks): &(&SpectraOfResult, &FrameLevels, FramePeaks),
         limit: Option<FrameLimit>,
     ) -> Result<FrameCollapses, DesignError> {
-        let levels: Vec<f64> = places.iter().map(|&place| measure.plan.levels[place]).collect();
+        let FrameLevels { places, values: levels } = levels;
         let means = self.hazard.iter().map(|of| of.mean.at_levels(places)).collect::<Result<Vec<_>, _>>()?;
         let hazard = self.hazard.iter().zip(&means).map(|(of, mean)| of.at_levels(mean, places));
         let repaired = self.repaired.iter().map(|runs| runs.map(|runs| runs.at_levels(places)).transpose());
@@ -261,7 +261,7 @@ impl<'a> AtSites<'a> {
             years: self.years,
         };
         let asked = (true, limit.map(|limit| limit.displacement_m));
-        peaks.each().map(|(model, peaks_m)| Ok((model, at.collapses(&levels, (peaks_m, &[]), asked)?))).collect()
+        peaks.each().map(|(model, peaks_m)| Ok((model, at.collapses(levels, (peaks_m, &[]), asked)?))).collect()
     }
 }
 
@@ -299,14 +299,16 @@ fn notes_on(models: &[(System, &'static str)], found: &[OfMeasure<'_>]) -> Vec<S
 /// The risk of every model at every site by every measure.
 fn own_risks(
     models: &[(System, &'static str)],
-    found: &[OfMeasure<'_>],
+    (found, of_frame): (&[OfMeasure<'_>], &[FrameCollapses]),
     sites: &[&str],
     counts: (usize, usize),
 ) -> Vec<OwnRisk> {
     let mut risks = Vec::new();
-    for (measure, found) in found {
-        for (found, (model, _)) in found.iter().zip(models) {
-            let event = format!("overturning of the {}", model.kind());
+    for (place, (measure, found)) in found.iter().enumerate() {
+        let of_frame = of_frame.get(place).into_iter().flatten().map(|(model, found)| (*model, found));
+        let of_models = models.iter().map(|(model, _)| model.kind()).zip(found);
+        for (model, found) in of_models.chain(of_frame) {
+            let event = format!("overturning of the {model}");
             let of_site = |(site, &risk): (&&str, &EventRisk)| own_risk((&event, risk), (site, measure), counts);
             risks.extend(sites.iter().zip(&found.own.risks).map(of_site));
         }

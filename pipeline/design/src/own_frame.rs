@@ -1,9 +1,8 @@
 //! The frame of a structure itself, wobbling and in a plane, beside the oscillator that stands for it.
 //!
-//! `uplift risk` shakes a frame at every level of the study. A design needs one demand and two rates, so here the frame
-//! is shaken at [`LEVELS`] levels at most: evenly spaced in the logarithm of the intensity, from the level that is
-//! exceeded [`TIMES_TARGET`] times as often as the target to the last. Weaker shaking than that has no part in the
-//! demand.
+//! `uplift risk` shakes a frame at every level of the study. Where it stands beside its oscillator it is shaken at
+//! [`LEVELS`] levels at most, evenly spaced in the logarithm of the intensity, from the last one that lifts it under no
+//! record: the same ones whatever is asked, so that a frame has one rate.
 
 use serde::Serialize;
 use uplift_alarms::OwnRisk;
@@ -30,8 +29,6 @@ use crate::error::DesignError;
 
 /// Most levels at which a frame is shaken beside its oscillator.
 const LEVELS: usize = 28;
-/// How many times as often as the target the first of them is exceeded.
-const TIMES_TARGET: f64 = 30.0;
 
 /// What the models of a frame leave out.
 pub(super) fn of_frame(structure: &Structure) -> String {
@@ -254,11 +251,11 @@ impl OwnFrame {
     pub(super) fn leaves_the_ground(
         &self,
         set: &RecordSet,
-        at: (IntensityMeasure, &[f64]),
+        (measure, levels): (IntensityMeasure, &FrameLevels),
     ) -> Result<Option<String>, DesignError> {
         let verticals = self.pairs.verticals(set, 1);
         let (System::Frame(shaken), false) = (&self.wobbling[0], verticals.is_empty()) else { return Ok(None) };
-        let stripes = self.pairs.level(set, at, &self.wobbling)?;
+        let stripes = self.pairs.level(set, (measure, &levels.values), &self.wobbling)?;
         Ok(falls(&stripes.falling(&verticals, shaken.frame.gravity_m_s2())))
     }
 
@@ -268,10 +265,9 @@ impl OwnFrame {
         [(&self.wobbling[0], wobbling), (&self.planar[0], planar)]
     }
 
-    /// Positions of the levels at which it is shaken to count what overturns: from the last one on at which no pair of
-    /// components lifts it.
-    pub(super) fn levels_that_uplift(&self, set: &RecordSet, measure: &SpectraOfResult) -> Vec<usize> {
-        let System::Frame(shaken) = &self.wobbling[0] else { return Vec::new() };
+    /// The levels at which it is shaken: from the last one on at which no pair of components lifts it.
+    pub(super) fn levels(&self, set: &RecordSet, measure: &SpectraOfResult) -> FrameLevels {
+        let System::Frame(shaken) = &self.wobbling[0] else { return FrameLevels::default() };
         let (of, threshold_m_s2) = (measure.measure(), shaken.frame.uplift_acceleration_m_s2());
         let largest = |pair: &RecordPair| {
             let [one, other] = [&pair.h1, &pair.h2].map(Accelerogram::acceleration_m_s2);
@@ -281,16 +277,17 @@ impl OwnFrame {
         let most = self.pairs.all.iter().enumerate().map(per_amplitude).fold(0.0, f64::max);
         let levels = &measure.plan.levels;
         let stands = |level: &f64| most * of.amplitude(*level) < threshold_m_s2;
-        sparse(levels, levels.iter().rposition(stands).unwrap_or(0))
+        let places = sparse(levels, levels.iter().rposition(stands).unwrap_or(0));
+        FrameLevels { values: places.iter().map(|&place| levels[place]).collect(), places }
     }
 
     /// Its stripes at `levels` of a measure: wobbling, then planar.
     pub(super) fn plans<'a>(
         &'a self,
         records: &'a ShakenRecords,
-        (measure, levels): (IntensityMeasure, &[f64]),
+        (measure, levels): (IntensityMeasure, &FrameLevels),
     ) -> Result<[LabelledPlan<'a>; 2], DesignError> {
-        let at = (measure, levels);
+        let at = (measure, &levels.values[..]);
         let wobbling = self.pairs.shaking(&records.set, at, &self.wobbling)?;
         let planar = in_the_plane_of_records(&records.set, at, &self.planar)?;
         let of = |plan: Plan<'a>, what: &str, motions: &'a [String]| {
@@ -335,10 +332,18 @@ impl FramePeaks {
     }
 }
 
+/// Levels at which a frame is shaken.
+#[derive(Debug, Clone, Default)]
+pub(super) struct FrameLevels {
+    /// Their positions among those of the study.
+    pub(super) places: Vec<usize>,
+    /// In the unit of the measure.
+    pub(super) values: Vec<f64>,
+}
+
 /// What is asked of the peaks of a frame at one site.
 pub(super) struct FrameQuestion<'a> {
-    /// Positions of its levels among those of the study.
-    pub(super) places: &'a [usize],
+    pub(super) levels: &'a FrameLevels,
     pub(super) place: Place<'a>,
     pub(super) weights: &'a SiteWeights<'a>,
     pub(super) hazard: &'a Hazard<'a>,
@@ -357,14 +362,13 @@ pub(super) struct FrameQuestion<'a> {
 impl FrameQuestion<'_> {
     /// Demand, verdict and risks by both models.
     pub(super) fn answer(&self, peaks: &FramePeaks) -> Result<FrameReport, DesignError> {
-        let of_study = &self.place.measure.plan.levels;
-        let levels: Vec<f64> = self.places.iter().map(|&place| of_study[place]).collect();
-        let mean: StripeWeights = self.hazard.mean.at_levels(self.places)?;
-        let hazard = self.hazard.at_levels(&mean, self.places)?;
-        let repaired = self.weights.repaired().map(|runs| runs.at_levels(self.places)).transpose()?;
+        let FrameLevels { places, values: levels } = self.levels;
+        let mean: StripeWeights = self.hazard.mean.at_levels(places)?;
+        let hazard = self.hazard.at_levels(&mean, places)?;
+        let repaired = self.weights.repaired().map(|runs| runs.at_levels(places)).transpose()?;
         let weights = SiteWeights::new(&mean, repaired.as_ref());
         let model = |(model, restitution, peaks_m): &(&'static str, f64, Vec<f64>)| {
-            let pool = PooledDemand::new(&Stripe::new(&levels, peaks_m)?)?;
+            let pool = PooledDemand::new(&Stripe::new(levels, peaks_m)?)?;
             let risk = |threshold_m: f64| -> Result<EventRisk, DesignError> {
                 let risk = risk_of_exceeding(&pool, &weights, threshold_m, self.years)?;
                 Ok(bounded(risk, &weights, &self.scatter.pairs))
@@ -389,8 +393,8 @@ impl FrameQuestion<'_> {
         };
         let models = peaks.models.iter().map(model).collect::<Result<_, DesignError>>()?;
         Ok(FrameReport {
-            levels,
-            levels_of_study: of_study.len(),
+            levels: levels.clone(),
+            levels_of_study: self.place.measure.plan.levels.len(),
             limit: self.limit,
             proxy_beyond_limit: self.proxy_beyond_limit,
             analyses: peaks.analyses,
@@ -411,15 +415,8 @@ impl FrameReport {
     }
 }
 
-/// Positions of the levels at which a frame is shaken for a demand of this rate: all of them where they are few.
-pub(super) fn levels_for(measure: &SpectraOfResult, site: usize, target_per_year: f64) -> Vec<usize> {
-    let rates = measure.weights[site].rates_per_year();
-    let first = rates.iter().rposition(|&rate| rate >= TIMES_TARGET * target_per_year).unwrap_or(0);
-    sparse(&measure.plan.levels, first)
-}
-
 /// At most [`LEVELS`] of the levels from the `first` on, evenly spaced in their logarithm; all where they are few.
-pub(super) fn sparse(levels: &[f64], first: usize) -> Vec<usize> {
+fn sparse(levels: &[f64], first: usize) -> Vec<usize> {
     let last = levels.len() - 1;
     if levels.len() <= LEVELS {
         return (0..levels.len()).collect();

@@ -6,7 +6,7 @@ use uplift::structure::{LimitEvent, TargetBand, TargetFrame, TargetReport};
 use uplift::text::{self, Table, per_cent, short, thousands};
 
 use super::alarms::print_warnings;
-use super::structure::{print_notes, print_structure, rate, risk_cells};
+use super::structure::{fewer_levels, print_notes, print_structure, rate, risk_cells};
 use super::uncertainty::{kind_in_words, print_quantities};
 use super::{print_more, shown_path};
 use crate::error::CommandError;
@@ -105,7 +105,8 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let own = report
         .own_value
         .map_or_else(String::new, |own| format!("; the structure's {quantity} is {}", unit(short(own))));
-    writeln!(out, "At        {site} by {im}; {}{own}", report.source.record_set)?;
+    let frame = report.frame.iter().map(|frame| (frame.levels.len(), frame.levels_of_study, &im[..]));
+    writeln!(out, "At        {site} by {im}; {}{}{own}", report.source.record_set, fewer_levels(frame))?;
     Ok(())
 }
 

@@ -8,7 +8,7 @@ use uplift_job::events::Events;
 use uplift_result::ResultFile;
 use uplift_risk::SiteWeights;
 use uplift_study::Structure;
-use uplift_uniform_risk::{Stripes, StudyOfResult, plan_stripes};
+use uplift_uniform_risk::{SpectraOfResult, Stripes, StudyOfResult, plan_stripes};
 
 use super::DesignOptions;
 use crate::certainty::Scatter;
@@ -16,7 +16,7 @@ use crate::demand::{ExactDemand, Shaken, exact_demand};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::{Place, ShakenRecords, job_name, restitution};
-use crate::own_frame::{FrameQuestion, FrameReport, OwnFrame, Pairs, levels_for};
+use crate::own_frame::{FrameLevels, FrameQuestion, FrameReport, OwnFrame, Pairs};
 use crate::sweep::Sweep;
 use crate::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
 
@@ -52,9 +52,8 @@ impl OwnAnalysis {
     ) -> Result<Self, DesignError> {
         let Question { place, weights, target_per_year } = *question;
         let measure = place.measure;
-        let at = (place, target_per_year);
-        let analysis = DesignAnalysis::from_structure(structure, source, at, (records, options))?;
-        let work = analysis.work(source, at, &job_name("design", structure))?;
+        let analysis = DesignAnalysis::from_structure(structure, (source, measure), (records, options))?;
+        let work = analysis.work(source, &job_name("design", structure))?;
         let (analysed, checkpoint) = work.asked_of(&source.path, &options.shards, events)?;
         let set = &analysis.records.set;
         let mut analysed = analysed.into_iter();
@@ -77,10 +76,10 @@ impl OwnAnalysis {
             _ => None,
         };
         let frame = match (&analysis.frame, of_frame) {
-            (Some(frame), Some([Some(wobbling), Some(planar)])) => {
+            (Some((frame, levels)), Some([Some(wobbling), Some(planar)])) => {
                 let of_proxy = |limit| shaken.beyond_limit(limit, (&hazard, &scatter));
                 let question = FrameQuestion {
-                    places: &levels_for(measure, place.site, target_per_year),
+                    levels,
                     place,
                     weights,
                     hazard: &hazard,
@@ -102,9 +101,10 @@ impl OwnAnalysis {
 
 /// The oscillators of a structure, and the records that shake them.
 pub(super) struct DesignAnalysis<'a> {
+    measure: &'a SpectraOfResult,
     records: ShakenRecords,
-    /// The frame itself; none of a structure that cannot wobble, and of a proxy.
-    frame: Option<OwnFrame>,
+    /// The frame itself, with its levels; none of a structure that cannot wobble, and of a proxy.
+    frame: Option<(OwnFrame, FrameLevels)>,
     /// Why one that can wobble is left out.
     without_frame: Option<String>,
     sweep: Sweep,
@@ -116,8 +116,7 @@ pub(super) struct DesignAnalysis<'a> {
 impl<'a> DesignAnalysis<'a> {
     pub(super) fn from_structure(
         structure: &'a Structure,
-        source: &StudyOfResult,
-        (place, target_per_year): (Place<'_>, f64),
+        (source, measure): (&StudyOfResult, &'a SpectraOfResult),
         ((records, pairs), options): ((ShakenRecords, Option<Pairs>), &DesignOptions),
     ) -> Result<Self, DesignError> {
         let sweep = Sweep::from_structure(structure, &source.study, options.sensitivity)?;
@@ -126,31 +125,26 @@ impl<'a> DesignAnalysis<'a> {
         let uncertain =
             if is_asked { Uncertain::from_structure(structure, restitution, records.count())? } else { None };
         let frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
-        let levels = frame_levels(place, target_per_year);
-        let at = (place.measure.measure(), &levels[..]);
+        let frame = frame.map(|frame| {
+            let levels = frame.levels(&records.set, measure);
+            (frame, levels)
+        });
         let without_frame = match &frame {
-            Some(frame) => frame.leaves_the_ground(&records.set, at)?,
+            Some((frame, levels)) => frame.leaves_the_ground(&records.set, (measure.measure(), levels))?,
             None => None,
         };
         let frame = frame.filter(|_| without_frame.is_none());
-        Ok(Self { systems: sweep.systems(), sweep, uncertain, frame, without_frame, records })
+        Ok(Self { systems: sweep.systems(), sweep, uncertain, frame, without_frame, measure, records })
     }
 
-    /// Their stripes by one measure, then those of the frame for a demand of the rate `target_per_year`, then those of
-    /// the structures that it may be.
-    pub(super) fn work(
-        &self,
-        source: &StudyOfResult,
-        (place, target_per_year): (Place<'_>, f64),
-        title: &str,
-    ) -> Result<Work<'_>, DesignError> {
-        let measure = place.measure;
+    /// Their stripes by the measure, then those of the frame, then those of the structures that it may be.
+    pub(super) fn work(&self, source: &StudyOfResult, title: &str) -> Result<Work<'_>, DesignError> {
+        let measure = self.measure;
         let plan = plan_stripes(&source.study, &measure.plan, &self.records.set, &self.systems)?;
         let label = measure.measure().label().to_owned();
         let mut plans = vec![LabelledPlan { label, remark: None, plan, motions: &self.records.motions, known: None }];
-        if let Some(frame) = &self.frame {
-            let levels = frame_levels(place, target_per_year);
-            plans.extend(frame.plans(&self.records, (measure.measure(), &levels))?);
+        if let Some((frame, levels)) = &self.frame {
+            plans.extend(frame.plans(&self.records, (measure.measure(), levels))?);
         }
         if let Some(uncertain) = &self.uncertain {
             let study = (measure.measure().label(), &source.study);
@@ -158,12 +152,6 @@ impl<'a> DesignAnalysis<'a> {
         }
         Ok(Work::new(title, plans))
     }
-}
-
-/// The levels at which a frame is shaken for a demand of the rate `target_per_year`.
-fn frame_levels(place: Place<'_>, target_per_year: f64) -> Vec<f64> {
-    let places = levels_for(place.measure, place.site, target_per_year);
-    places.iter().map(|&level| place.measure.plan.levels[level]).collect()
 }
 
 /// What is asked of the structures that it may be, each with the answer for the structure as described.

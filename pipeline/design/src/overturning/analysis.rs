@@ -13,7 +13,7 @@ use super::OverturningOptions;
 use crate::error::DesignError;
 use crate::models::models;
 use crate::opening::{ShakenRecords, choose_measure, records_and_pairs, required};
-use crate::own_frame::{FramePeaks, OwnFrame, STOPPED, falls};
+use crate::own_frame::{FrameLevels, FramePeaks, OwnFrame, STOPPED, falls};
 use crate::uncertain::Uncertain;
 
 /// Place of the equivalent oscillator among the models.
@@ -34,8 +34,8 @@ pub(crate) struct OverturningAnalysis<'a> {
     pub(crate) measures: Vec<&'a SpectraOfResult>,
     /// Each with the origin of its restitution.
     pub(crate) models: Vec<(System, &'static str)>,
-    /// The frame itself, with the positions of its levels, `[measure]`; none of a structure that cannot wobble.
-    pub(super) frame: Option<(OwnFrame, Vec<Vec<usize>>)>,
+    /// The frame itself, with its levels, `[measure]`; none of a structure that cannot wobble.
+    pub(super) frame: Option<(OwnFrame, Vec<FrameLevels>)>,
     /// Why one that can wobble is left out.
     pub(super) without_frame: Option<String>,
     /// The structures that it may be; none where all of it is known.
@@ -62,13 +62,12 @@ impl<'a> OverturningAnalysis<'a> {
         let (records, pairs) = required(found, "overturning")?;
         let frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
         let mut frame = frame.map(|frame| {
-            let levels = measures.iter().map(|of| frame.levels_that_uplift(&records.set, of)).collect::<Vec<_>>();
+            let levels = measures.iter().map(|of| frame.levels(&records.set, of)).collect::<Vec<_>>();
             (frame, levels)
         });
-        if let Some((of, places)) = &frame {
-            for (measure, places) in measures.iter().zip(places) {
-                let levels: Vec<f64> = places.iter().map(|&place| measure.plan.levels[place]).collect();
-                let falls = of.leaves_the_ground(&records.set, (measure.measure(), &levels))?;
+        if let Some((of, levels)) = &frame {
+            for (measure, levels) in measures.iter().zip(levels) {
+                let falls = of.leaves_the_ground(&records.set, (measure.measure(), levels))?;
                 without_frame = without_frame.or(falls);
             }
         }
@@ -90,18 +89,18 @@ impl<'a> OverturningAnalysis<'a> {
         self.models.iter().map(|(model, origin)| (model, *origin)).chain(of_frame)
     }
 
-    /// The peaks of the frame by each measure, with the positions of its levels; their stripes are the next of those
+    /// The peaks of the frame by each measure, with its levels; their stripes are the next of those
     /// `analysed`. None of a structure that cannot wobble.
     pub(crate) fn frame_peaks(
         &self,
         analysed: &mut impl Iterator<Item = Analysed>,
-    ) -> Vec<(&'a SpectraOfResult, &[usize], FramePeaks)> {
-        let Some((frame, places)) = &self.frame else { return Vec::new() };
-        let measures = self.measures.iter().zip(places);
+    ) -> Vec<(&'a SpectraOfResult, &FrameLevels, FramePeaks)> {
+        let Some((frame, levels)) = &self.frame else { return Vec::new() };
+        let measures = self.measures.iter().zip(levels);
         measures
-            .map_while(|(&measure, places)| {
+            .map_while(|(&measure, levels)| {
                 let [wobbling, planar] = [analysed.next()?, analysed.next()?];
-                Some((measure, &places[..], frame.peaks(&wobbling, Some(&planar))))
+                Some((measure, levels, frame.peaks(&wobbling, Some(&planar))))
             })
             .collect()
     }
@@ -121,11 +120,8 @@ impl<'a> OverturningAnalysis<'a> {
             }
         }
         for (place, measure) in self.measures.iter().enumerate() {
-            let Some((frame, places)) = self.frame.as_ref().map(|(frame, places)| (frame, &places[place])) else {
-                break;
-            };
-            let levels: Vec<f64> = places.iter().map(|&place| measure.plan.levels[place]).collect();
-            plans.extend(frame.plans(&self.records, (measure.measure(), &levels))?);
+            let Some((frame, levels)) = &self.frame else { break };
+            plans.extend(frame.plans(&self.records, (measure.measure(), &levels[place]))?);
         }
         if let Some(uncertain) = &self.uncertain {
             for measure in &self.measures {

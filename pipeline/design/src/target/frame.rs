@@ -14,7 +14,7 @@ use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::limit::{FrameLimit, LimitRisk};
 use crate::opening::Place;
-use crate::own_frame::{FrameModel, FrameQuestion, FrameReport, OwnFrame, levels_for};
+use crate::own_frame::{FrameModel, FrameQuestion, FrameReport, OwnFrame};
 use crate::risk::own_risk;
 
 /// Most values at which a wobbling frame is shaken.
@@ -32,6 +32,9 @@ pub struct TargetFrame {
     pub value: f64,
     /// Levels at which it was shaken, in the unit of the measure.
     pub levels: Vec<f64>,
+    /// Levels of the study.
+    #[serde(skip)]
+    pub levels_of_study: usize,
     /// Nonlinear time histories.
     pub analyses: u64,
     /// Wobbling under both components, then in the plane of the study's component.
@@ -147,21 +150,20 @@ impl FrameTarget<'_> {
     ) -> Result<(Option<TargetFrame>, Option<String>), DesignError> {
         let Some(pairs) = trials.components.take() else { return Ok((None, None)) };
         let value = if safe.is_finite() { safe } else { best };
-        let places = levels_for(self.place.measure, self.place.site, self.target_per_year);
-        let levels: Vec<f64> = places.iter().map(|&place| self.place.measure.plan.levels[place]).collect();
         let Some(first) = self.structure_at(value)? else { return Ok((None, Some(NO_COLUMNS.to_owned()))) };
         let mut frame = OwnFrame::from_structure(&first, pairs)?;
-        let at = (self.place.measure.measure(), &levels[..]);
+        let levels = frame.levels(&trials.records.set, self.place.measure);
+        let at = (self.place.measure.measure(), &levels);
         if let Some(reason) = frame.leaves_the_ground(&trials.records.set, at)? {
             return Ok((None, Some(reason)));
         }
-        let (mut report, models) = self.shaken(trials, (&frame, &first), (&places, &levels), true)?;
+        let (mut report, models) = self.shaken(trials, (&frame, &first), true)?;
         let mut tried = vec![(value, models[0].clone())];
         while tried.len() < MOST_VALUES {
             let Some(next) = self.next(&tried, most) else { break };
             let Some(structure) = self.structure_at(next)? else { break };
             frame = OwnFrame::from_structure(&structure, frame.pairs)?;
-            let (own, models) = self.shaken(trials, (&frame, &structure), (&places, &levels), false)?;
+            let (own, models) = self.shaken(trials, (&frame, &structure), false)?;
             report.analyses += own.analyses;
             tried.extend(models.into_iter().map(|model| (next, model)));
             tried.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -176,7 +178,8 @@ impl FrameTarget<'_> {
         let limit = report.governing_limit();
         let found = TargetFrame {
             value,
-            levels,
+            levels: levels.values,
+            levels_of_study: report.levels_of_study,
             analyses: report.analyses,
             models,
             limit,
@@ -198,9 +201,9 @@ impl FrameTarget<'_> {
         &self,
         trials: &mut Trials<'_>,
         (frame, structure): (&OwnFrame, &Structure),
-        (places, levels): (&[usize], &[f64]),
         with_planar: bool,
     ) -> Result<(FrameReport, Vec<TargetFrameModel>), DesignError> {
+        let levels = &frame.levels(&trials.records.set, self.place.measure);
         let peaks = trials.shake(frame, levels, with_planar)?;
         let threshold_m = match self.options.event() {
             TargetEvent::Overturning => None,
@@ -209,7 +212,7 @@ impl FrameTarget<'_> {
         };
         let (hazard, scatter) = self.of_records;
         let question = FrameQuestion {
-            places,
+            levels,
             place: self.place,
             weights: &SiteWeights::Alike(hazard.mean),
             hazard,

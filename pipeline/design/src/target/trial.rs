@@ -21,7 +21,7 @@ use crate::certainty::Scatter;
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::{Place, ShakenRecords, job_name, records_and_pairs, required, restitution};
-use crate::own_frame::{FramePeaks, OwnFrame, Pairs};
+use crate::own_frame::{FrameLevels, FramePeaks, OwnFrame, Pairs};
 use crate::risk::{HAPPENS, OVERTURNING_M, bounded, happenings, risk_of_exceeding};
 use crate::uncertain::{Around, Spread};
 
@@ -92,7 +92,7 @@ impl<'a> Trials<'a> {
     pub(super) fn shake(
         &mut self,
         frame: &OwnFrame,
-        levels: &[f64],
+        levels: &FrameLevels,
         with_planar: bool,
     ) -> Result<FramePeaks, DesignError> {
         // one job has the file at a time, and this one goes on with it
