@@ -1,59 +1,18 @@
 //! The stripes of a result, as `uplift export --web` writes them, and the sites that meet them.
 
-use serde::Deserialize;
 use serde_json::{Value, json};
 use uplift_fragility::Stripes as Stripe;
 use uplift_hazard::{ComponentDefinition, Extrapolation, HazardCurve};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::{FEW_RECORDS, PooledDemand, StripeWeights};
 use uplift_study::{AnyStudy, Study, UniformRiskStudy, definition_of};
+use uplift_web_stripes::{FORMAT, WebMeasure, WebStripes};
 
 use crate::calculator::{Answer, At, Risk, refused};
-
-/// What `uplift export --web` calls its files.
-const FORMAT: &str = "uplift-web-1";
 
 /// What a refused curve is told, and what the page offers for it.
 const EXTRAPOLATION_KEY: &str = "choose log-log extrapolation (risk.extrapolate = \"loglog\")";
 const EXTRAPOLATION_BOX: &str = "tick “Extrapolate curves that end too early”";
-
-#[derive(Deserialize)]
-struct Exported {
-    format: String,
-    provenance: String,
-    record_set: String,
-    synthetic: bool,
-    records: Vec<String>,
-    study: String,
-    sites: Vec<ExportedSite>,
-    measures: Vec<ExportedMeasure>,
-}
-
-#[derive(Deserialize)]
-struct ExportedSite {
-    name: String,
-    curves: Vec<ExportedCurve>,
-}
-
-#[derive(Deserialize)]
-struct ExportedCurve {
-    im: String,
-    unit: String,
-    source: String,
-    levels: Vec<f64>,
-    maf_per_year: Vec<f64>,
-    alarms: Value,
-}
-
-#[derive(Deserialize)]
-struct ExportedMeasure {
-    im: String,
-    levels: Vec<f64>,
-    band_of: String,
-    units: Vec<Vec<usize>>,
-    /// `[record, strength, level]`; none where infinite.
-    peaks_m: Vec<Option<f64>>,
-}
 
 /// Stripes of one measure.
 #[expect(clippy::struct_field_names, reason = "the measure itself")]
@@ -134,7 +93,7 @@ impl Stripes {
     /// Reads what `uplift export --web` wrote.
     pub(crate) fn read(bytes: &[u8]) -> Answer<Self> {
         let not_ours = |error: serde_json::Error| format!("not a file of `uplift export --web`: {error}");
-        let read: Exported = serde_json::from_slice(bytes).map_err(not_ours)?;
+        let read: WebStripes = serde_json::from_slice(bytes).map_err(not_ours)?;
         if read.format != FORMAT {
             return Err(format!("the file is of the format {:?}, and this page reads {FORMAT:?}", read.format));
         }
@@ -142,7 +101,7 @@ impl Stripes {
             AnyStudy::UniformRisk(study) => *study,
             _ => return Err("the study in the file is not of uniform risk".to_owned()),
         };
-        let measure = |own: ExportedMeasure| {
+        let measure = |own: WebMeasure| {
             let peaks_m: Vec<f64> = own.peaks_m.iter().map(|peak_m| peak_m.unwrap_or(f64::INFINITY)).collect();
             let measure = own.im.parse().map_err(refused)?;
             let peaks = (read.records.len(), study.strengths.len(), &peaks_m[..]);

@@ -152,7 +152,9 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
         ExportFormat::Json => Ok(write_atomically(file, format!("{:#}\n", export.json()).as_bytes())?),
         ExportFormat::Matlab => Ok(write_atomically(file, &export.matlab()?)?),
         ExportFormat::Workbook => Ok(write_atomically(file, &export.workbook()?)?),
-        ExportFormat::Web => Ok(write_atomically(file, format!("{}\n", web::web(&result)?).as_bytes())?),
+        ExportFormat::Web => {
+            Ok(write_atomically(file, format!("{}\n", serde_json::json!(web::web(&result)?)).as_bytes())?)
+        }
     })?;
     if let Some(table) = findings {
         write_table(&table, export.provenance(), export.finding_columns())?;

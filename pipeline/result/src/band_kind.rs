@@ -17,10 +17,6 @@ pub struct BandKind {
     pub is_joint: bool,
 }
 
-/// Figures of Table 4.1: the name of each, and its heading of the workbook.
-pub const BAND_FIGURES: [(&str, &str); 2] =
-    [("e_median_pct", "error of the median, %"), ("r_90ci_pct", "range of the interval, %")];
-
 /// The bands of a kind, of all spectra of a measure.
 #[derive(Debug, Clone, Copy)]
 pub struct BandsOfKind<'a> {
@@ -30,7 +26,7 @@ pub struct BandsOfKind<'a> {
     pub simultaneous_m: Option<&'a [Array<4>; 2]>,
     /// Those beyond the set; joint bands have none.
     pub inferred: Option<&'a InferredBands>,
-    /// The [`BAND_FIGURES`] `[site, poe, size]`; joint bands have no error of the median.
+    /// The figures of Table 4.1 `[site, poe, size]`; joint bands have no error of the median.
     pub figures: [Option<&'a Array<3>>; 2],
     /// Share of the samples whose weights miss the site's hazard `[site, size]`; of repaired spectra alone.
     pub failed: Option<&'a Array<2>>,

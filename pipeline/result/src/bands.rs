@@ -178,8 +178,9 @@ group! {
     "<upper>" [SITE, POE, SAMPLE_SIZE, STRENGTH] F64 "m" "upper limit" = |of, at| of.limits_m[2][at];
     "e_median" [SITE, POE, SAMPLE_SIZE] F64 "%" "error of the median (Eq. 4.9)"
         ("error of the median (Eq. 4.9); NaN where an ordinate is censored or 0, as the next one")
-        = |of, at| of.error_of_median[at];
-    "r_90ci" [SITE, POE, SAMPLE_SIZE] F64 "%" "range of the interval (Eq. 4.10)" = |of, at| of.range_of_interval[at];
+        as "e_median_pct" "error of the median, %" = |of, at| of.error_of_median[at];
+    "r_90ci" [SITE, POE, SAMPLE_SIZE] F64 "%" "range of the interval (Eq. 4.10)"
+        as "r_90ci_pct" "range of the interval, %" = |of, at| of.range_of_interval[at];
 }
 
 group! {

@@ -33,7 +33,7 @@ mod study;
 mod target;
 
 pub use asked_spectra::AskedSpectra;
-pub use band_kind::{BAND_FIGURES, BandKind, BandsOfKind, before_unit};
+pub use band_kind::{BandKind, BandsOfKind, before_unit};
 pub use bands::{
     BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, REPAIRED_BANDS, SIMULTANEOUS_BANDS,
 };

@@ -80,18 +80,20 @@ pub mod regression {
         path: "/regression/<im>",
         quantities: &[C0_M, C1, C2_M, RMSE_M, RMSE_PLAIN_M, MAX_ABS_RESIDUAL_M, BOUND_ACTIVE, POINTS],
     };
-    /// The four that every table of coefficients has.
+    /// The numbers among those that are exported.
     pub const COEFFICIENTS: &[Quantity<Fits>] = &[C0_M, C1, C2_M, RMSE_M];
     /// Amplitude.
     pub const C0_M: Quantity<Fits> = quantity!("c0_m" [SITE, POE] F64 "m" "c0 of u = c0 exp(c1 strength) + c2"
-        ("coefficient of Eq. 4.11; NaN where there is no fit, here and below") = |of, at| of[at].c0_m);
+        ("coefficient of Eq. 4.11; NaN where there is no fit, here and below")
+        as "c0_m" "c0, m" = |of, at| of[at].c0_m);
     /// Exponent.
-    pub const C1: Quantity<Fits> = quantity!("c1" [SITE, POE] F64 "1" "c1" = |of, at| of[at].c1);
+    pub const C1: Quantity<Fits> = quantity!("c1" [SITE, POE] F64 "1" "c1" as "c1" "c1, -" = |of, at| of[at].c1);
     /// Constant.
-    pub const C2_M: Quantity<Fits> = quantity!("c2_m" [SITE, POE] F64 "m" "c2, not negative" = |of, at| of[at].c2_m);
+    pub const C2_M: Quantity<Fits> = quantity!("c2_m" [SITE, POE] F64 "m" "c2, not negative"
+        as "c2_m" "c2, m" = |of, at| of[at].c2_m);
     /// Root mean square error.
     pub const RMSE_M: Quantity<Fits> = quantity!("rmse_m" [SITE, POE] F64 "m"
-        "root mean square error with n - 3 degrees of freedom" = |of, at| of[at].rmse_m);
+        "root mean square error with n - 3 degrees of freedom" as "rmse_m" "RMSE, m" = |of, at| of[at].rmse_m);
     /// Root mean square error over n points.
     pub const RMSE_PLAIN_M: Quantity<Fits> = quantity!("rmse_plain_m" [SITE, POE] F64 "m"
         "root mean square error over n points" = |of, at| of[at].rmse_plain_m);
@@ -100,7 +102,7 @@ pub mod regression {
         "largest residual" = |of, at| of[at].max_abs_residual_m);
     /// Whether c2 is held at 0.
     pub const BOUND_ACTIVE: Quantity<Fits> = quantity!("bound_active" [SITE, POE] Bool "1"
-        "1 where c2 is held at 0" = |of, at| of[at].bound_active);
+        "1 where c2 is held at 0" as "bound_active" "c2 held at 0" = |of, at| of[at].bound_active);
     /// Strengths fitted.
     pub const POINTS: Quantity<Fits> = quantity!("points" [SITE, POE] U32 "1"
         "strengths fitted, 0 where there is no fit" ("strengths fitted, n; 0 where there is no fit")

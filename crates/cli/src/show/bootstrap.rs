@@ -79,10 +79,10 @@ fn print_figures(
             let printed = |name: &str, size: u32| {
                 let is_own =
                     |row: &&ReferenceRow| row.sample_size == size && row.site.to_lowercase() == name.to_lowercase();
-                reference?.iter().find(is_own)?.figures.iter().find(|(key, ..)| key == bands.measure.key())
+                reference?.iter().find(is_own)?.figures.iter().find(|(key, _)| key == bands.measure.key())
             };
-            let error = |name: &str, size| printed(name, size).map(|(_, error, _)| format!("{error:.1}"));
-            let range = |name: &str, size| printed(name, size).map(|(.., range)| format!("{range:.0}"));
+            let error = |name: &str, size| printed(name, size).map(|(_, figures)| format!("{:.1}", figures[0]));
+            let range = |name: &str, size| printed(name, size).map(|(_, figures)| format!("{:.0}", figures[1]));
             let dash = || "-".to_owned();
             table
                 .right(format!("{label} e"), |((site, _), (size, _))| figure(of.error_of_median[[site, poe, size]], 1))

@@ -24,7 +24,7 @@ pub(super) struct BandOf<'a> {
     /// Limits of the spectra of all records there could be, and of another set, as
     /// [`INFERRED_BANDS`](uplift_result::INFERRED_BANDS) names them, m; of plain spectra alone, none in older results.
     pub(super) inferred_m: Option<[&'a [f64]; 4]>,
-    /// The [`BAND_FIGURES`](uplift_result::BAND_FIGURES); NaN where there is none.
+    /// The figures that [`BANDS`](uplift_result::BANDS) exports; NaN where there is none.
     pub(super) figures: [f64; 2],
     /// Share of the samples whose weights miss the site's hazard; of repaired spectra alone.
     pub(super) failed_share: Option<f64>,

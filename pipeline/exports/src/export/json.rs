@@ -5,7 +5,7 @@ use uplift_job::text::finite;
 use uplift_questions::influence::{CHANGES, RecordInfluence};
 use uplift_result::declared::{Field, Group, Quantity};
 use uplift_result::{
-    BAND_FIGURES, BandKind, EFFICIENCY, Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, TRENDS,
+    BANDS, BandKind, EFFICIENCY, Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, TRENDS,
     regression, urs,
 };
 use uplift_uniform_risk::{CONFIDENCE, QUOTED_LIMITS};
@@ -63,7 +63,7 @@ impl Export {
         spectrum["disaggregation"] =
             self.influence_on(row).map(|influence| self.disaggregation(row.at, influence)).into();
         if let Some((u_m, fit)) = self.repaired(row) {
-            spectrum["u_consistent_m"] = numbers(u_m).into();
+            spectrum[BandKind::REPAIRED.column(urs::U_M.name)] = numbers(u_m).into();
             spectrum["fit_consistent"] = coefficients(fit);
             spectrum["bands_consistent"] = self.bands_of(row, BandKind::REPAIRED).iter().map(band).collect();
         }
@@ -115,12 +115,12 @@ impl Export {
 
 fn coefficients(fit: &Fit) -> Value {
     let fit = Fits::from_fn([1, 1], |_| *fit);
-    let all = regression::COEFFICIENTS.iter().chain([&regression::BOUND_ACTIVE]);
+    let all = regression::GROUP.exported();
     Value::Object(all.map(|quantity| (quantity.name.to_owned(), cell(quantity, &fit, 0))).collect())
 }
 
 /// The value at an index of a stored array.
-fn cell<T>(quantity: &Quantity<T>, of: &T, at: usize) -> Value {
+pub(super) fn cell<T>(quantity: &Quantity<T>, of: &T, at: usize) -> Value {
     match &quantity.field {
         Field::F64(place) => finite(*(place.get)(of, at)).into(),
         Field::Made(number) => finite(number(of, at)).into(),
@@ -167,8 +167,8 @@ fn band(band: &BandOf<'_>) -> Value {
     for (name, limit_m) in ["lower_m", "median_m", "upper_m"].iter().zip(band.limits_m) {
         said[*name] = numbers(limit_m).into();
     }
-    for ((name, _), figure) in BAND_FIGURES.iter().zip(band.figures) {
-        said[*name] = finite(figure).into();
+    for (quantity, figure) in BANDS.exported().zip(band.figures) {
+        said[quantity.exported_name()] = finite(figure).into();
     }
     for (quantity, limits_m) in INFERRED_BANDS.quantities.iter().zip(band.inferred_m.iter().flatten()) {
         said[quantity.name] = numbers(limits_m).into();

@@ -7,7 +7,7 @@ use uplift_job::alarm::Alarm;
 use uplift_result::declared::{Field, Lengths, Quantity};
 use uplift_result::layout::axis::{POE, SAMPLE_SIZE, SITE, STRENGTH};
 use uplift_result::{
-    BAND_FIGURES, CONSISTENCY, EFFICIENCY, INFERRED_BANDS, StoredSpectra, StoredSpread, TRENDS, before_unit,
+    BANDS, BandKind, CONSISTENCY, EFFICIENCY, INFERRED_BANDS, StoredSpectra, StoredSpread, TRENDS, before_unit,
     regression, urs,
 };
 use uplift_uniform_risk::QUOTED_LIMITS;
@@ -78,7 +78,7 @@ impl Export {
             file.numbers(&format!("consistency_ratio_{key}"), &shape, of.ratio.values());
             if let (Some(u_m), Some(fits)) = (&of.u_m, &of.fits) {
                 let spectra = Shape(vec![strengths.len(), poes.len(), sites.len()]);
-                file.numbers(&format!("u_consistent_{key}_m"), &spectra, u_m.values());
+                file.numbers(&name_with(BandKind::REPAIRED, urs::U_M.name, key), &spectra, u_m.values());
                 let name = |own: &Quantity<_>| own.name_with(&format!("consistent_{key}"));
                 add(file, regression::COEFFICIENTS, lengths, fits, name);
             }
@@ -156,9 +156,9 @@ impl Export {
                 for (name, limits) in bands.limit_names().iter().zip(own.limits_m) {
                     file.numbers(&name_with(kind, name, key), &spectra, limits.values());
                 }
-                for ((name, _), figure) in BAND_FIGURES.iter().zip(own.figures) {
-                    if let Some(figure) = figure {
-                        file.numbers(&name_with(kind, name, key), &figures, figure.values());
+                for (figure, own) in BANDS.exported().zip(own.figures) {
+                    if let Some(own) = own {
+                        file.numbers(&name_with(kind, figure.exported_name(), key), &figures, own.values());
                     }
                 }
             }

@@ -5,8 +5,11 @@ use serde_json::{Value, json};
 use uplift_alarms::alarms;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
-use uplift_result::layout::axis::{EXCITATION, LEVEL};
-use uplift_result::{DIRECTIONS, Head, ResultFile, ShakeTable, TABLE_EXCITATIONS, TABLE_TESTS};
+use uplift_result::layout::axis::{DIRECTION, EXCITATION, LEVEL, PERIOD};
+use uplift_result::{
+    DESIGN_SPECTRUM, DIRECTIONS, Head, ResultFile, ShakeTable, TABLE_EXCITATIONS, TABLE_ORDER, TABLE_SPECTRA,
+    TABLE_TESTS,
+};
 use uplift_studies::shake_table::columns;
 
 use super::matlab::add;
@@ -70,14 +73,14 @@ impl TestsExport {
         }
         let shape = Shape(vec![excitations.len(), levels.len()]);
         let order: Vec<f64> = self.table.order().into_iter().map(f64::from).collect();
-        file.numbers("order", &shape, &order);
+        file.numbers(TABLE_ORDER.quantities[0].name, &shape, &order);
         if let Some(spectra) = &self.table.spectra {
             let count = spectra.periods_s.len();
             file.numbers("period_s", &Shape::column(count), &spectra.periods_s);
-            let shape = Shape(vec![count, DIRECTIONS.len(), excitations.len()]);
-            file.numbers("spectral_acceleration_m_s2", &shape, &spectra.recorded_m_s2);
+            let lengths = &[(EXCITATION, excitations.len()), (DIRECTION, DIRECTIONS.len()), (PERIOD, count)];
+            add(&mut file, TABLE_SPECTRA.quantities, lengths, spectra, |own| own.name.to_owned());
             if let Some(design_m_s2) = &spectra.design_m_s2 {
-                file.numbers("design_spectrum_m_s2", &Shape::column(count), design_m_s2);
+                add(&mut file, DESIGN_SPECTRUM.quantities, lengths, design_m_s2, |own| own.name.to_owned());
             }
         }
         Ok(file.finish().map_err(JobError::input)?)

@@ -113,7 +113,9 @@ impl Export {
         if self.has_repaired() {
             // infinite where censored
             let known = |u_m: &[f64]| u_m.iter().map(|u_m| Some(*u_m).filter(|u_m| !u_m.is_nan())).collect();
-            cells.push(Cells::new("u_consistent_m", move |row| Some(known(self.repaired(row)?.0))));
+            cells.push(Cells::new(BandKind::REPAIRED.column(urs::U_M.name), move |row| {
+                Some(known(self.repaired(row)?.0))
+            }));
         }
         cells
     }

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use uplift_job::ReferenceTable;
 use uplift_motion::IntensityMeasure;
-use uplift_result::{MeasureBands, StoredSpectraBands, WidestInferred};
+use uplift_result::declared::Quantity;
+use uplift_result::{BANDS, MeasureBands, StoredSpectraBands, WidestInferred};
 use uplift_uniform_risk::StoredStripes;
 
 use super::bands::BandSettings;
@@ -164,8 +165,8 @@ pub struct ReferenceRow {
     pub site: String,
     /// Records in a sample.
     pub sample_size: u32,
-    /// Measure (`pgv`, `pga`), error of the median (Eq. 4.9) and range of the interval (Eq. 4.10) in per cent.
-    pub figures: Vec<(String, f64, f64)>,
+    /// Measure (`pgv`, `pga`), with error of the median (Eq. 4.9) and range of the interval (Eq. 4.10) in per cent.
+    pub figures: Vec<(String, Vec<f64>)>,
 }
 
 /// Reads a table with the columns of Table 4.1 (`site`, `sample_size`, `pgv_e_median_pct`, `pgv_r_90ci_pct`, …).
@@ -174,25 +175,22 @@ pub struct ReferenceRow {
 /// A file that cannot be read, lacks these columns, or has a cell that is not a number.
 pub fn read_reference(path: &Path) -> Result<Vec<ReferenceRow>, QuestionsError> {
     let table = ReferenceTable::read(path)?;
-    let columns = |key: &str| (format!("{key}_e_median_pct"), format!("{key}_r_90ci_pct"));
+    let names: Vec<&str> = BANDS.exported().map(Quantity::exported_name).collect();
+    let columns = |key: &str| names.iter().map(|name| format!("{key}_{name}")).collect::<Vec<_>>();
     let measures: Vec<&str> = IntensityMeasure::OF_CHAPTER_4
         .into_iter()
         .map(IntensityMeasure::key)
-        .filter(|key| {
-            let (error, range) = columns(key);
-            table.has(&error) && table.has(&range)
-        })
+        .filter(|key| columns(key).iter().all(|name| table.has(name)))
         .collect();
     if !table.has("site") || !table.has("sample_size") || measures.is_empty() {
-        return Err(table
-            .fail("needs the columns site, sample_size, and pgv_e_median_pct with pgv_r_90ci_pct or the same of pga")
-            .into());
+        let needed = columns(IntensityMeasure::Pgv.key()).join(" with ");
+        return Err(table.fail(format!("needs the columns site, sample_size, and {needed} or the same of pga")).into());
     }
     (0..table.rows())
         .map(|row| {
             let figures = measures.iter().map(|key| {
-                let (error, range) = columns(key);
-                Ok(((*key).to_owned(), table.number(&error, row)?, table.number(&range, row)?))
+                let numbers = columns(key).iter().map(|name| table.number(name, row)).collect::<Result<_, _>>()?;
+                Ok(((*key).to_owned(), numbers))
             });
             Ok(ReferenceRow {
                 site: table.text("site", row),

@@ -10,9 +10,9 @@ use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::declared::Names;
 use uplift_result::layout::{axis, limit_names};
 use uplift_result::{
-    BAND_FIGURES, BANDS, BandKind, BandsOfKind, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, InferredBands,
-    JOINT_BANDS, LockedResult, MeasureBands, REPAIRED_BANDS, SIMULTANEOUS_BANDS, SiteJointBands, StoredDraws,
-    StoredSpectraBands, band_lengths, band_names, sign,
+    BANDS, BandKind, BandsOfKind, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, InferredBands, JOINT_BANDS,
+    LockedResult, MeasureBands, REPAIRED_BANDS, SIMULTANEOUS_BANDS, SiteJointBands, StoredDraws, StoredSpectraBands,
+    band_lengths, band_names, sign,
 };
 use uplift_uniform_risk::{BandOf, QuotedUnits, StoredStripes};
 
@@ -180,9 +180,10 @@ fn figures_table(file: &BandsFile<'_>) -> Vec<Column> {
         .with("years", |_| stored.years)
         .with("sample_size", |(_, [.., size])| sizes[size]);
     for (kind, of) in kinds(file) {
-        for (figure, (name, _)) in BAND_FIGURES.iter().enumerate() {
+        for (figure, quantity) in BANDS.exported().enumerate() {
             if of.iter().flatten().any(|of| of.figures[figure].is_some()) {
-                columns = columns.with(kind.column(name), |(place, at)| known(of[place]?.figures[figure]?[at]));
+                columns = columns
+                    .with(kind.column(quantity.exported_name()), |(place, at)| known(of[place]?.figures[figure]?[at]));
             }
         }
         if of.iter().flatten().any(|of| of.failed.is_some()) {

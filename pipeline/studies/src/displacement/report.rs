@@ -1,16 +1,12 @@
 //! The report of a run of a study of displacement spectra.
 
-use std::path::PathBuf;
-
 use serde::Serialize;
 use uplift_inputs::NamedSet;
-use uplift_job::alarm::Alarm;
 use uplift_job::study_run::RunHead;
 use uplift_result::{DesignRow, ResultFile, StoredSet};
 use uplift_spectra::{MotionSet, Noisy};
 use uplift_study::{DisplacementStudy, Kind, Structures};
 
-use super::{DisplacementOutcome, printed};
 use crate::error::StudiesError;
 
 /// The report of a run.
@@ -96,31 +92,6 @@ impl SetReport {
 }
 
 impl RunReport {
-    /// The report on what was computed and written.
-    pub(super) fn from_outcome(
-        outcome: &DisplacementOutcome<'_>,
-        (design, alarms): (Vec<DesignRow>, Vec<Alarm>),
-        files: Vec<PathBuf>,
-        seconds: f64,
-    ) -> Self {
-        let study = outcome.study;
-        let records = (outcome.records.description.as_str(), outcome.records.synthetic);
-        let sets = outcome.records.sets.iter().zip(outcome.sets);
-        Self {
-            head: outcome.provenance.head(&study.title, records, alarms, files, seconds),
-            kind: Kind::Displacement.key(),
-            sets: sets.map(|(set, motions)| SetReport::from_motions(set, motions)).collect(),
-            analyses: outcome.analyses,
-            design,
-            has_design: outcome.designs.is_some(),
-            structures: study.structures.clone(),
-            percentiles: study.percentiles.to_vec(),
-            spectra: spectra(outcome),
-        }
-    }
-}
-
-impl RunReport {
     /// The report on the result of `study` in `file`, with a `head`; none where an earlier version wrote it, which did
     /// not repeat ordinates at neighbouring scale factors.
     ///
@@ -156,25 +127,4 @@ impl RunReport {
             spectra,
         }))
     }
-}
-
-fn spectra(outcome: &DisplacementOutcome<'_>) -> Vec<SpectraReport> {
-    let study = outcome.study;
-    let length = study.structures.lines() * study.percentiles.len() * study.structures.abscissa().len();
-    let mut reports = Vec::new();
-    let printed = length / study.structures.abscissa().len() * printed(study.structures.abscissa()).len();
-    for ((set, spectra), rounding) in outcome.sets.iter().zip(outcome.spectra).zip(outcome.rounding) {
-        let ways = study.scaling.to.iter().flat_map(|to| study.scaling.by.iter().map(move |by| (to, by)));
-        let ordinates = spectra.percentile_m.chunks(length).zip(rounding.chunks(printed));
-        for ((to, by), (percentile_m, rounding)) in ways.zip(ordinates) {
-            reports.push(SpectraReport {
-                record_set: set.name().to_owned(),
-                scaling: to.to_string(),
-                scaled_by: by.key(),
-                percentile_m: percentile_m.to_vec(),
-                rounding: rounding.to_vec(),
-            });
-        }
-    }
-    reports
 }

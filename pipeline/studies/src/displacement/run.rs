@@ -7,6 +7,7 @@ use uplift_alarms::alarms;
 use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
 use uplift_ida::Shard;
 use uplift_inputs::RecordSets;
+use uplift_job::JobError;
 use uplift_job::events::{Events, Silent};
 use uplift_job::study_run::Place;
 use uplift_result::earlier::Earlier;
@@ -97,7 +98,10 @@ pub fn run(
     if study.output.csv {
         files.extend(write_displacement_csv(path, &outcome, &rows).inspect_err(complete_result(path, events))?);
     }
-    Ok(RunReport::from_outcome(&outcome, (rows, alarms(&file)?), files, place.start.elapsed().as_secs_f64()))
+    let of_records = (records.description.as_str(), records.synthetic);
+    let head = provenance.head(&study.title, of_records, alarms(&file)?, files, place.start.elapsed().as_secs_f64());
+    let report = RunReport::read(&file, study, head)?;
+    Ok(report.ok_or_else(|| JobError::input(format!("{}: no report can be made of it", path.display())))?)
 }
 
 /// Whether the result in `file` was computed from the records of `study` as its manifest describes them.

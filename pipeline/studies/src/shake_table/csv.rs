@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::{ColumnsOf, write_table};
-use uplift_result::{ShakeTable, TABLE_TESTS};
+use uplift_result::{ShakeTable, TABLE_ORDER, TABLE_TESTS};
 use uplift_study::ShakeTableStudy;
 
 use super::ShakeTableOutcome;
@@ -47,7 +47,7 @@ pub fn columns(table: &ShakeTable) -> Vec<Column> {
         .with("record", |(_, excitation)| excitation.record.as_str())
         .with("rsn", |(_, excitation)| excitation.rsn.as_str())
         .build();
-    columns.push(Column::new("order".into(), table.order()));
+    columns.push(Column::new(TABLE_ORDER.quantities[0].name.into(), table.order()));
     columns.extend(TABLE_TESTS.quantities.iter().map(|quantity| {
         let number = |at| quantity.number(table, at).filter(|value| !value.is_nan());
         Column::new(quantity.name.into(), (0..table.tests.len()).map(number).collect::<Vec<Option<f64>>>())

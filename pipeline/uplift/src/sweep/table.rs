@@ -2,6 +2,7 @@
 
 use uplift_job::outputs;
 use uplift_job::table::{ColumnsOf, write_table};
+use uplift_result::{BandKind, urs};
 
 use super::{SweepReport, VariantReport, VariantSpectrum};
 use crate::error::UpliftError;
@@ -31,16 +32,16 @@ pub(super) fn write(report: &SweepReport, digest: &str) -> Result<(), UpliftErro
         .with("years", |(variant, ..)| variant.years)
         .with("strength", |(variant, _, at)| variant.strengths[at])
         // a censored ordinate is inf, as in the tables beside a result
-        .with("u_m", |(_, spectrum, at)| spectrum.u_m[at])
+        .with(urs::U_M.name, |(_, spectrum, at)| spectrum.u_m[at])
         .with("over_first", |(variant, spectrum, at)| over_first(&report.variants[0], variant, spectrum, at))
-        .each(has_repaired.then_some("u_consistent_m"), |columns, name| {
+        .each(has_repaired.then(|| BandKind::REPAIRED.column(urs::U_M.name)), |columns, name| {
             let repaired_m = |spectrum: &VariantSpectrum, at: usize| Some(spectrum.repaired_m.as_ref()?[at]);
             columns.with(name, |(_, spectrum, at)| repaired_m(spectrum, at).filter(|u_m| !u_m.is_nan()))
         })
-        .with("flag", |(_, spectrum, at)| spectrum.flags[at])
+        .with(urs::FLAG.name, |(_, spectrum, at)| spectrum.flags[at])
         // zero has no sign in a table
-        .with("lower_tail_share", |(_, spectrum, at)| spectrum.lower_tail_share[at] + 0.0)
-        .with("upper_tail_share", |(_, spectrum, at)| spectrum.upper_tail_share[at] + 0.0)
+        .with(urs::LOWER_TAIL_SHARE.name, |(_, spectrum, at)| spectrum.lower_tail_share[at] + 0.0)
+        .with(urs::UPPER_TAIL_SHARE.name, |(_, spectrum, at)| spectrum.upper_tail_share[at] + 0.0)
         .with("cautions", |(variant, ..)| kinds(variant).join("; "));
     Ok(write_table(&report.table, &line, columns.build())?)
 }

@@ -1,7 +1,8 @@
 //! The sheets with a line each spectrum, and that of the hazard curves.
 
 use rust_xlsxwriter::XlsxError;
-use uplift_result::{BAND_FIGURES, Fit};
+use uplift_result::declared::Quantity;
+use uplift_result::{BANDS, Fit, Fits, regression};
 
 use super::sheet::{Sheet, Shown};
 use crate::export::Export;
@@ -21,12 +22,14 @@ impl Export {
         sheet: &mut Sheet<'_>,
         fit: impl Fn(&Row<'_>) -> Option<Fit>,
     ) -> Result<(), XlsxError> {
-        of_headings(sheet, &["c0, m", "c1, -", "c2, m", "RMSE, m", "c2 held at 0"])?;
+        of_headings(sheet, &regression::GROUP.exported().map(Quantity::heading).collect::<Vec<_>>())?;
         let fitted = self.rows().filter_map(|row| fit(&row).map(|fit| (row, fit)));
         for (index, (row, fit)) in fitted.enumerate() {
             let line = index + 1;
             self.line_of(sheet, line, &row)?;
-            for (column, value) in [fit.c0_m, fit.c1, fit.c2_m, fit.rmse_m].into_iter().enumerate() {
+            let numbers =
+                regression::COEFFICIENTS.iter().filter_map(|own| own.number(&Fits::from_fn([1, 1], |_| fit), 0));
+            for (column, value) in numbers.enumerate() {
                 sheet.number((line, OF + column), value, Shown::FourDecimals, "")?;
             }
             let bound = if fit.c0_m.is_nan() { "no fit" } else { ["no", "yes"][usize::from(fit.bound_active)] };
@@ -37,8 +40,8 @@ impl Export {
 
     /// How wide the bands are (Table 4.1).
     pub(super) fn band_figures(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
-        let [(_, error), (_, range)] = BAND_FIGURES;
-        let headings = ["records in a sample", error, range, "weights"];
+        let figures = BANDS.exported().map(Quantity::heading);
+        let headings: Vec<_> = ["records in a sample"].into_iter().chain(figures).chain(["weights"]).collect();
         of_headings(sheet, &headings)?;
         let mut line = 1;
         for row in self.rows() {
