@@ -104,7 +104,6 @@ fn a_complete_study_is_read_and_written_as_it_is() {
     let written = study.to_toml().unwrap();
     fs::write(folder.path("study.toml"), &written).unwrap();
     assert_eq!(folder.load_displacement(&[]).unwrap(), study, "{written}");
-    insta::assert_snapshot!(written.replace(&format!("{}/", folder.path("").display()).replace("//", "/"), ""));
 
     // blocks too, and what is overridden
     fs::write(folder.path("study.toml"), format!("{KIND}[block]\n[design]\n[output]\nfile = \"x.h5\"")).unwrap();

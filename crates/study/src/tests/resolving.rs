@@ -189,13 +189,6 @@ fn round_trip() {
     }
 }
 
-/// Grids are written in their notation, and nothing of the machine but paths.
-#[test]
-fn written_form() {
-    let written = load("[pgv]\n[output]\nfile = \"/x/study.h5\"").unwrap().to_toml().unwrap();
-    insta::assert_snapshot!(written);
-}
-
 #[test]
 fn byte_order_mark_and_windows_lines() {
     let study = load("\u{feff}title = \"x\"\r\n[pgv]\r\n").unwrap();
