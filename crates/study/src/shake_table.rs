@@ -105,16 +105,9 @@ impl ShakeTableStudy {
 pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<ShakeTableStudy> {
     let title = root.read(&top::TITLE);
     let gravity = root.read(&top::GRAVITY);
-    let structure = if let Some(field) = root.given(&STRUCTURE) {
-        paths.input(&field)
-    } else {
-        root.mistake(
-            "structure",
-            "which structure is on the table?",
-            "add structure = \"frame.toml\", a structure file with columns and a deck",
-        );
-        None
-    };
+    let help = "add structure = \"frame.toml\", a structure file with columns and a deck";
+    let structure =
+        root.needed(&STRUCTURE, "which structure is on the table?", help).and_then(|field| paths.input(&field));
     let excitations = optional(root.given(&EXCITATIONS).as_ref(), |field| paths.input(field));
     let length_scale = root.read(&LENGTH_SCALE);
     let records = read_records(root.section("records"), paths, TABLE_OF_EXCITATIONS);

@@ -61,6 +61,20 @@ impl<'a> Section<'a> {
         self.field(key.name)
     }
 
+    /// The value of `key` as it stands, which must be given: a mistake with this `message` and `help` where it is not.
+    pub(crate) fn needed<F: Form>(
+        &mut self,
+        key: &Key<F>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<Field<'a>> {
+        let field = self.given(key);
+        if field.is_none() {
+            self.mistake(key.name, message, help);
+        }
+        field
+    }
+
     /// Reads `key`, which has a default.
     pub(crate) fn read<F: Readable>(&mut self, key: &Key<F>) -> Option<F::Value> {
         debug_assert!(key.default().is_some(), "`{}` has no default", key.name);
@@ -68,6 +82,17 @@ impl<'a> Section<'a> {
             Some(field) => key.read(&field),
             None => key.default_value(),
         }
+    }
+
+    /// Reads `key`, which must be given: a mistake with this `message` and `help` where it is not.
+    pub(crate) fn read_needed<F: Readable>(
+        &mut self,
+        key: &Key<F>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<F::Value> {
+        let field = self.needed(key, message, help)?;
+        key.read(&field)
     }
 
     /// Reads `key`, which has no default: outer none where it is wrong, inner none where it is not given.

@@ -11,10 +11,7 @@ const LONGEST: usize = 100;
 
 /// The name of a section of a list of `what`, of no other among `names` and fit for a group of the result file.
 pub(crate) fn read(section: &mut Section<'_>, what: &str, example: &str, names: &mut Vec<String>) -> Option<String> {
-    let Some(field) = section.given(&KEY) else {
-        section.mistake("name", format!("the {what} has no name"), format!("add name = \"{example}\""));
-        return None;
-    };
+    let field = section.needed(&KEY, format!("the {what} has no name"), format!("add name = \"{example}\""))?;
     let name = field.filled_text()?.trim();
     // The name is one of a group in the result file, and part of file names.
     let unfit = name.len() > LONGEST

@@ -261,15 +261,9 @@ fn read_pairs(
         if !section.is_present() {
             return None;
         }
-        let (between, coefficient) = (section.given(&BETWEEN), section.given(&COEFFICIENT));
-        for (key, field, what) in [
-            ("between", &between, "which two go together: [\"strength\", \"capacity_m\"]"),
-            ("coefficient", &coefficient, "how much: 0.5"),
-        ] {
-            if field.is_none() {
-                section.mistake(key, format!("a correlation needs `{key}`"), what);
-            }
-        }
+        let help = "which two go together: [\"strength\", \"capacity_m\"]";
+        let between = section.needed(&BETWEEN, "a correlation needs `between`", help);
+        let coefficient = section.needed(&COEFFICIENT, "a correlation needs `coefficient`", "how much: 0.5");
         section.finish();
         let (between, coefficient) = (between?, coefficient?);
         let coefficient = COEFFICIENT.read(&coefficient);
@@ -299,12 +293,9 @@ fn read_pairs(
 
 /// How a quantity is distributed.
 fn read_family(section: &mut Section<'_>) -> Option<Family> {
-    if let Some(field) = section.given(&DISTRIBUTION) {
-        return DISTRIBUTION.read(&field);
-    }
     let words = Family::ALL.map(Family::key).join("\", \"");
-    section.mistake("distribution", "how is it distributed?", format!("write distribution = and one of \"{words}\""));
-    None
+    let help = format!("write distribution = and one of \"{words}\"");
+    section.read_needed(&DISTRIBUTION, "how is it distributed?", help)
 }
 
 /// One quantity: its mean and coefficient of variation, two percentiles, or its limits.

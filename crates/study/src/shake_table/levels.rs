@@ -57,12 +57,8 @@ fn level(item: &Field<'_>, names: &mut Vec<String>) -> Option<LevelPlan> {
         return None;
     }
     let name = name::read(&mut section, "level", "high", names);
-    let pgv = if let Some(field) = section.given(&PGV_SRSS_M_S) {
-        PGV_SRSS_M_S.read(&field)
-    } else {
-        section.mistake("pgv_srss_m_s", "the level has no velocity", "add pgv_srss_m_s = 0.335, in m/s");
-        None
-    };
+    let help = "add pgv_srss_m_s = 0.335, in m/s";
+    let pgv = section.read_needed(&PGV_SRSS_M_S, "the level has no velocity", help);
     section.finish();
     Some(LevelPlan { name: name?, pgv_srss_m_s: pgv? })
 }

@@ -70,16 +70,9 @@ fn design(mut section: Section<'_>) -> Option<Option<DesignSpectrumPlan>> {
     if !section.is_present() {
         return Some(None);
     }
-    let ground_acceleration_g = if let Some(field) = section.given(&GROUND_ACCELERATION_G) {
-        GROUND_ACCELERATION_G.read(&field)
-    } else {
-        section.mistake(
-            "ground_acceleration_g",
-            "the design spectrum has no ground acceleration",
-            "add ground_acceleration_g = 0.16, in g: that of the site times the importance factor",
-        );
-        None
-    };
+    let help = "add ground_acceleration_g = 0.16, in g: that of the site times the importance factor";
+    let message = "the design spectrum has no ground acceleration";
+    let ground_acceleration_g = section.read_needed(&GROUND_ACCELERATION_G, message, help);
     let ground = section.read(&GROUND);
     let shape = section.read(&SHAPE);
     section.finish();

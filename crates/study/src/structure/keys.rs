@@ -130,17 +130,8 @@ const fn judged(name: &'static str, unit: &'static str) -> Key<Judged> {
 
 /// Reads every key; none where the kind is missing or unknown. A value of the wrong type counts as not given.
 pub(super) fn read(mut root: Section<'_>) -> Option<ReadStructure> {
-    let kind = if let Some(field) = root.given(&KIND) {
-        KIND.read(&field)
-    } else {
-        let words = Kind::ALL.map(Kind::name);
-        root.mistake(
-            "kind",
-            "what kind of structure is this?",
-            format!("write kind = and one of \"{}\"", words.join("\", \"")),
-        );
-        None
-    };
+    let help = format!("write kind = and one of \"{}\"", Kind::ALL.map(Kind::name).join("\", \""));
+    let kind = root.read_needed(&KIND, "what kind of structure is this?", help);
     let mut number = |key: &Key<Judged>| root.optional(key).flatten();
     let description = StructureDescription {
         kind: kind.unwrap_or(Kind::Block),

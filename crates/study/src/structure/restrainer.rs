@@ -216,13 +216,9 @@ fn read_section(mut section: Section<'_>) -> Option<RestrainerDescription> {
     if !section.is_present() {
         return None;
     }
-    let kind = if let Some(field) = section.given(&KIND) {
-        KIND.read(&field)
-    } else {
-        let words = RestrainerKind::ALL.map(RestrainerKind::name).join("\", \"");
-        section.mistake("kind", "what kind of restrainer is this?", format!("write kind = and one of \"{words}\""));
-        None
-    };
+    let words = RestrainerKind::ALL.map(RestrainerKind::name).join("\", \"");
+    let help = format!("write kind = and one of \"{words}\"");
+    let kind = section.read_needed(&KIND, "what kind of restrainer is this?", help);
     let mut number = |key: &Key<Judged>| section.optional(key).flatten();
     let mut description = RestrainerDescription {
         kind: kind.unwrap_or_default(),
@@ -260,19 +256,11 @@ fn stopper(mut section: Section<'_>) -> Option<StopperDescription> {
     if !section.is_present() {
         return None;
     }
-    let gap = section.given(&GAP_M).map(|field| GAP_M.read(&field));
-    let stiffness = section.given(&STOPPER_STIFFNESS_N_M).map(|field| STOPPER_STIFFNESS_N_M.read(&field));
+    let help = "give the deformation of the springs at which it engages, in m";
+    let gap = section.read_needed(&GAP_M, "a stopper needs `gap_m`", help);
+    let help = "give EA/L of its rods, in N/m";
+    let stiffness = section.read_needed(&STOPPER_STIFFNESS_N_M, "a stopper needs `stiffness_n_m`", help);
     let yields = section.optional(&YIELD_N).flatten();
-    for (key, given) in [(GAP_M.name, gap.is_some()), (STOPPER_STIFFNESS_N_M.name, stiffness.is_some())] {
-        if !given {
-            let what = if key == GAP_M.name {
-                "the deformation of the springs at which it engages, in m"
-            } else {
-                "EA/L of its rods, in N/m"
-            };
-            section.mistake(key, format!("a stopper needs `{key}`"), format!("give {what}"));
-        }
-    }
     section.finish();
-    Some(StopperDescription { gap_m: gap??, stiffness_n_m: stiffness??, yield_n: yields })
+    Some(StopperDescription { gap_m: gap?, stiffness_n_m: stiffness?, yield_n: yields })
 }

@@ -63,18 +63,9 @@ fn branch(item: &Field<'_>, index: usize, others: &[Branch], paths: &Paths) -> O
     if !section.is_present() {
         return None;
     }
-    let file = if let Some(field) = section.given(&FILE) {
-        paths.input(&field)
-    } else {
-        section.mistake("file", "the branch has no file", "add file = \"path\"");
-        None
-    };
-    let weight = if let Some(field) = section.given(&WEIGHT) {
-        WEIGHT.read(&field)
-    } else {
-        section.mistake("weight", "the branch has no weight", "add weight = 0.5");
-        None
-    };
+    let file = section.needed(&FILE, "the branch has no file", "add file = \"path\"");
+    let file = file.and_then(|field| paths.input(&field));
+    let weight = section.read_needed(&WEIGHT, "the branch has no weight", "add weight = 0.5");
     let name = match section.given(&NAME) {
         None => Some(format!("branch {}", index + 1)),
         Some(field) => {

@@ -117,15 +117,9 @@ fn conversions(field: &Field<'_>) -> Option<Vec<Conversion>> {
             return None;
         }
         let [from, to] = [FROM, TO].map(|key| {
-            if let Some(field) = section.given(&key) {
-                return key.read(&field);
-            }
-            section.mistake(
-                key.name,
-                format!("the conversion does not say {} which definition", key.name),
-                "write { from = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, pga = 1.0 }",
-            );
-            None
+            let message = format!("the conversion does not say {} which definition", key.name);
+            let help = "write { from = \"GMRotI50\", to = \"geometric mean\", pgv = 1.0, pga = 1.0 }";
+            section.read_needed(&key, message, help)
         });
         let mut factors = Some(Vec::new());
         for measure in measures::named(&section) {

@@ -247,12 +247,8 @@ fn export(
         return Some(ExportFiles { measure, file: paths.input(field)?, branches: Vec::new() });
     };
     let mut section = field.section();
-    let file = if let Some(field) = section.given(&curve::FILE) {
-        paths.input(&field)
-    } else {
-        section.mistake("file", "there is no export of the mean hazard", "add file = \"path\"");
-        None
-    };
+    let file = section.needed(&curve::FILE, "there is no export of the mean hazard", "add file = \"path\"");
+    let file = file.and_then(|field| paths.input(&field));
     let branches = section.given(&curve::BRANCHES).map_or(Some(Vec::new()), |field| branches::read(&field, paths));
     if branches.as_ref().is_some_and(|own| !own.is_empty()) && !studied.is_empty() && !studied.contains(&measure) {
         let what = format!("the study has no spectra by {}", measure.label());
