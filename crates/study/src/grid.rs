@@ -78,10 +78,8 @@ impl Grid {
 
     /// Reads and checks a grid: a number, a notation, a table of start, stop and count, or a list of these.
     pub(crate) fn read(field: &Field<'_>, rule: GridRule) -> Option<Self> {
-        let too_many = || {
-            field.mistake(format!("the grid has more than {MOST_GRID_VALUES} values"), "take a larger step");
-            None
-        };
+        let too_many =
+            || field.refuse(format!("the grid has more than {MOST_GRID_VALUES} values"), "take a larger step");
         if matches!(&field.node.value, Value::List(items) if items.len() > MOST_GRID_VALUES) {
             return too_many();
         }
@@ -94,14 +92,13 @@ impl Grid {
             }
         }
         if complete && grid.values.len() < rule.least_count {
-            field.mistake(
+            return field.refuse(
                 match grid.values.len() {
                     0 => "the grid is empty".to_owned(),
                     count => format!("too few values in the grid: {count}"),
                 },
                 format!("give at least {}, as numbers or as \"start:step:stop\"", rule.least_count),
             );
-            return None;
         }
         complete.then_some(grid)
     }
@@ -236,9 +233,6 @@ fn equal_steps(item: &Field<'_>, unit: &str) -> Option<String> {
     let (start, stop, count) = (start?, stop?, i64::try_from(count?).ok()?);
     match notation::equal_steps(start, stop, count) {
         Ok(notation) => Some(notation),
-        Err(GridError { message, help }) => {
-            item.mistake(message, help);
-            None
-        }
+        Err(GridError { message, help }) => item.refuse(message, help),
     }
 }

@@ -94,16 +94,11 @@ impl Study {
         let paths = self.checked_paths()?;
         self.checked(overrides, &paths, |mut root, paths| match Kind::read(&mut root)? {
             Kind::UniformRisk => uniform_risk::read(root, paths),
-            other @ (Kind::Displacement | Kind::ShakeTable) => {
-                if let Some(field) = root.field("kind") {
-                    field.mistake(
-                        format!("this study is of {}, and has no {}", other.key(), Kind::UniformRisk.key()),
-                        "use `uplift check`, `run` and `status`, and `uplift table`, `plot` and `report` on its \
-                         result; other commands need a study of uniform risk",
-                    );
-                }
-                None
-            }
+            other @ (Kind::Displacement | Kind::ShakeTable) => root.field("kind")?.refuse(
+                format!("this study is of {}, and has no {}", other.key(), Kind::UniformRisk.key()),
+                "use `uplift check`, `run` and `status`, and `uplift table`, `plot` and `report` on its result; other \
+                 commands need a study of uniform risk",
+            ),
         })
     }
 

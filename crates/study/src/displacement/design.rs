@@ -131,17 +131,16 @@ fn designed(section: &mut Section<'_>, of_blocks: bool, structures: Option<&Stru
     let height = section.read(&HEIGHT_M);
     let (width_m, height_m) = (width?, height?);
     if width_m >= height_m {
-        section.mistake(
+        return section.refuse(
             "width_m",
             format!("a column {} wide and {} high does not rock", quantity(width_m, "m"), quantity(height_m, "m")),
             "give a column that is higher than wide: its strength is tan(width/height)",
         );
-        return None;
     }
     if let Some(Structures::Oscillators(family)) = structures
         && width_m <= family.uplift_displacement_m[0]
     {
-        section.mistake(
+        return section.refuse(
             "width_m",
             format!(
                 "a column of width {}, its capacity, is not above the uplift displacement {}",
@@ -150,7 +149,6 @@ fn designed(section: &mut Section<'_>, of_blocks: bool, structures: Option<&Stru
             ),
             "the width of a column is about a metre",
         );
-        return None;
     }
     Some(Designed::Bridge { width_m, height_m })
 }

@@ -47,8 +47,7 @@ pub(super) fn read(field: Option<Field<'_>>) -> Option<Vec<SetPlan>> {
     };
     let items = field.items();
     if items.len() > MOST_SETS {
-        field.mistake(format!("there are {} record sets", items.len()), format!("give at most {MOST_SETS}"));
-        return None;
+        return field.refuse(format!("there are {} record sets", items.len()), format!("give at most {MOST_SETS}"));
     }
     let mut names = Vec::new();
     let sets: Vec<Option<SetPlan>> = items.iter().map(|item| set(item, &mut names)).collect();

@@ -124,11 +124,7 @@ fn target(item: &Field<'_>) -> Option<ScaledTo> {
     let Value::Text(text) = &item.node.value else {
         return item.wrong_type("a scaling", HELP);
     };
-    let target = ScaledTo::parse(text);
-    if target.is_none() {
-        item.mistake(format!("{} is not a scaling", item.node.describe()), HELP);
-    }
-    target
+    ScaledTo::parse(text).or_else(|| item.refuse(format!("{} is not a scaling", item.node.describe()), HELP))
 }
 
 /// A list of which no item is given twice.

@@ -65,16 +65,14 @@ pub(super) fn read(root: &mut Section<'_>) -> Option<Structures> {
     let (block, slenderness) = (root.section("block"), root.section("slenderness"));
     let structures = match (oscillator.is_present(), block.is_present()) {
         (true, true) => {
-            block.mistake("", "a study has oscillators or blocks, not both", "keep [oscillator] or [block]");
-            return None;
+            return block.refuse("", "a study has oscillators or blocks, not both", "keep [oscillator] or [block]");
         }
         (false, false) => {
-            root.mistake(
+            return root.refuse(
                 "",
                 "the study has nothing to shake",
                 "add a section [oscillator] (Chapter 3) or [block] (Chapter 2); it may be empty",
             );
-            return None;
         }
         (true, false) => {
             if slenderness.is_present() {
@@ -91,12 +89,11 @@ pub(super) fn read(root: &mut Section<'_>) -> Option<Structures> {
     };
     let count = structures.lines().saturating_mul(structures.abscissa().len());
     if count > MOST_STRUCTURES {
-        root.mistake(
+        return root.refuse(
             "",
             format!("the lists and grids make {count} structures"),
             format!("take larger steps: at most {MOST_STRUCTURES}"),
         );
-        return None;
     }
     Some(structures)
 }

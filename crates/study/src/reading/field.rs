@@ -40,11 +40,16 @@ impl<'a> Field<'a> {
         });
     }
 
+    /// Records a mistake about this value, by which nothing is read of it.
+    pub(crate) fn refuse<T>(&self, message: impl Into<String>, help: impl Into<String>) -> Option<T> {
+        self.mistake(message, help);
+        None
+    }
+
     /// Records that this value is no `expected`.
     pub(crate) fn wrong_type<T>(&self, expected: &str, example: &str) -> Option<T> {
         let found = self.node.describe();
-        self.mistake(format!("expected {expected}, found {found}"), example);
-        None
+        self.refuse(format!("expected {expected}, found {found}"), example)
     }
 
     /// Text.
@@ -59,8 +64,7 @@ impl<'a> Field<'a> {
     pub(crate) fn filled_text(&self) -> Option<&'a str> {
         let text = self.text()?;
         if text.trim().is_empty() {
-            self.mistake("the text is empty", "fill it in, or leave the key out");
-            return None;
+            return self.refuse("the text is empty", "fill it in, or leave the key out");
         }
         Some(text)
     }
@@ -115,8 +119,7 @@ impl<'a> Field<'a> {
                 } else {
                     format!("from {least} to {most}")
                 };
-                self.mistake(format!("the value is {integer}"), format!("it must be a whole number, {range}"));
-                None
+                self.refuse(format!("the value is {integer}"), format!("it must be a whole number, {range}"))
             }
         }
     }
@@ -165,8 +168,7 @@ impl<'a> Field<'a> {
     pub(crate) fn few_items(&self) -> Option<Vec<Field<'a>>> {
         let items = self.items();
         if items.is_empty() || items.len() > MOST_ITEMS {
-            self.mistake(format!("the list has {} items", items.len()), format!("give 1 to {MOST_ITEMS}"));
-            return None;
+            return self.refuse(format!("the list has {} items", items.len()), format!("give 1 to {MOST_ITEMS}"));
         }
         Some(items)
     }

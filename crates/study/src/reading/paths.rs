@@ -36,11 +36,10 @@ impl Paths {
             Self::AsWritten => return Some(PathBuf::from(text)),
         };
         if path.to_str().is_none() {
-            field.mistake(
+            return field.refuse(
                 format!("the path {} is not Unicode text", path.display()),
                 "rename the folder, or give an absolute path without it",
             );
-            return None;
         }
         Some(path)
     }
@@ -76,8 +75,7 @@ impl Paths {
         } else {
             format!("give an existing file; a relative path starts from {from}")
         };
-        field.mistake(format!("{reason}: {}", path.display()), help);
-        None
+        field.refuse(format!("{reason}: {}", path.display()), help)
     }
 
     /// The path of the file that `field` names, which is to be written and is none of the `inputs`.
@@ -85,11 +83,10 @@ impl Paths {
         let path = self.named(field)?;
         let Self::Checked { study_file, .. } = self else { return Some(path) };
         if path.is_dir() {
-            field.mistake(
+            return field.refuse(
                 format!("this is a folder: {}", path.display()),
                 "give the name of the result file in it, e.g. results/study.h5",
             );
-            return None;
         }
         if path == *study_file || inputs.any(|input| input == path) {
             field.mistake(

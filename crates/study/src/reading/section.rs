@@ -112,6 +112,12 @@ impl<'a> Section<'a> {
         });
     }
 
+    /// Records a mistake about `key`, by which nothing is read.
+    pub(crate) fn refuse<T>(&self, key: &str, message: impl Into<String>, help: impl Into<String>) -> Option<T> {
+        self.mistake(key, message, help);
+        None
+    }
+
     /// Reports the keys that nobody asked for.
     pub(crate) fn finish(self) {
         let entries = self.table.iter().flat_map(|table| &table.entries);

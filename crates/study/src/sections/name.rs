@@ -18,19 +18,17 @@ pub(crate) fn read(section: &mut Section<'_>, what: &str, example: &str, names: 
         || matches!(name, "." | "..")
         || name.contains(|letter: char| letter.is_control() || "/\\:*?\"<>|".contains(letter));
     if unfit {
-        field.mistake(
+        return field.refuse(
             "the name cannot name a group of the result file",
             format!("use at most {LONGEST} bytes, and none of / \\ : * ? \" < > |"),
         );
-        return None;
     }
     let folded = name.to_lowercase();
     if names.contains(&folded) {
-        field.mistake(
+        return field.refuse(
             format!("there is another {what} {name}"),
             format!("give each {what} a name of its own (upper and lower case are the same)"),
         );
-        return None;
     }
     names.push(folded);
     Some(name.to_owned())

@@ -171,14 +171,10 @@ fn read_range(field: &Field<'_>) -> Option<Range> {
     let Value::Text(text) = &field.node.value else {
         return field.wrong_type("a range", &format!("write {}", Range::ACCEPTED));
     };
-    let range = Range::parse(text);
-    if range.is_none() {
-        field.mistake(
-            format!("{} is not a range", field.node.describe()),
-            format!("write {}, the smaller number first", Range::ACCEPTED),
-        );
-    }
-    range
+    Range::parse(text).or_else(|| {
+        let help = format!("write {}, the smaller number first", Range::ACCEPTED);
+        field.refuse(format!("{} is not a range", field.node.describe()), help)
+    })
 }
 
 #[cfg(test)]

@@ -215,8 +215,8 @@ pub(crate) fn read(
         Ok(copula) => copula,
         Err(error) => {
             let field = correlation?;
-            field.mistake(told(&error, &quantities), "each coefficient is above -1 and below 1; 0 is independent");
-            return None;
+            return field
+                .refuse(told(&error, &quantities), "each coefficient is above -1 and below 1; 0 is independent");
         }
     };
     let count = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
@@ -269,8 +269,7 @@ fn read_pairs(
         let coefficient = COEFFICIENT.read(&coefficient);
         let names = between.items();
         let [first, second] = &names[..] else {
-            between.mistake(format!("{} quantities", names.len()), "a correlation is between two");
-            return None;
+            return between.refuse(format!("{} quantities", names.len()), "a correlation is between two");
         };
         let (first, second) = (first.choice(&choices), second.choice(&choices));
         let is_missing = |quantity: &UncertainQuantity| !quantities.contains(quantity) && !mistaken.contains(quantity);
@@ -397,8 +396,7 @@ fn read_quantity(
                 UncertaintyError::Limits { .. } => ("", "give the lower limit as lower, and the upper one as upper"),
                 _ => ("", quantity.range().hint),
             };
-            section.mistake(key, message, help);
-            None
+            section.refuse(key, message, help)
         }
     };
     section.finish();
@@ -437,8 +435,7 @@ fn read_percentiles(field: &Field<'_>, usual: Range, doubts: &mut Vec<Doubt>) ->
     let mut pair = |item: &Field<'_>| {
         let numbers = item.items();
         let [percentage, value] = &numbers[..] else {
-            item.mistake("a percentile is a percentage and a value", help);
-            return None;
+            return item.refuse("a percentile is a percentage and a value", help);
         };
         let percentage = percentage.number("%", PERCENTAGE);
         let of_percentage = value.number(usual.unit, ANY);
@@ -447,8 +444,7 @@ fn read_percentiles(field: &Field<'_>, usual: Range, doubts: &mut Vec<Doubt>) ->
     };
     let items = field.items();
     let [first, second] = &items[..] else {
-        field.mistake(format!("{} percentiles", items.len()), help);
-        return None;
+        return field.refuse(format!("{} percentiles", items.len()), help);
     };
     let (first, second) = (pair(first)?, pair(second)?);
     if first.0 < 1.0 && second.0 < 1.0 {

@@ -31,20 +31,18 @@ pub struct LevelPlan {
 /// Reads the sections.
 pub(super) fn read(root: &mut Section<'_>) -> Option<Vec<LevelPlan>> {
     let Some(field) = root.field("levels") else {
-        root.mistake(
+        return root.refuse(
             "levels",
             "how strongly does the table shake?",
             "add a section [[levels]] with name = \"high\" and pgv_srss_m_s = 0.335; or several",
         );
-        return None;
     };
     let Value::List(_) = field.node.value else {
         return field.wrong_type("a list of sections", "head each level with [[levels]], in double brackets");
     };
     let items = field.items();
     if items.is_empty() || items.len() > MOST_LEVELS {
-        field.mistake(format!("there are {} levels", items.len()), format!("give from 1 to {MOST_LEVELS}"));
-        return None;
+        return field.refuse(format!("there are {} levels", items.len()), format!("give from 1 to {MOST_LEVELS}"));
     }
     let mut names = Vec::new();
     let levels: Vec<Option<LevelPlan>> = items.iter().map(|item| level(item, &mut names)).collect();

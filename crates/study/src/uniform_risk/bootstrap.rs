@@ -104,11 +104,10 @@ pub(super) fn read(mut section: Section<'_>) -> Option<Bootstrap> {
 fn sizes(field: &Field<'_>) -> Option<Vec<u32>> {
     let items = field.items();
     if items.is_empty() || items.len() > MOST_SIZES {
-        field.mistake(
+        return field.refuse(
             format!("the list has {} sample sizes", items.len()),
             format!("give 1 to {MOST_SIZES}, e.g. [20, 40, 60]"),
         );
-        return None;
     }
     let mut sizes = Some(Vec::new());
     for item in &items {

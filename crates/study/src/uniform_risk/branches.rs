@@ -34,14 +34,13 @@ pub struct Branch {
 pub(super) fn read(field: &Field<'_>, paths: &Paths) -> Option<Vec<Branch>> {
     let items = field.items();
     if items.len() < 2 || items.len() > MOST_BRANCHES {
-        field.mistake(
+        return field.refuse(
             format!("the list has {} branches", items.len()),
             format!(
                 "give 2 to {MOST_BRANCHES}, each as {{ file = \"path\", weight = 0.5 }}; a single curve needs no \
                  branches"
             ),
         );
-        return None;
     }
     let mut branches: Vec<Branch> = Vec::new();
     for (index, item) in items.iter().enumerate() {
@@ -52,8 +51,7 @@ pub(super) fn read(field: &Field<'_>, paths: &Paths) -> Option<Vec<Branch>> {
     }
     let sum: f64 = branches.iter().map(|branch| branch.weight).sum();
     if (sum - 1.0).abs() > SUM_TOLERANCE {
-        field.mistake(format!("the weights add up to {sum}"), "they must add up to 1");
-        return None;
+        return field.refuse(format!("the weights add up to {sum}"), "they must add up to 1");
     }
     Some(branches)
 }
@@ -71,8 +69,7 @@ fn branch(item: &Field<'_>, index: usize, others: &[Branch], paths: &Paths) -> O
         Some(field) => {
             let name = field.filled_text().map(|name| name.trim().to_owned());
             if name.as_ref().is_some_and(|name| others.iter().any(|other| other.name == *name)) {
-                field.mistake("another branch has this name", "give each branch a name of its own");
-                None
+                field.refuse("another branch has this name", "give each branch a name of its own")
             } else {
                 name
             }

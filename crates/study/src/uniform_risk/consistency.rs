@@ -143,14 +143,8 @@ fn measure(field: &Field<'_>) -> Option<IntensityMeasure> {
     let text = field.filled_text()?;
     match text.parse::<IntensityMeasure>() {
         Ok(measure) if measure.can_be_scaled_to() => Some(measure),
-        Ok(measure) => {
-            field.mistake(cannot_be_scaled_to(measure), "name another measure");
-            None
-        }
-        Err(error) => {
-            field.mistake(error.to_string(), "write e.g. against = \"sa_1s\"");
-            None
-        }
+        Ok(measure) => field.refuse(cannot_be_scaled_to(measure), "name another measure"),
+        Err(error) => field.refuse(error.to_string(), "write e.g. against = \"sa_1s\""),
     }
 }
 
@@ -162,9 +156,6 @@ fn scale_factors(field: &Field<'_>) -> Option<[f64; 2]> {
     }
     match numbers[..] {
         [least, largest] if least < largest => Some([least, largest]),
-        _ => {
-            field.mistake("two factors are needed, the smaller first", "write e.g. scale_factors = [0.2, 5]");
-            None
-        }
+        _ => field.refuse("two factors are needed, the smaller first", "write e.g. scale_factors = [0.2, 5]"),
     }
 }

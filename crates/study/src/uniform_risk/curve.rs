@@ -112,10 +112,7 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
         // branches with mistakes are still branches
         (None, None) => Some(None),
         (None, Some(branches)) if !branches.is_empty() => Some(None),
-        (None, Some(_)) => {
-            section.mistake("file", "the curve has no file", "add file = \"path\", or branches = [ … ]");
-            None
-        }
+        (None, Some(_)) => section.refuse("file", "the curve has no file", "add file = \"path\", or branches = [ … ]"),
     };
     let given = section.given(&UNIT).map(|field| read_unit(&field, units));
     let of_file = file.iter().flatten().next();
@@ -141,15 +138,11 @@ fn said(file: Option<&Path>, units: &[CurveUnit]) -> (CurveUnit, CurveKind) {
 /// A unit as people write it, gal for cm/s2. What is spelt nearly as one is no suggestion: mm/s is not m/s.
 fn read_unit(field: &Field<'_>, units: &[CurveUnit]) -> Option<CurveUnit> {
     let text = field.text()?;
-    let unit = CurveUnit::parse(text).filter(|unit| units.contains(unit));
-    if unit.is_none() {
+    CurveUnit::parse(text).filter(|unit| units.contains(unit)).or_else(|| {
         let known: Vec<&str> = units.iter().map(|unit| unit.symbol()).collect();
-        field.mistake(
-            format!("levels in \"{text}\" are not read"),
-            format!("it is one of {}: convert levels that are in another", known.join(", ")),
-        );
-    }
-    unit
+        let help = format!("it is one of {}: convert levels that are in another", known.join(", "));
+        field.refuse(format!("levels in \"{text}\" are not read"), help)
+    })
 }
 
 /// What the section says, else what the file itself has `said`.
@@ -164,23 +157,13 @@ fn kind(section: &mut Section<'_>, said: CurveKind) -> Option<CurveKind> {
     match (is_poe, years) {
         (true, Some(years)) => Some(CurveKind::Poe { years: years? }),
         (true, None) if said != CurveKind::Maf => Some(said),
-        (true, None) => {
-            section.mistake(
-                "years",
-                "the curve gives probabilities, of exceedance in how many years?",
-                "add years = 1 or years = 50, as the file says",
-            );
-            None
-        }
+        (true, None) => section.refuse(
+            "years",
+            "the curve gives probabilities, of exceedance in how many years?",
+            "add years = 1 or years = 50, as the file says",
+        ),
         (false, None) => Some(CurveKind::Maf),
-        (false, Some(_)) => {
-            if let Some(field) = years_field {
-                field.mistake(
-                    "annual frequencies have no time",
-                    "write kind = \"poe\" for probabilities, or leave `years` out",
-                );
-            }
-            None
-        }
+        (false, Some(_)) => years_field?
+            .refuse("annual frequencies have no time", "write kind = \"poe\" for probabilities, or leave `years` out"),
     }
 }

@@ -114,15 +114,13 @@ pub(super) fn read(mut section: Section<'_>) -> Option<Risk> {
 fn probabilities(field: &Field<'_>) -> Option<Vec<f64>> {
     let items = field.items();
     if items.is_empty() {
-        field.mistake("the list is empty", "give at least one probability, e.g. [0.1]");
-        return None;
+        return field.refuse("the list is empty", "give at least one probability, e.g. [0.1]");
     }
     if items.len() > MOST_PROBABILITIES {
-        field.mistake(
+        return field.refuse(
             format!("the list has {} probabilities", items.len()),
             format!("give at most {MOST_PROBABILITIES}"),
         );
-        return None;
     }
     let mut complete = true;
     let mut probabilities: Vec<f64> = Vec::new();

@@ -273,11 +273,10 @@ fn strengths_of(field: &Field<'_>, known: Option<&Grid>) -> Option<Grid> {
     let Some(known) = known else { return Some(grid) };
     let Some(&missing) = grid.iter().find(|&&strength| !known.contains(&strength)) else { return Some(grid) };
     let nearest = known.iter().min_by(|a, b| (*a - missing).abs().total_cmp(&(*b - missing).abs())).copied();
-    field.mistake(
+    field.refuse(
         format!("{} is not among the strengths of the study", quantity(missing, "")),
         format!("the nearest one of strengths.values is {}", quantity(nearest.unwrap_or_default(), "")),
-    );
-    None
+    )
 }
 
 #[cfg(test)]

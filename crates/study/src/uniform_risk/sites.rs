@@ -57,8 +57,7 @@ pub(super) fn read(field: Option<Field<'_>>, measures: &[IntensityMeasure], path
     };
     let items = field.items();
     if items.len() > MOST_SITES {
-        field.mistake(format!("there are {} sites", items.len()), format!("give at most {MOST_SITES}"));
-        return None;
+        return field.refuse(format!("there are {} sites", items.len()), format!("give at most {MOST_SITES}"));
     }
     let mut sites = Some(Vec::new());
     let mut names: Vec<String> = Vec::new();
