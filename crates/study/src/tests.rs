@@ -19,7 +19,7 @@ use std::path::PathBuf;
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use tempfile::TempDir;
 
-use super::{AnyStudy, DisplacementStudy, Study, StudyError, UniformRiskStudy};
+use super::{AnyStudy, DisplacementStudy, Structure, Study, StudyError, UniformRiskStudy};
 
 /// A folder with a study file, two hazard curves and a manifest.
 struct Folder {
@@ -72,6 +72,13 @@ fn render(error: &StudyError) -> String {
 
 fn load(study: &str) -> Result<UniformRiskStudy, StudyError> {
     Folder::new(study).load(&[])
+}
+
+fn load_structure(text: &str) -> Result<Structure, StudyError> {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("structure.toml");
+    fs::write(&file, text).unwrap();
+    Structure::load(&file)
 }
 
 /// The mistakes of a study as "key: message", in order.

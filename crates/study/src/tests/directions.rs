@@ -3,14 +3,9 @@
 use uplift_motion::{Component, Rotation};
 
 use super::super::{AnyStudy, Study};
-use super::Folder;
+use super::{Folder, mistakes};
 
 const ROTATED: &str = "[pgv]\n[records]\ncomponent = \"rotated\"\n";
-
-fn told(text: &str) -> Vec<String> {
-    let error = Folder::new(text).load(&[]).unwrap_err();
-    error.mistakes().iter().map(ToString::to_string).collect()
-}
 
 #[test]
 fn every_way_of_turning_a_pair_is_read_and_written() {
@@ -33,7 +28,7 @@ fn every_way_of_turning_a_pair_is_read_and_written() {
 
 #[test]
 fn keys_that_would_have_no_effect_are_mistakes_all_at_once() {
-    let found = told(&format!("{ROTATED}[records.rotation]\nazimuths = 4\npercentile = 50"));
+    let found = mistakes(&format!("{ROTATED}[records.rotation]\nazimuths = 4\npercentile = 50"), &[]);
     assert_eq!(
         found,
         [
@@ -41,7 +36,7 @@ fn keys_that_would_have_no_effect_are_mistakes_all_at_once() {
             "records.rotation.percentile: no percentile is taken"
         ]
     );
-    let found = told("[pgv]\n[records.rotation]\ntake = \"percentile\"\nazimuths = 0\npercentile = 101");
+    let found = mistakes("[pgv]\n[records.rotation]\ntake = \"percentile\"\nazimuths = 0\npercentile = 101", &[]);
     assert_eq!(
         found,
         [
@@ -52,7 +47,7 @@ fn keys_that_would_have_no_effect_are_mistakes_all_at_once() {
     );
     let each = format!("{ROTATED}at_level = \"pgv.csv\"\n[records.rotation]\ntake = ");
     assert_eq!(
-        told(&format!("{each}\"each\"")),
+        mistakes(&format!("{each}\"each\""), &[]),
         ["records.at_level: the table names pairs, and each azimuth of a pair is a record of its own"]
     );
     assert!(Folder::new(&format!("{each}\"percentile\"")).load(&[]).is_ok());
@@ -64,7 +59,7 @@ fn the_third_component_is_of_records_that_have_one_and_of_what_feels_it() {
     let study = Folder::new(recorded).load(&[]).unwrap();
     assert!(study.records.vertical && study.to_toml().unwrap().contains("vertical = true"));
     assert_eq!(
-        told("[pgv]\n[records]\nvertical = true"),
+        mistakes("[pgv]\n[records]\nvertical = true", &[]),
         ["records.vertical: synthetic records have no third component"]
     );
     let displacement = "kind = \"displacement spectra\"\n[records]\nmanifest = \"manifest.csv\"\nvertical = true\n";

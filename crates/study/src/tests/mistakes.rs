@@ -270,14 +270,6 @@ fn files_of_another_kind_are_named() {
     assert!(crate::LibraryStudy::load(&folder.path("library.toml"), &[]).is_ok());
 }
 
-/// A byte order mark and the line ends of Windows make no difference.
-#[test]
-fn marks_of_windows() {
-    let folder = Folder::new("");
-    fs::write(folder.path("marked.toml"), "\u{feff}gravity_m_s2 = 9.81\r\n[pgv]\r\n").unwrap();
-    Study::load(&folder.path("marked.toml"), &[]).unwrap();
-}
-
 #[test]
 fn backslashes_in_paths() {
     for path in ["C:\\Users\\me\\set.csv", "C:\\records\\set.csv", "C:\\temp\\new.csv"] {

@@ -4,22 +4,16 @@ use std::path::Path;
 
 use uplift_structure::{Anchorage, PostUpliftForce, Quantity};
 
-use crate::{ColumnShape, RestrainerFile, Structure, StudyError};
+use super::load_structure;
+use crate::{ColumnShape, RestrainerFile, Structure};
 
 const FRAME: &str = "kind = \"restrained-frame\"\ncolumns = 4\nwidth_m = 0.2\nheight_m = 1.6\ncolumn_mass_kg = 100\n\
                      deck_mass_kg = 9000\n";
 const DISCS: &str = "[restrainer]\nkind = \"disc-springs\"\nouter_diameter_m = 0.125\ninner_diameter_m = 0.061\n\
                      thickness_m = 0.006\ncone_height_m = 0.0036\nsprings = 10\ntendon_stiffness_n_m = 13e6\n";
 
-fn load(text: &str) -> Result<Structure, StudyError> {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("held.toml");
-    std::fs::write(&file, text).unwrap();
-    Structure::load(&file)
-}
-
 fn mistakes(text: &str) -> Vec<String> {
-    load(text).unwrap_err().mistakes().iter().map(ToString::to_string).collect()
+    load_structure(text).unwrap_err().mistakes().iter().map(ToString::to_string).collect()
 }
 
 fn config(name: &str) -> Structure {
@@ -57,21 +51,22 @@ fn the_specimens() {
 fn a_period_in_place_of_the_displacement_at_uplift() {
     let free = FRAME.replace("restrained-frame", "frame");
     for frame in [free.clone(), format!("{FRAME}tendon_stiffness_n_m = 1e4\ntendon_anchorage = \"column\"\n")] {
-        let found = load(&format!("{frame}period_s = 0.5\n")).unwrap();
+        let found = load_structure(&format!("{frame}period_s = 0.5\n")).unwrap();
         // (½ N m + m_b) g α/(⅓ N m + m_b) (T/2π)²
         let force_n = (200.0 + 9000.0) * 9.806_65 * 0.125_f64.atan();
         let expected_m = force_n / (400.0 / 3.0 + 9000.0) * (0.5 / std::f64::consts::TAU).powi(2);
         let found_m = found.system.conditions().uplift_displacement_m();
         assert!((found_m / expected_m - 1.0).abs() < 1e-12, "{found_m} {expected_m}");
-        let written = load(&format!("{frame}uplift_displacement_m = {found_m:?}\n")).unwrap();
+        let written = load_structure(&format!("{frame}uplift_displacement_m = {found_m:?}\n")).unwrap();
         assert_eq!(written.system, found.system);
         // another width has the same period
         let wider = found.varied(Quantity::Width, 0.3).unwrap().unwrap();
         let period = format!("{}period_s = 0.5\n", frame.replace("width_m = 0.2", "width_m = 0.3"));
-        assert_eq!(wider.system, load(&period).unwrap().system);
+        assert_eq!(wider.system, load_structure(&period).unwrap().system);
     }
-    let held = load(&format!("{FRAME}period_s = 0.5\n{DISCS}")).unwrap();
-    let free_m = load(&format!("{free}period_s = 0.5\n")).unwrap().system.conditions().uplift_displacement_m();
+    let held = load_structure(&format!("{FRAME}period_s = 0.5\n{DISCS}")).unwrap();
+    let free_m =
+        load_structure(&format!("{free}period_s = 0.5\n")).unwrap().system.conditions().uplift_displacement_m();
     assert_eq!(held.system.conditions().uplift_displacement_m(), free_m);
     let both = mistakes(&format!("{free}period_s = 0.5\nuplift_displacement_m = 0.006\n"));
     assert_eq!(both, ["`period_s` and `uplift_displacement_m` give the displacement at uplift twice: leave one out"]);
@@ -88,23 +83,27 @@ fn a_period_in_place_of_the_displacement_at_uplift() {
 /// A linear restrainer says the same by two keys and by the table.
 #[test]
 fn two_ways_to_write_a_linear_restrainer() {
-    let keys = load(&format!("{FRAME}tendon_stiffness_n_m = 1e6\ntendon_anchorage = \"foundation\"\n")).unwrap();
-    let table =
-        load(&format!("{FRAME}[restrainer]\nkind = \"linear\"\nstiffness_n_m = 1e6\nanchorage = \"foundation\"\n"));
+    let keys =
+        load_structure(&format!("{FRAME}tendon_stiffness_n_m = 1e6\ntendon_anchorage = \"foundation\"\n")).unwrap();
+    let table = load_structure(&format!(
+        "{FRAME}[restrainer]\nkind = \"linear\"\nstiffness_n_m = 1e6\nanchorage = \"foundation\"\n"
+    ));
     let table = table.unwrap();
     let force_n = |of: &Structure| of.columns.as_ref().unwrap().at_displacement(0.1).unwrap().force_n;
     assert_eq!(force_n(&keys), force_n(&table));
     assert_eq!(table.description.tendon_anchorage, Some(Anchorage::Foundation));
     // free columns, and a block, which is a column that carries nothing
-    let free = load(&FRAME.replace("restrained-frame", "frame")).unwrap().columns.unwrap();
+    let free = load_structure(&FRAME.replace("restrained-frame", "frame")).unwrap().columns.unwrap();
     assert!(free.restrainer().is_none() && (free.capacity().unwrap().displacement_m - 0.2).abs() < 1e-15);
     let block = config("block.toml").columns.unwrap();
     assert!((block.uplift_force_n() - 0.5 * 8000.0 * 9.806_65 * 0.2).abs() < 1e-9);
     assert!(
-        load("kind = \"body\"\nslenderness_deg = 8\nsize_m = 4\nmass_kg = 100\nmoment_of_inertia_kg_m2 = 2000\n")
-            .unwrap()
-            .columns
-            .is_none()
+        load_structure(
+            "kind = \"body\"\nslenderness_deg = 8\nsize_m = 4\nmass_kg = 100\nmoment_of_inertia_kg_m2 = 2000\n"
+        )
+        .unwrap()
+        .columns
+        .is_none()
     );
 }
 

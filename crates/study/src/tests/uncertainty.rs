@@ -5,19 +5,13 @@ use std::path::Path;
 use uplift_structure::UncertainQuantity;
 use uplift_uncertainty::{Family, Sampling};
 
-use crate::{AnyStudy, Place, Structure, Study, StudyError, UncertaintyKind};
+use super::load_structure;
+use crate::{AnyStudy, Place, Structure, Study, UncertaintyKind};
 
 const BLOCK: &str = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 7.0\nmass_kg = 9000\n";
 
-fn load(text: &str) -> Result<Structure, StudyError> {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("uncertain.toml");
-    std::fs::write(&file, text).unwrap();
-    Structure::load(&file)
-}
-
 fn mistakes(uncertainty: &str) -> Vec<String> {
-    let error = load(&format!("{BLOCK}{uncertainty}")).unwrap_err();
+    let error = load_structure(&format!("{BLOCK}{uncertainty}")).unwrap_err();
     error.mistakes().iter().map(ToString::to_string).collect()
 }
 
@@ -55,7 +49,7 @@ fn a_key_of_the_other_kind_is_refused() {
 
 #[test]
 fn a_structure_without_the_table_is_certain() {
-    assert_eq!(load(BLOCK).unwrap().uncertainty, None);
+    assert_eq!(load_structure(BLOCK).unwrap().uncertainty, None);
 }
 
 /// All of them at once, beside those of the structure itself.
@@ -90,7 +84,7 @@ fn mistakes_stand_where_their_keys_do() {
         "{BLOCK}[uncertainty]\nsamples = 20\n[uncertainty.restitution]\ndistribution = \"triangular\"\nlower = 0.9\n\
          upper = 0.97\nmode = 0.5\n"
     );
-    let error = load(&text).unwrap_err();
+    let error = load_structure(&text).unwrap_err();
     for (line, key) in [(6, "samples"), (11, "restitution.mode")] {
         let found = error.mistakes().iter().find(|found| found.key == format!("uncertainty.{key}")).unwrap();
         assert!(matches!(found.place, Place::File { line: at, .. } if at == line), "{found:?}");
@@ -144,7 +138,7 @@ fn what_does_not_go_together_is_refused() {
     }
     let stays = "kind = \"restrained-frame\"\ncolumns = 4\nwidth_m = 0.2\nheight_m = 1.6\ncolumn_mass_kg = 100\n\
                  deck_mass_kg = 9000\ntendon_stiffness_n_m = 1e8\ntendon_anchorage = \"foundation\"\n";
-    let error = load(&format!("{stays}{capacity}")).unwrap_err();
+    let error = load_structure(&format!("{stays}{capacity}")).unwrap_err();
     assert!(error.mistakes()[0].to_string().contains("does not fall after uplift"), "{error:?}");
 }
 
@@ -152,7 +146,7 @@ fn what_does_not_go_together_is_refused() {
 #[test]
 fn likely_slips_are_asked_about() {
     let warnings = |text: &str| -> Vec<String> {
-        load(&format!("{BLOCK}{text}")).unwrap().warnings.iter().map(|warning| warning.what.clone()).collect()
+        load_structure(&format!("{BLOCK}{text}")).unwrap().warnings.iter().map(|warning| warning.what.clone()).collect()
     };
     let quantity = |key: &str, rest: &str| format!("[uncertainty.{key}]\ndistribution = \"lognormal\"\n{rest}\n");
     for (text, starts) in [
@@ -183,7 +177,7 @@ fn likely_slips_are_asked_about() {
     assert_eq!(warnings(&quantity("strength", "coefficient_of_variation = 0.06")), Vec::<String>::new());
     // a file that is refused for such a number says so
     let text = quantity("restitution", "percentiles = [[5, 90], [95, 97]]");
-    let error = load(&format!("{BLOCK}{text}")).unwrap_err();
+    let error = load_structure(&format!("{BLOCK}{text}")).unwrap_err();
     assert!(error.mistakes()[0].to_string().contains("percentiles[0][1] is 90; usual is"), "{error:?}");
 }
 
@@ -192,12 +186,12 @@ fn likely_slips_are_asked_about() {
 #[test]
 fn a_mean_far_from_the_structure_raises_a_warning() {
     let warnings = |text: &str| -> Vec<String> {
-        load(text).unwrap().warnings.iter().map(|warning| warning.what.clone()).collect()
+        load_structure(text).unwrap().warnings.iter().map(|warning| warning.what.clone()).collect()
     };
     let mean = |key: &str, mean: f64| {
         format!("[uncertainty.{key}]\ndistribution = \"lognormal\"\nmean = {mean}\ncoefficient_of_variation = 0.1\n")
     };
-    let own = load(BLOCK).unwrap().system.strength();
+    let own = load_structure(BLOCK).unwrap().system.strength();
     for (factor, words) in [(10.0, "10 times the "), (0.1, "a 10th of the ")] {
         let found = warnings(&format!("{BLOCK}{}", mean("strength", factor * own)));
         let starts = "line 7, uncertainty.strength.mean is ";
