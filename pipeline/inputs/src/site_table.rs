@@ -16,8 +16,8 @@ use uplift_motion::IntensityMeasure;
 use uplift_risk::StripeWeights;
 
 pub use self::export::SharedCurve;
-use self::export::{Index, Row, Stream};
-use super::hazard::stripe_weights;
+use self::export::{Index, Row, Stream, reason_of};
+use super::hazard::{of_the_records_definition, stripe_weights};
 use crate::error::InputsError;
 use uplift_job::JobError;
 use uplift_job::checksum::checksum_of_file;
@@ -99,7 +99,8 @@ impl SiteExport {
     /// # Errors
     /// A curve of another definition without a conversion, for instance; as the reason for a table.
     pub fn curve(&self, study: &UniformRiskStudy, exported: &HazardCurve) -> Result<HazardCurve, String> {
-        export::for_the_records(study, self.measure, exported)
+        let curve = exported.in_field_units(study.gravity_m_s2).map_err(|error| reason_of(&error))?;
+        Ok(of_the_records_definition(study, self.measure, &curve)?.unwrap_or(curve))
     }
 
     /// What each stripe of the study weighs at a site with this [`curve`](Self::curve).

@@ -11,18 +11,12 @@ use crate::reading::{Finding, Origin, Table};
 use crate::warning::Warning;
 
 /// A mistake of the description, or of its restrainer.
+#[derive(Debug, thiserror::Error)]
 pub(super) enum Mistake {
+    #[error(transparent)]
     Structure(StructureError),
+    #[error(transparent)]
     Restrainer(StaticsError),
-}
-
-impl std::fmt::Display for Mistake {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Structure(mistake) => mistake.fmt(f),
-            Self::Restrainer(mistake) => mistake.fmt(f),
-        }
-    }
 }
 
 impl Mistake {
@@ -30,8 +24,8 @@ impl Mistake {
     pub(super) fn finding(&self, document: &Table, found: &[Finding]) -> Option<Finding> {
         let table = |of: &Table, key: &str| of.get(key).and_then(|entry| entry.node.table()).cloned();
         let restrainer = || table(document, "restrainer");
-        let (keys, message, places) = match self {
-            Self::Structure(mistake) => (mistake.keys(), mistake.to_string(), vec![(String::new(), document.clone())]),
+        let (keys, places) = match self {
+            Self::Structure(mistake) => (mistake.keys(), vec![(String::new(), document.clone())]),
             Self::Restrainer(mistake) => {
                 let stopper = restrainer().and_then(|within| table(&within, "stopper"));
                 let mut places = Vec::new();
@@ -39,7 +33,7 @@ impl Mistake {
                 places.extend(stopper.map(|within| ("restrainer.stopper.".to_owned(), within)));
                 places.extend(restrainer().map(|within| ("restrainer.".to_owned(), within)));
                 places.push((String::new(), document.clone()));
-                (mistake.keys(), mistake.to_string(), places)
+                (mistake.keys(), places)
             }
         };
         let told = |key: &&str| {
@@ -54,7 +48,7 @@ impl Mistake {
             .map(|entry| entry.node.origin.clone())
             .or(header.map(|entry| entry.key_origin.clone()))
             .unwrap_or(Origin::Study);
-        Some(Finding { key: String::new(), origin, message, help: None })
+        Some(Finding { key: String::new(), origin, message: self.to_string(), help: None })
     }
 }
 

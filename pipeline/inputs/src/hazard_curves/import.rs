@@ -21,7 +21,7 @@ use uplift_job::text::{counted, distinct};
 use uplift_job::typed::number;
 
 use crate::error::InputsError;
-use check::{check_weights, one_site, remarks};
+use check::{check_weights, one_site};
 use text::{curve_text, file_stem, study_lines};
 
 /// Distance of a site from the place asked for that needs no word, km.
@@ -126,8 +126,9 @@ pub fn import(options: &HazardImportOptions, events: &dyn Events) -> Result<Haza
             "the exports do not say how horizontal components are combined: --component says it, and a study checks it",
         );
     }
-    for remark in remarks(&chosen) {
-        events.note(&remark);
+    let is_single = |curve: &Chosen| matches!(curve.exported.kind, Statistic::Mean | Statistic::Unspecified);
+    if !chosen.iter().any(|curve| curve.weight.is_some() || is_single(curve)) {
+        events.note("no mean among the exports: for a study give the mean too, or all realizations with --weights");
     }
     Ok(HazardImportReport {
         study_lines: study_lines(&chosen, &options.folder, &site),

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use uplift_hazard::{ExportedCurve, ExportedCurves, HazardCurve, HazardError, SitePlace, Statistic};
 use uplift_job::JobError;
-use uplift_motion::IntensityMeasure;
 use uplift_study::{UniformRiskStudy, definition_of};
 
 use super::super::hardly_possible::hardly_possible;
@@ -259,23 +258,13 @@ impl Tally {
 }
 
 /// Why a site has no curve, in words for a table.
-fn reason_of(error: &HazardError) -> String {
+pub(super) fn reason_of(error: &HazardError) -> String {
     match error {
         HazardError::TooFewPoints { found, .. } => {
             format!("no hazard: {found} levels of its curve have a positive rate")
         }
         other => other.to_string(),
     }
-}
-
-/// A curve of an export in field units, for the definition of the measure that the records are combined by.
-pub(super) fn for_the_records(
-    study: &UniformRiskStudy,
-    measure: IntensityMeasure,
-    exported: &HazardCurve,
-) -> Result<HazardCurve, String> {
-    let curve = exported.in_field_units(study.gravity_m_s2).map_err(|error| reason_of(&error))?;
-    Ok(of_the_records_definition(study, measure, &curve)?.unwrap_or(curve))
 }
 
 /// A curve that several sites may share, or why there is none.

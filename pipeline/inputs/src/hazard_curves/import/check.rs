@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use uplift_hazard::{ExportedCurve, RealizationWeight, SiteSelection, Statistic};
+use uplift_hazard::{ExportedCurve, RealizationWeight, SiteSelection};
 use uplift_job::JobError;
 
-use super::{Chosen, HazardImportOptions, weight_of};
+use super::{HazardImportOptions, weight_of};
 use crate::error::InputsError;
 
 /// How far apart two exports may have the same site, km.
@@ -32,19 +32,6 @@ pub(super) fn check_weights(
         .into()),
         None => Ok(()),
     }
-}
-
-/// What the user should know before a study takes the curves.
-pub(super) fn remarks(written: &[Chosen]) -> Vec<String> {
-    let mut remarks = Vec::new();
-    let weighted = |written: &Chosen| written.weight.is_some();
-    let single = |written: &Chosen| matches!(written.exported.kind, Statistic::Mean | Statistic::Unspecified);
-    if !written.iter().any(|written| weighted(written) || single(written)) {
-        remarks.push(
-            "no mean among the exports: for a study give the mean too, or all realizations with --weights".to_owned(),
-        );
-    }
-    remarks
 }
 
 /// The name of the site that all curves belong to.
