@@ -91,17 +91,6 @@ pub struct DisplacementStudy {
     pub warnings: Vec<Warning>,
 }
 
-impl DisplacementStudy {
-    /// The study as TOML, complete and loadable; the warnings are left out, since loading finds them again.
-    ///
-    /// # Errors
-    ///
-    /// Where TOML cannot hold a value; a study that was loaded has none such.
-    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string(self)
-    }
-}
-
 /// Reads the whole study but for its `kind`; none where something is wrong.
 pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<DisplacementStudy> {
     let title = root.read(&top::TITLE);

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use serde::Serialize;
+
 use crate::displacement::{self, DisplacementStudy};
 use crate::keys::SectionKeys;
 use crate::reading::{Paths, Section};
@@ -51,7 +53,8 @@ impl Kind {
 }
 
 /// A resolved study of any kind.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum AnyStudy {
     /// Of uniform risk spectra.
     UniformRisk(Box<UniformRiskStudy>),
@@ -123,17 +126,22 @@ impl AnyStudy {
             Self::ShakeTable(study) => &study.warnings,
         }
     }
-
-    /// The study as TOML, complete and loadable.
-    ///
-    /// # Errors
-    ///
-    /// Where TOML cannot hold a value; a study that was loaded has none such.
-    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        match self {
-            Self::UniformRisk(study) => study.to_toml(),
-            Self::Displacement(study) => study.to_toml(),
-            Self::ShakeTable(study) => study.to_toml(),
-        }
-    }
 }
+
+/// Writes every one of these alike.
+macro_rules! written_as_toml {
+    ($($study:ty),*) => {
+        $(impl $study {
+            /// The study as TOML, complete and loadable; the warnings are left out, since loading finds them again.
+            ///
+            /// # Errors
+            ///
+            /// Where TOML cannot hold a value; a study that was loaded has none such.
+            pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+                toml::to_string(self)
+            }
+        })*
+    };
+}
+
+written_as_toml!(AnyStudy, UniformRiskStudy, DisplacementStudy, ShakeTableStudy);

@@ -90,17 +90,6 @@ pub struct ShakeTableStudy {
     pub warnings: Vec<Warning>,
 }
 
-impl ShakeTableStudy {
-    /// The study as TOML, complete and loadable.
-    ///
-    /// # Errors
-    ///
-    /// Where TOML cannot hold a value; a study that was loaded has none such.
-    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string(self)
-    }
-}
-
 /// Reads the whole study but for its `kind`; none where something is wrong.
 pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<ShakeTableStudy> {
     let title = root.read(&top::TITLE);

@@ -210,15 +210,6 @@ impl UniformRiskStudy {
     pub fn keeps_pairs_together(&self) -> bool {
         matches!(self.records.component, Component::Rotated(Rotation::Each { .. })) || self.structures_of_a_motion() > 1
     }
-
-    /// The study as TOML, complete and loadable; the warnings are left out, since loading finds them again.
-    ///
-    /// # Errors
-    ///
-    /// Where TOML cannot hold a value; a study that was loaded has none such.
-    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string(self)
-    }
 }
 
 /// Whether a site, or the table of many, has a curve of the measure that the consistency is asked against; else a
