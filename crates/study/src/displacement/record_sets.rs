@@ -39,19 +39,9 @@ const MOST_SETS: usize = 100;
 
 /// Reads the sections `[[record_sets]]`.
 pub(super) fn read(field: Option<Field<'_>>) -> Option<Vec<SetPlan>> {
-    let Some(field) = field else {
-        return Some(Vec::new());
-    };
-    let Value::List(_) = field.node.value else {
-        return field.wrong_type("a list of sections", "head each set with [[record_sets]], in double brackets");
-    };
-    let items = field.items();
-    if items.len() > MOST_SETS {
-        return field.refuse(format!("there are {} record sets", items.len()), format!("give at most {MOST_SETS}"));
-    }
+    let Some(field) = field else { return Some(Vec::new()) };
     let mut names = Vec::new();
-    let sets: Vec<Option<SetPlan>> = items.iter().map(|item| set(item, &mut names)).collect();
-    sets.into_iter().collect()
+    field.sections("set", 0..=MOST_SETS, |item| set(&item, &mut names))
 }
 
 fn set(item: &Field<'_>, names: &mut Vec<String>) -> Option<SetPlan> {

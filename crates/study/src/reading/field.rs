@@ -1,5 +1,7 @@
 //! A value while it is read: each reading checks, and tells what is wrong.
 
+use std::ops::RangeInclusive;
+
 use super::suggestion::did_you_mean;
 use super::{Finding, Findings, Node, Rule, Section, Value, quantity};
 use uplift_plausible::{may_be_thousands, with_point};
@@ -171,6 +173,29 @@ impl<'a> Field<'a> {
             return self.refuse(format!("the list has {} items", items.len()), format!("give 1 to {MOST_ITEMS}"));
         }
         Some(items)
+    }
+
+    /// What `read` makes of each section of a list, as many as `number` allows; none where it makes nothing of one of
+    /// them. Messages call one of them `what`, and several by their key.
+    pub(crate) fn sections<T>(
+        &self,
+        what: &str,
+        number: RangeInclusive<usize>,
+        read: impl FnMut(Field<'a>) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let Value::List(_) = self.node.value else {
+            let help = format!("head each {what} with [[{}]], in double brackets", self.key);
+            return self.wrong_type("a list of sections", &help);
+        };
+        let items = self.items();
+        if !number.contains(&items.len()) {
+            let (least, most) = number.into_inner();
+            let help = if least == 0 { format!("give at most {most}") } else { format!("give from {least} to {most}") };
+            return self.refuse(format!("there are {} {}", items.len(), self.key.replace('_', " ")), help);
+        }
+        // every one is read, so that the mistakes of all are found
+        let read: Vec<Option<T>> = items.into_iter().map(read).collect();
+        read.into_iter().collect()
     }
 
     /// The section that this value is; if it is none, a mistake and an absent section.

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::keys::{Key, Number, SectionKeys, Shape, Text, number};
-use crate::reading::{Field, Rule, Section, Value};
+use crate::reading::{Field, Rule, Section};
 use crate::sections::name;
 
 pub(super) const KEYS: SectionKeys = SectionKeys::new("levels", &[&NAME, &PGV_SRSS_M_S]).shape(Shape::List);
@@ -37,16 +37,8 @@ pub(super) fn read(root: &mut Section<'_>) -> Option<Vec<LevelPlan>> {
             "add a section [[levels]] with name = \"high\" and pgv_srss_m_s = 0.335; or several",
         );
     };
-    let Value::List(_) = field.node.value else {
-        return field.wrong_type("a list of sections", "head each level with [[levels]], in double brackets");
-    };
-    let items = field.items();
-    if items.is_empty() || items.len() > MOST_LEVELS {
-        return field.refuse(format!("there are {} levels", items.len()), format!("give from 1 to {MOST_LEVELS}"));
-    }
     let mut names = Vec::new();
-    let levels: Vec<Option<LevelPlan>> = items.iter().map(|item| level(item, &mut names)).collect();
-    levels.into_iter().collect()
+    field.sections("level", 1..=MOST_LEVELS, |item| level(&item, &mut names))
 }
 
 fn level(item: &Field<'_>, names: &mut Vec<String>) -> Option<LevelPlan> {

@@ -7,7 +7,7 @@ use uplift_motion::IntensityMeasure;
 use super::curve::{self, CurveFile};
 use super::measures::{self, cannot_be_scaled_to, section_of};
 use crate::keys::{Key, SectionKeys, Shape, Special, Text, special};
-use crate::reading::{Field, Paths, Value};
+use crate::reading::{Field, Paths};
 use crate::sections::name;
 
 pub(super) const KEYS: SectionKeys = SectionKeys::new("sites", &[&NAME, &CURVE, &FURTHER_CURVE]).shape(Shape::List);
@@ -49,26 +49,9 @@ fn write_curves<S: Serializer>(curves: &[CurveFile], serializer: S) -> Result<S:
 
 /// Reads the sites; each must have a curve of each measure in `measures`.
 pub(super) fn read(field: Option<Field<'_>>, measures: &[IntensityMeasure], paths: &Paths) -> Option<Vec<Site>> {
-    let Some(field) = field else {
-        return Some(Vec::new());
-    };
-    let Value::List(_) = field.node.value else {
-        return field.wrong_type("a list of sections", "head each site with [[sites]], in double brackets");
-    };
-    let items = field.items();
-    if items.len() > MOST_SITES {
-        return field.refuse(format!("there are {} sites", items.len()), format!("give at most {MOST_SITES}"));
-    }
-    let mut sites = Some(Vec::new());
-    let mut names: Vec<String> = Vec::new();
-    for item in items {
-        let site = site(&item, measures, paths, &mut names);
-        match (&mut sites, site) {
-            (Some(sites), Some(site)) => sites.push(site),
-            _ => sites = None,
-        }
-    }
-    sites
+    let Some(field) = field else { return Some(Vec::new()) };
+    let mut names = Vec::new();
+    field.sections("site", 0..=MOST_SITES, |item| site(&item, measures, paths, &mut names))
 }
 
 fn site(item: &Field<'_>, studied: &[IntensityMeasure], paths: &Paths, names: &mut Vec<String>) -> Option<Site> {
