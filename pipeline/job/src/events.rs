@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
 use uplift_ida::Watch;
+
+use crate::JobError;
 
 /// Whoever started a job, as the job sees them: a terminal, a notebook, a test, or nobody ([`Silent`]).
 ///
@@ -91,4 +94,26 @@ impl Drop for Progress<'_> {
     fn drop(&mut self) {
         self.0.end();
     }
+}
+
+/// What `of` makes of each of `items`, in their order: on all threads, as a phase of `events` that has a label and a
+/// unit, an item a step.
+///
+/// # Errors
+/// [`JobError::Interrupted`] where `events` say so.
+pub fn each<I: Send, T: Send>(
+    events: &dyn Events,
+    (label, unit): (&str, &'static str),
+    items: Vec<I>,
+    of: impl Fn(I) -> T + Sync,
+) -> Result<Vec<T>, JobError> {
+    let progress = Progress::begin(events, label, unit, items.len() as u64);
+    let of_item = |item| {
+        let made = (!progress.cancelled()).then(|| of(item))?;
+        progress.finished(1);
+        Some(made)
+    };
+    let made: Vec<Option<T>> = items.into_par_iter().map(of_item).collect();
+    drop(progress);
+    if events.cancelled() { Err(JobError::Interrupted) } else { Ok(made.into_iter().flatten().collect()) }
 }

@@ -5,11 +5,8 @@
 
 use std::path::{Path, PathBuf};
 
-use rayon::prelude::*;
-use uplift_ida::Watch;
-use uplift_job::JobError;
 use uplift_job::checksum::checksum;
-use uplift_job::events::{Events, Progress};
+use uplift_job::events::{Events, each};
 use uplift_motion::{MotionError, RecordFormat, RecordingDescription, read_record, record_bytes};
 
 use super::measured::{self, PairMeasures};
@@ -82,23 +79,8 @@ pub(super) fn find_pairs(options: &ImportOptions, events: &dyn Events) -> Result
     let mut warnings = Vec::new();
     let search = SearchResults::read(&found.search_results, &mut warnings);
 
-    let progress = Progress::begin(events, "reading", "files", found.files.len() as u64);
-    let read: Vec<Result<Vec<Component>, MotionError>> = found
-        .files
-        .par_iter()
-        .map(|path| {
-            if progress.cancelled() {
-                return Ok(Vec::new());
-            }
-            let components = components_of(path, options);
-            progress.finished(1);
-            components
-        })
-        .collect();
-    drop(progress);
-    if events.cancelled() {
-        return Err(JobError::Interrupted.into());
-    }
+    let files = found.files.len();
+    let read = each(events, ("reading", "files"), found.files, |path| components_of(&path, options))?;
     let mut components = Vec::new();
     let mut passed_over = Vec::new();
     for outcome in read {
@@ -114,24 +96,9 @@ pub(super) fn find_pairs(options: &ImportOptions, events: &dyn Events) -> Result
     let candidates = group::pairs(components, &search, &mut warnings);
     warnings.extend(search.missing(&candidates));
 
-    let progress = Progress::begin(events, "measuring", "pairs", candidates.len() as u64);
-    let measured: Vec<Option<Result<ImportedPair, String>>> = candidates
-        .into_par_iter()
-        .map(|candidate| {
-            if progress.cancelled() {
-                return None;
-            }
-            let pair = measured::pair(candidate, options);
-            progress.finished(1);
-            Some(pair)
-        })
-        .collect();
-    drop(progress);
-    if events.cancelled() {
-        return Err(JobError::Interrupted.into());
-    }
+    let measured = each(events, ("measuring", "pairs"), candidates, |candidate| measured::pair(candidate, options))?;
     let mut pairs = Vec::new();
-    for outcome in measured.into_iter().flatten() {
+    for outcome in measured {
         match outcome {
             Ok(pair) => {
                 warnings.extend(pair.warnings.iter().cloned());
@@ -140,7 +107,7 @@ pub(super) fn find_pairs(options: &ImportOptions, events: &dyn Events) -> Result
             Err(reason) => passed_over.push(reason),
         }
     }
-    Ok(Imported { pairs, warnings, passed_over, files: found.files.len(), components: count })
+    Ok(Imported { pairs, warnings, passed_over, files, components: count })
 }
 
 /// The components of a file.

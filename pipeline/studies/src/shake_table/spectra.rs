@@ -1,10 +1,7 @@
 //! Response spectra of what a table plays (Fig. 6.12).
 
-use rayon::prelude::*;
-use uplift_ida::Watch;
 use uplift_inputs::SetRecord;
-use uplift_job::JobError;
-use uplift_job::events::{Events, Progress};
+use uplift_job::events::{Events, each};
 use uplift_result::{Excitation, TableSpectra};
 use uplift_study::ShakeTableStudy;
 
@@ -22,26 +19,19 @@ pub(super) fn spectra(
 ) -> Result<TableSpectra, StudiesError> {
     let periods_s = study.spectra.periods_s.to_vec();
     let of_record_s: Vec<f64> = periods_s.iter().map(|period_s| period_s * study.length_scale.sqrt()).collect();
-    let played = inputs.played();
-    let progress = Progress::begin(events, "spectra", "excitations", played.len() as u64);
-    let of_pair = |(_, record): &(Excitation, &SetRecord)| {
+    let of_pair = |(_, record): (Excitation, &SetRecord)| {
         let mut ordinates_m_s2 = Vec::with_capacity(2 * of_record_s.len());
         for component in [&record.pair.h1, &record.pair.h2] {
             for &period_s in &of_record_s {
-                if progress.cancelled() {
+                if events.cancelled() {
                     return Vec::new();
                 }
                 ordinates_m_s2.push(component.spectral_acceleration_m_s2(period_s));
             }
         }
-        progress.finished(1);
         ordinates_m_s2
     };
-    let recorded_m_s2: Vec<Vec<f64>> = played.par_iter().map(of_pair).collect();
-    drop(progress);
-    if events.cancelled() {
-        return Err(JobError::Interrupted.into());
-    }
+    let recorded_m_s2 = each(events, ("spectra", "excitations"), inputs.played(), of_pair)?;
     let design_m_s2 = study.spectra.design.map(|design| {
         let spectrum = design.spectrum(study.gravity_m_s2);
         of_record_s.iter().map(|&period_s| spectrum.acceleration_m_s2(period_s).unwrap_or(f64::NAN)).collect()

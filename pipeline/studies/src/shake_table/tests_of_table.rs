@@ -1,11 +1,9 @@
 //! Every test: a record in the scale of the model at a level, and the frame under it.
 
-use rayon::prelude::*;
 use uplift_frame::{GroundMotion, Model, Options, Shaking, TableLevel as Level, respond, srss};
-use uplift_ida::Watch;
 use uplift_inputs::SetRecord;
 use uplift_job::JobError;
-use uplift_job::events::{Events, Progress};
+use uplift_job::events::{Events, each};
 use uplift_result::{Excitation, ShakeTable, TableLevel, TableTest};
 use uplift_study::{LevelPlan, ShakeTableStudy};
 
@@ -20,25 +18,12 @@ pub fn carry_out(study: &ShakeTableStudy, inputs: &Inputs, events: &dyn Events) 
     let played = inputs.played();
     let jobs: Vec<(&LevelPlan, &(Excitation, &SetRecord))> =
         study.levels.iter().flat_map(|level| played.iter().map(move |played| (level, played))).collect();
-    let progress = Progress::begin(events, "tests", "tests", jobs.len() as u64);
-    let found: Vec<Option<Result<TableTest, String>>> = jobs
-        .into_par_iter()
-        .map(|(level, (excitation, record))| {
-            if progress.cancelled() {
-                return None;
-            }
-            let test = test(study, inputs, level, record)
-                .map_err(|reason| format!("excitation {} ({}): {reason}", excitation.exc_id, excitation.record));
-            progress.finished(1);
-            Some(test)
-        })
-        .collect();
-    drop(progress);
-    if events.cancelled() {
-        return Err(JobError::Interrupted.into());
-    }
+    let found = each(events, ("tests", "tests"), jobs, |(level, (excitation, record))| {
+        test(study, inputs, level, record)
+            .map_err(|reason| format!("excitation {} ({}): {reason}", excitation.exc_id, excitation.record))
+    })?;
     let (mut tests, mut mistakes) = (Vec::new(), Vec::new());
-    for test in found.into_iter().flatten() {
+    for test in found {
         match test {
             Ok(test) => tests.push(test),
             Err(mistake) => mistakes.push(mistake),
