@@ -12,8 +12,8 @@ use crate::reading::Field;
 
 use form::inline;
 pub(crate) use form::{
-    ANY, Boolean, Choice, File, Integer, Judged, List, Number, Special, Text, boolean, choice, file, grid, integer,
-    judged, number, object, one_or_several, special, text,
+    ANY, Boolean, Choice, File, Integer, List, Number, Special, Text, boolean, choice, file, grid, integer, judged,
+    number, object, one_or_several, special, text,
 };
 
 /// A key of a section.

@@ -14,14 +14,6 @@ pub(crate) struct Number {
     rule: Rule,
 }
 
-/// A number that is read whatever it is, and judged with others by what it describes.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Judged {
-    name: &'static str,
-    unit: &'static str,
-    rule: fn(&str) -> Rule,
-}
-
 /// A number that is judged elsewhere.
 pub(crate) const ANY: Rule = Rule::Finite("finite");
 
@@ -64,9 +56,10 @@ pub(crate) const fn number(name: &'static str, unit: &'static str, rule: Rule) -
     Key::new(name, Number { unit, rule })
 }
 
-/// A number \[`unit`\] that is judged by the `rule` of its name once it is read; it may be left out.
-pub(crate) const fn judged(name: &'static str, unit: &'static str, rule: fn(&str) -> Rule) -> Key<Judged> {
-    Key::new(name, Judged { name, unit, rule }).without_default("")
+/// A number \[`unit`\] that is read whatever it is, and judged with others by the `rule` of its name; it may be left
+/// out.
+pub(crate) const fn judged(name: &'static str, unit: &'static str, rule: fn(&str) -> Rule) -> Key<Number> {
+    number(name, unit, Rule::Judged(name, rule)).without_default("")
 }
 
 /// A whole number from `least` to `most`.
@@ -133,34 +126,6 @@ impl Readable for Number {
 
     fn read(&self, field: &Field<'_>) -> Option<f64> {
         field.number(self.unit, self.rule)
-    }
-
-    fn value(&self, given: f64) -> Option<f64> {
-        Some(given)
-    }
-}
-
-impl Form for Judged {
-    type Given = f64;
-
-    fn json(&self, given: f64) -> Value {
-        plain(given)
-    }
-
-    fn range(&self) -> String {
-        (self.rule)(self.name).range()
-    }
-
-    fn schema(&self) -> Map<String, Value> {
-        with_unit((self.rule)(self.name).schema(), self.unit)
-    }
-}
-
-impl Readable for Judged {
-    type Value = f64;
-
-    fn read(&self, field: &Field<'_>) -> Option<f64> {
-        field.number(self.unit, ANY)
     }
 
     fn value(&self, given: f64) -> Option<f64> {

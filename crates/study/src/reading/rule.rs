@@ -16,6 +16,8 @@ pub(crate) enum Rule {
     Between(f64, f64, &'static str),
     /// To be finite, no more.
     Finite(&'static str),
+    /// To be finite where it is read; what it describes satisfies the rule of this name.
+    Judged(&'static str, fn(&str) -> Rule),
 }
 
 impl Rule {
@@ -25,7 +27,7 @@ impl Rule {
             Self::Within(range) => range.contains(value),
             Self::From(least, most, _) => (least..=most).contains(&value),
             Self::Between(above, below, _) => value > above && value < below,
-            Self::Finite(_) => true,
+            Self::Finite(_) | Self::Judged(..) => true,
         }
     }
 
@@ -34,6 +36,7 @@ impl Rule {
         match self {
             Self::Within(range) => range.to_string(),
             Self::From(_, _, words) | Self::Between(_, _, words) | Self::Finite(words) => (*words).to_owned(),
+            Self::Judged(..) => "finite".to_owned(),
         }
     }
 
@@ -45,6 +48,7 @@ impl Rule {
             }
             Self::Between(_, _, words) => words.to_owned(),
             Self::Finite(_) => String::new(),
+            Self::Judged(name, rule) => rule(name).range(),
         }
     }
 
@@ -58,6 +62,7 @@ impl Rule {
                 json!({ "type": "number", "exclusiveMinimum": above, "exclusiveMaximum": below })
             }
             Self::Finite(_) => json!({ "type": "number" }),
+            Self::Judged(name, rule) => return rule(name).schema(),
         })
     }
 }

@@ -6,7 +6,7 @@ use uplift_structure::{Allowed, Anchorage, Kind, Reference, StructureDescription
 
 use super::resolve::ReadStructure;
 use super::{ColumnShape, restrainer};
-use crate::keys::{self, Choice, Judged, Key, Number, SectionKeys, Special, choice, number, special};
+use crate::keys::{self, Choice, Key, Number, SectionKeys, Special, choice, number, special};
 use crate::reading::{Rule, Section};
 use crate::sections::uncertainty;
 use crate::shake_table::REST;
@@ -50,18 +50,18 @@ pub(crate) const KEYS: [SectionKeys; 6] = [
     uncertainty::CORRELATION_KEYS,
 ];
 const KIND: Key<Choice<Kind>> = choice("kind", &Kind::ALL, Kind::name).meaning("what kind of structure it is");
-const WIDTH_M: Key<Judged> = judged("width_m", "m").meaning("width 2b of the block or column, m");
-const HEIGHT_M: Key<Judged> = judged("height_m", "m").meaning("height 2h of the block or column, m");
-const CENTRE_HEIGHT_M: Key<Judged> = judged("centre_height_m", "m")
+const WIDTH_M: Key<Number> = judged("width_m", "m").meaning("width 2b of the block or column, m");
+const HEIGHT_M: Key<Number> = judged("height_m", "m").meaning("height 2h of the block or column, m");
+const CENTRE_HEIGHT_M: Key<Number> = judged("centre_height_m", "m")
     .meaning("height h of the mass centre of a `point-mass` or a `body`, in place of `height_m`, m");
-const SLENDERNESS_RAD: Key<Judged> =
+const SLENDERNESS_RAD: Key<Number> =
     judged("slenderness_rad", "rad").meaning("slenderness α with one length, in place of two lengths, rad");
-const SLENDERNESS_DEG: Key<Judged> =
+const SLENDERNESS_DEG: Key<Number> =
     judged("slenderness_deg", "degrees").meaning("the same in degrees, in place of `slenderness_rad`");
-const SIZE_M: Key<Judged> =
+const SIZE_M: Key<Number> =
     judged("size_m", "m").meaning("distance R from the pivot corner to the mass centre, with a slenderness, m");
-const MASS_KG: Key<Judged> = judged("mass_kg", "kg").meaning("mass of a `point-mass`, `block` or `body`, kg");
-const MOMENT_OF_INERTIA_KG_M2: Key<Judged> = judged("moment_of_inertia_kg_m2", "kg m2")
+const MASS_KG: Key<Number> = judged("mass_kg", "kg").meaning("mass of a `point-mass`, `block` or `body`, kg");
+const MOMENT_OF_INERTIA_KG_M2: Key<Number> = judged("moment_of_inertia_kg_m2", "kg m2")
     .meaning("moment of inertia I_o of a `body` about the pivot corner, kg m²");
 const DISPLACEMENT_OF: Key<Choice<Reference>> =
     choice("displacement_of", &[Reference::Top, Reference::Centre], |reference| match reference {
@@ -75,9 +75,9 @@ const COLUMNS: Key<Special> =
         .without_default("")
         .meaning("number of columns of a frame")
         .note("1 to 1e6");
-const COLUMN_MASS_KG: Key<Judged> = judged("column_mass_kg", "kg").meaning("mass of one column of a frame, kg");
-const DECK_MASS_KG: Key<Judged> = judged("deck_mass_kg", "kg").meaning("mass of the deck of a frame, kg");
-const TENDON_STIFFNESS_N_M: Key<Judged> = judged("tendon_stiffness_n_m", "N/m").meaning(
+const COLUMN_MASS_KG: Key<Number> = judged("column_mass_kg", "kg").meaning("mass of one column of a frame, kg");
+const DECK_MASS_KG: Key<Number> = judged("deck_mass_kg", "kg").meaning("mass of the deck of a frame, kg");
+const TENDON_STIFFNESS_N_M: Key<Number> = judged("tendon_stiffness_n_m", "N/m").meaning(
     "stiffness of the tendon and springs of one column of a `restrained-frame`, in series, N/m; or a table \
      `[restrainer]`",
 );
@@ -88,18 +88,18 @@ const TENDON_ANCHORAGE: Key<Choice<Anchorage>> =
     })
     .without_default("")
     .meaning("where these tendons are anchored");
-const CURVATURE_RADIUS_M: Key<Judged> =
+const CURVATURE_RADIUS_M: Key<Number> =
     judged("curvature_radius_m", "m").meaning("radius r of the curved ends of a `curved-frame`, m");
-const EXTENDED_WIDTH_M: Key<Judged> =
+const EXTENDED_WIDTH_M: Key<Number> =
     judged("extended_width_m", "m").meaning("width 2b' of the end of such a column with its extensions, m");
 const UPLIFT_DISPLACEMENT_M: Key<Number> = number("uplift_displacement_m", "m", Rule::Within(UPLIFT_DISPLACEMENT))
     .without_default("0.0005")
     .meaning("displacement at uplift u_up, m");
-const PERIOD_S: Key<Judged> =
+const PERIOD_S: Key<Number> =
     judged("period_s", "s").meaning("period T with closed joints, in place of `uplift_displacement_m`, s");
-const GRAVITY_M_S2: Key<Judged> =
+const GRAVITY_M_S2: Key<Number> =
     judged("gravity_m_s2", "m/s2").without_default("9.80665").meaning("acceleration of gravity, m/s²");
-const RESTITUTION: Key<Judged> = judged("restitution", "")
+const RESTITUTION: Key<Number> = judged("restitution", "")
     .without_default("that of the study")
     .meaning("velocity after an impact divided by the one before");
 const COLUMN_SHAPE: Key<Choice<ColumnShape>> =
@@ -120,7 +120,7 @@ const WOBBLING_RESTITUTION: Key<Number> = number("wobbling_restitution", "", Rul
     .meaning("velocity of a wobbling frame after passing the upright divided by the one before");
 
 /// A number that the description judges.
-const fn judged(name: &'static str, unit: &'static str) -> Key<Judged> {
+const fn judged(name: &'static str, unit: &'static str) -> Key<Number> {
     keys::judged(name, unit, |key| match StructureDescription::allowed(key) {
         Some(Allowed::Plausible(range)) => Rule::Within(range),
         Some(Allowed::BelowQuarterTurn(quarter_turn, words)) => Rule::Between(0.0, quarter_turn, words),
@@ -132,7 +132,7 @@ const fn judged(name: &'static str, unit: &'static str) -> Key<Judged> {
 pub(super) fn read(mut root: Section<'_>) -> Option<ReadStructure> {
     let help = format!("write kind = and one of \"{}\"", Kind::ALL.map(Kind::name).join("\", \""));
     let kind = root.read_needed(&KIND, "what kind of structure is this?", help);
-    let mut number = |key: &Key<Judged>| root.optional(key).flatten();
+    let mut number = |key: &Key<Number>| root.optional(key).flatten();
     let description = StructureDescription {
         kind: kind.unwrap_or(Kind::Block),
         width_m: number(&WIDTH_M),

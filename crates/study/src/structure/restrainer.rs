@@ -9,7 +9,7 @@ use uplift_structure::{Kind, StructureDescription};
 
 use super::resolve::Mistake;
 use crate::error::StudyError;
-use crate::keys::{self, ANY, Choice, Integer, Judged, Key, Number, SectionKeys, choice, integer, number};
+use crate::keys::{self, ANY, Choice, Integer, Key, Number, SectionKeys, choice, integer, number};
 use crate::reading::findings::refused;
 use crate::reading::other_file::Wanted;
 use crate::reading::text::{parse_table, read_text};
@@ -45,37 +45,37 @@ pub(super) const KEYS: SectionKeys = SectionKeys::new(
 );
 const KIND: Key<Choice<RestrainerKind>> = choice("kind", &RestrainerKind::ALL, RestrainerKind::name)
     .meaning("what holds each column: a spring of constant stiffness, a bare tendon, or a stack of disc springs");
-const STIFFNESS_N_M: Key<Judged> = judged("stiffness_n_m", "N/m").meaning("stiffness of a `linear` restrainer, N/m");
-const OUTER_DIAMETER_M: Key<Judged> = judged("outer_diameter_m", "m").meaning("outer diameter D_e of a disc spring, m");
-const INNER_DIAMETER_M: Key<Judged> = judged("inner_diameter_m", "m").meaning("inner diameter D_i, m");
-const THICKNESS_M: Key<Judged> = judged("thickness_m", "m").meaning("thickness t, m");
-const CONE_HEIGHT_M: Key<Judged> = judged("cone_height_m", "m").meaning("cone height h_0, m");
-const FREE_HEIGHT_M: Key<Judged> =
+const STIFFNESS_N_M: Key<Number> = judged("stiffness_n_m", "N/m").meaning("stiffness of a `linear` restrainer, N/m");
+const OUTER_DIAMETER_M: Key<Number> = judged("outer_diameter_m", "m").meaning("outer diameter D_e of a disc spring, m");
+const INNER_DIAMETER_M: Key<Number> = judged("inner_diameter_m", "m").meaning("inner diameter D_i, m");
+const THICKNESS_M: Key<Number> = judged("thickness_m", "m").meaning("thickness t, m");
+const CONE_HEIGHT_M: Key<Number> = judged("cone_height_m", "m").meaning("cone height h_0, m");
+const FREE_HEIGHT_M: Key<Number> =
     judged("free_height_m", "m").meaning("free height l_0 = h_0 + t, in place of the cone height, m");
-const REDUCED_THICKNESS_M: Key<Judged> =
+const REDUCED_THICKNESS_M: Key<Number> =
     judged("reduced_thickness_m", "m").meaning("thickness t' of discs with contact flats, m");
-const YOUNG_MODULUS_PA: Key<Judged> =
+const YOUNG_MODULUS_PA: Key<Number> =
     judged("young_modulus_pa", "Pa").without_default("206e9").meaning("Young's modulus of the discs, Pa");
-const POISSON: Key<Judged> = judged("poisson", "").without_default("0.3").meaning("Poisson's ratio of the discs");
-const TENDON_STIFFNESS_N_M: Key<Judged> =
+const POISSON: Key<Number> = judged("poisson", "").without_default("0.3").meaning("Poisson's ratio of the discs");
+const TENDON_STIFFNESS_N_M: Key<Number> =
     judged("tendon_stiffness_n_m", "N/m").meaning("stiffness k_t = EA/ℓ of the tendon, N/m");
-const TENDON_AREA_M2: Key<Judged> =
+const TENDON_AREA_M2: Key<Number> =
     judged("tendon_area_m2", "m2").meaning("area of the tendon, with its length in place of its stiffness, m²");
-const TENDON_YOUNG_MODULUS_PA: Key<Judged> = judged("tendon_young_modulus_pa", "Pa")
+const TENDON_YOUNG_MODULUS_PA: Key<Number> = judged("tendon_young_modulus_pa", "Pa")
     .without_default("190e9")
     .meaning("Young's modulus of the tendon, with its area, Pa");
-const TENDON_LENGTH_M: Key<Judged> =
+const TENDON_LENGTH_M: Key<Number> =
     judged("tendon_length_m", "m").meaning("length ℓ of the tendon, with its area or where it shifts, m");
-const TENDON_YIELD_N: Key<Judged> =
+const TENDON_YIELD_N: Key<Number> =
     judged("tendon_yield_n", "N").meaning("force at which the tendon yields, reported when it is reached, N");
-const TENDON_FAILURE_N: Key<Judged> =
+const TENDON_FAILURE_N: Key<Number> =
     judged("tendon_failure_n", "N").meaning("force at which the tendon or its socket fails, reported likewise, N");
-const PRESTRESS_N: Key<Judged> =
+const PRESTRESS_N: Key<Number> =
     judged("prestress_n", "N").without_default("0").meaning("force T_0 of the tendon before the column tilts, N");
-const SLACK_M: Key<Judged> = judged("slack_m", "m")
+const SLACK_M: Key<Number> = judged("slack_m", "m")
     .without_default("0")
     .meaning("elongation that a loose nut lets pass, in place of a prestress, m");
-const DUCT_GAP_M: Key<Judged> =
+const DUCT_GAP_M: Key<Number> =
     judged("duct_gap_m", "m").meaning("where the tendon shifts: half of what the duct is wider, c, m");
 const SPRINGS: Key<Integer> =
     integer("springs", 1, MOST_DISCS).without_default("").meaning("discs, or packets of them, in alternate sense, n");
@@ -94,14 +94,14 @@ const ANCHORAGE: Key<Choice<TendonAnchorage>> = choice("anchorage", &TendonAncho
 
 pub(super) const STOPPER_KEYS: SectionKeys =
     SectionKeys::new("restrainer.stopper", &[&GAP_M, &STOPPER_STIFFNESS_N_M, &YIELD_N]);
-const GAP_M: Key<Judged> =
+const GAP_M: Key<Number> =
     judged("gap_m", "m").needed().meaning("deformation of the springs at which the rods beside them engage, m");
 const STOPPER_STIFFNESS_N_M: Key<Number> =
     number("stiffness_n_m", "N/m", ANY).meaning("stiffness k_st = EA/L of all of these rods, N/m");
-const YIELD_N: Key<Judged> = judged("yield_n", "N").meaning("force F_y at which they yield, N");
+const YIELD_N: Key<Number> = judged("yield_n", "N").meaning("force F_y at which they yield, N");
 
 /// A number that the description judges.
-const fn judged(name: &'static str, unit: &'static str) -> Key<Judged> {
+const fn judged(name: &'static str, unit: &'static str) -> Key<Number> {
     keys::judged(name, unit, |key| RestrainerDescription::range(key).map_or(ANY, Rule::Within))
 }
 
@@ -219,7 +219,7 @@ fn read_section(mut section: Section<'_>) -> Option<RestrainerDescription> {
     let words = RestrainerKind::ALL.map(RestrainerKind::name).join("\", \"");
     let help = format!("write kind = and one of \"{words}\"");
     let kind = section.read_needed(&KIND, "what kind of restrainer is this?", help);
-    let mut number = |key: &Key<Judged>| section.optional(key).flatten();
+    let mut number = |key: &Key<Number>| section.optional(key).flatten();
     let mut description = RestrainerDescription {
         kind: kind.unwrap_or_default(),
         stiffness_n_m: number(&STIFFNESS_N_M),
