@@ -212,37 +212,17 @@ impl UniformRiskStudy {
     }
 }
 
-/// Whether a site, or the table of many, has a curve of the measure that the consistency is asked against; else a
-/// mistake.
-fn compared_somewhere(
-    root: &Section<'_>,
-    consistency: &Consistency,
-    (sites, table): (Option<&[Site]>, Option<&SiteTable>),
-) -> bool {
-    let (Some(against), Some(sites)) = (consistency.against, sites) else { return true };
+/// A mistake unless a site, or the table of many, has a curve of the measure that the consistency is asked against.
+fn require_curve(root: &Section<'_>, against: IntensityMeasure, sites: &[Site], table: Option<&SiteTable>) {
     let is_of_table = table.is_some_and(|table| table.export(against).is_some());
-    if (sites.is_empty() && table.is_none()) || is_of_table || sites.iter().any(|site| site.curve(against).is_some()) {
-        return true;
+    let has_sites = !sites.is_empty() || table.is_some();
+    if has_sites && !is_of_table && !sites.iter().any(|site| site.curve(against).is_some()) {
+        root.mistake(
+            "consistency.against",
+            format!("no site has a curve of {}", against.label()),
+            format!("add {} = \"path of the curve\" to a site, or name another measure", against.key()),
+        );
     }
-    root.mistake(
-        "consistency.against",
-        format!("no site has a curve of {}", against.label()),
-        format!("add {} = \"path of the curve\" to a site, or name another measure", against.key()),
-    );
-    false
-}
-
-/// Whether the levels that `records` name are those of one measure; else a mistake.
-fn is_of_one_measure(root: &Section<'_>, records: Option<&Records>, measures: &[MeasurePlan]) -> bool {
-    if measures.len() == 1 || records.is_none_or(|records| records.at_level.is_none()) {
-        return true;
-    }
-    root.mistake(
-        "records.at_level",
-        format!("the table has levels of one measure, and the study has {}", measures.len()),
-        "leave one of them in the study: a study each for the sets of the others",
-    );
-    false
 }
 
 /// Reads the whole study but for its `kind`; none where something is wrong.
@@ -255,7 +235,10 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
     let uncertainty = root.section("uncertainty");
     let is_uncertain = uncertainty.is_present();
     let uncertainty = uncertainty::read(uncertainty, oscillator.as_ref());
-    let by_one_set = uncertainty::without_sets_of_levels(&root, records.as_ref(), is_uncertain);
+    let names_levels = records.as_ref().is_some_and(|records| records.at_level.is_some());
+    if is_uncertain && names_levels {
+        uncertainty::refuse_sets_of_levels(&root);
+    }
     let strengths = strengths::read(root.section("strengths"));
     let (switched_on, measures) = measures::read(&mut root);
     let risk = risk::read(root.section("risk"));
@@ -265,9 +248,16 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
     let regression = regression::read(root.section("regression"));
     let bootstrap = bootstrap::read(root.section("bootstrap"));
     let consistency = consistency::read(root.section("consistency"));
-    let consistency = consistency
-        .filter(|of| compared_somewhere(&root, of, (sites.as_deref(), site_table.as_ref().and_then(Option::as_ref))));
-    let by_one = measures.as_deref().is_none_or(|measures| is_of_one_measure(&root, records.as_ref(), measures));
+    if let (Some(against), Some(sites)) = (consistency.as_ref().and_then(|of| of.against), &sites) {
+        require_curve(&root, against, sites, site_table.as_ref().and_then(Option::as_ref));
+    }
+    if let Some(several) = measures.as_ref().map(Vec::len).filter(|&number| names_levels && number != 1) {
+        root.mistake(
+            "records.at_level",
+            format!("the table has levels of one measure, and the study has {several}"),
+            "leave one of them in the study: a study each for the sets of the others",
+        );
+    }
     let inputs = (records.iter().flat_map(Records::files))
         .chain(sites.iter().flatten().flat_map(|site| site.curves.iter().flat_map(CurveFile::files)))
         .chain(site_table.iter().flatten().flat_map(SiteTable::files));
@@ -279,9 +269,6 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
         stiffness::check(&root, system, oscillator.post_uplift);
     }
     root.finish();
-    if !by_one || !by_one_set {
-        return None;
-    }
     let (uncertainty, doubts) = uncertainty?;
     let mut study = UniformRiskStudy {
         title: title?,

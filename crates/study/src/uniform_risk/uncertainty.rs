@@ -3,7 +3,7 @@
 use uplift_structure::UncertainQuantity;
 use uplift_uncertainty::Distribution;
 
-use super::{Oscillator, Records};
+use super::Oscillator;
 use crate::reading::Section;
 use crate::sections::uncertainty::{self, Described, Doubt, Uncertainty};
 use crate::warning::Warning;
@@ -58,15 +58,11 @@ pub(super) fn read(
     Some((Some(uncertainty), warnings))
 }
 
-/// Whether the records are the same at every level, where something is uncertain; else a mistake.
-pub(super) fn without_sets_of_levels(root: &Section<'_>, records: Option<&Records>, is_uncertain: bool) -> bool {
-    if !is_uncertain || records.is_none_or(|records| records.at_level.is_none()) {
-        return true;
-    }
+/// A mistake for records that are not the same at every level.
+pub(super) fn refuse_sets_of_levels(root: &Section<'_>) {
     root.mistake(
         "records.at_level",
         "levels with records of their own, and oscillators that are not known exactly",
         "leave one of them out: [uncertainty] shakes structures by one set of records",
     );
-    false
 }
