@@ -3,6 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 use miette::{Diagnostic, LabeledSpan, NamedSource};
 
@@ -130,7 +131,7 @@ pub enum Unreadable {
 /// Why a study cannot be run.
 ///
 /// It is a [`miette::Diagnostic`]: every mistake is shown with its line and a caret below it.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Diagnostic)]
 #[non_exhaustive]
 pub enum StudyError {
     /// The file cannot be read.
@@ -146,9 +147,11 @@ pub enum StudyError {
     Mistakes {
         /// The file as given.
         file: String,
-        /// Its text.
-        text: Box<NamedSource<String>>,
+        /// Its text; not within the error itself, which would be large.
+        #[source_code]
+        text: Arc<NamedSource<String>>,
         /// The mistakes: those in the file by position, then those of overrides, then the rest.
+        #[related]
         mistakes: Vec<StudyMistake>,
         /// How many more there are that are not listed.
         left_out: usize,
@@ -177,7 +180,7 @@ impl StudyError {
     /// The `mistakes`, in order, of the study file named `file` with the contents `text`; so many more are `left_out`.
     pub(crate) fn from_mistakes(file: &Path, text: String, mistakes: Vec<StudyMistake>, left_out: usize) -> Self {
         let file = file.display().to_string();
-        Self::Mistakes { text: Box::new(NamedSource::new(&file, text)), file, mistakes, left_out }
+        Self::Mistakes { text: Arc::new(NamedSource::new(&file, text)), file, mistakes, left_out }
     }
 
     /// The mistakes found; none where the file could not be read.
@@ -185,24 +188,6 @@ impl StudyError {
         match self {
             Self::Mistakes { mistakes, .. } => mistakes,
             Self::Unreadable { .. } => &[],
-        }
-    }
-}
-
-impl Diagnostic for StudyError {
-    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
-        match self {
-            Self::Mistakes { text, .. } => Some(text.as_ref()),
-            Self::Unreadable { .. } => None,
-        }
-    }
-
-    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
-        match self {
-            Self::Mistakes { mistakes, .. } => {
-                Some(Box::new(mistakes.iter().map(|mistake| mistake as &dyn Diagnostic)))
-            }
-            Self::Unreadable { .. } => None,
         }
     }
 }
