@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use crate::keys::{Choice, File, Integer, Key, SectionKeys, choice, file, integer};
 use crate::reading::{Field, Section};
@@ -85,7 +85,8 @@ impl RecordSource {
 }
 
 /// What is done where two records are the same motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Duplicates {
     /// They are a mistake.
     Refuse,
@@ -109,12 +110,6 @@ impl Duplicates {
     #[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
     pub(crate) fn is_default(&self) -> bool {
         *self == Self::Refuse
-    }
-}
-
-impl Serialize for Duplicates {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.key())
     }
 }
 

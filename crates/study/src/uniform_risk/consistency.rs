@@ -64,7 +64,8 @@ pub struct Consistency {
 }
 
 /// What is done where the records miss the hazard of the other measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Repair {
     /// Nothing: it is reported.
     None,
@@ -88,12 +89,6 @@ impl Repair {
 #[allow(clippy::ref_option, clippy::trivially_copy_pass_by_ref)] // as serde calls it
 fn write_measure<S: Serializer>(measure: &Option<IntensityMeasure>, serializer: S) -> Result<S::Ok, S::Error> {
     measure.map(IntensityMeasure::key).serialize(serializer)
-}
-
-impl Serialize for Repair {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.key())
-    }
 }
 
 impl Default for Consistency {

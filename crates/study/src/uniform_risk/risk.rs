@@ -56,7 +56,8 @@ pub struct Risk {
 }
 
 /// How an ordinate of the spectrum is read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Contour {
     /// As the exact quantile: the smallest displacement whose frequency meets the target.
     Exact,
@@ -74,12 +75,6 @@ impl Contour {
             Self::Exact => "exact",
             Self::Grid => "grid",
         }
-    }
-}
-
-impl Serialize for Contour {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.key())
     }
 }
 
