@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::Serialize;
+
 use crate::accelerogram::Accelerogram;
 use crate::error::MotionError;
 use crate::pair::{Horizontal, RecordPair};
@@ -23,12 +25,13 @@ pub enum Component {
 }
 
 /// From which azimuths θ a pair is seen: a(θ) = h1 cos θ + h2 sin θ. A symmetric structure peaks alike at θ and
-/// θ + 180°, so azimuths are below 180°.
+/// θ + 180°, so azimuths are below 180°. It is serialised as the section of a study file.
 ///
 /// # Source
 /// D. M. Boore (2010), "Orientation-independent, nongeometric-mean measures of seismic intensity from two horizontal
 /// components of motion", of measures; here the same is asked of the response.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(tag = "take", rename_all = "lowercase")]
 pub enum Rotation {
     /// From one, drawn for every pair.
     Random,

@@ -103,7 +103,7 @@ impl Serialize for Records {
             #[serde(skip_serializing_if = "Option::is_none")]
             synthetic: Option<Synthetic>,
             #[serde(skip_serializing_if = "Option::is_none")]
-            rotation: Option<rotation::Written>,
+            rotation: Option<Rotation>,
         }
         let written = Written {
             manifest: self.source.manifest(),
@@ -117,7 +117,7 @@ impl Serialize for Records {
             select: &self.select,
             synthetic: self.source.synthetic(),
             rotation: match self.component {
-                Component::Rotated(rotation) => Some(rotation::Written::from(rotation)),
+                Component::Rotated(rotation) => Some(rotation),
                 _ => None,
             },
         };

@@ -1,6 +1,5 @@
 //! The section `[records.rotation]`: from which azimuths a pair is seen.
 
-use serde::Serialize;
 use uplift_motion::Rotation;
 
 use crate::keys::{Choice, Integer, Key, SectionKeys, choice, integer};
@@ -42,27 +41,6 @@ impl Take {
             Self::Each => "each",
             Self::Percentile => "percentile",
         }
-    }
-}
-
-/// As the section of a study file.
-#[derive(Serialize)]
-pub(super) struct Written {
-    take: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    azimuths: Option<u8>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    percentile: Option<u8>,
-}
-
-impl From<Rotation> for Written {
-    fn from(rotation: Rotation) -> Self {
-        let (take, azimuths, percentile) = match rotation {
-            Rotation::Random => ("random", None, None),
-            Rotation::Each { azimuths } => ("each", Some(azimuths), None),
-            Rotation::Percentile { azimuths, percentile } => ("percentile", Some(azimuths), Some(percentile)),
-        };
-        Self { take, azimuths, percentile }
     }
 }
 
