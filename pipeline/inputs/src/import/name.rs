@@ -15,35 +15,13 @@ pub(super) struct RecordName {
     pub(super) orientation: Option<Orientation>,
 }
 
-/// Endings that tell a component, with its direction.
-const WORDS: [(&str, Orientation); 27] = [
-    ("north", Orientation::Azimuth(0.0)),
-    ("east", Orientation::Azimuth(90.0)),
-    ("vert", Orientation::Vertical),
-    ("down", Orientation::Vertical),
-    ("hne", Orientation::Azimuth(90.0)),
-    ("hnn", Orientation::Azimuth(0.0)),
-    ("hnz", Orientation::Vertical),
-    ("hge", Orientation::Azimuth(90.0)),
-    ("hgn", Orientation::Azimuth(0.0)),
-    ("hgz", Orientation::Vertical),
-    ("dwn", Orientation::Vertical),
-    ("ver", Orientation::Vertical),
-    ("ns", Orientation::Azimuth(0.0)),
-    ("ew", Orientation::Azimuth(90.0)),
-    ("ud", Orientation::Vertical),
-    ("up", Orientation::Vertical),
-    ("dn", Orientation::Vertical),
-    ("h1", Orientation::Horizontal(1)),
-    ("h2", Orientation::Horizontal(2)),
-    ("n", Orientation::Azimuth(0.0)),
-    ("e", Orientation::Azimuth(90.0)),
-    ("z", Orientation::Vertical),
-    ("v", Orientation::Vertical),
-    ("x", Orientation::Horizontal(1)),
-    ("y", Orientation::Horizontal(2)),
-    ("1", Orientation::Horizontal(1)),
-    ("2", Orientation::Horizontal(2)),
+/// Endings that tell a component, by its direction.
+const WORDS: [(Orientation, &[&str]); 5] = [
+    (Orientation::Azimuth(0.0), &["north", "hnn", "hgn", "ns", "n"]),
+    (Orientation::Azimuth(90.0), &["east", "hne", "hge", "ew", "e"]),
+    (Orientation::Vertical, &["vert", "down", "ver", "dwn", "hnz", "hgz", "ud", "up", "dn", "z", "v"]),
+    (Orientation::Horizontal(1), &["h1", "x", "1"]),
+    (Orientation::Horizontal(2), &["h2", "y", "2"]),
 ];
 
 impl RecordName {
@@ -79,9 +57,9 @@ fn without_component(stem: &str) -> (&str, Option<Orientation>) {
         return (before.trim_end_matches(SEPARATORS), Some(Orientation::Azimuth(degrees)));
     }
     let Some((record, word)) = stem.rsplit_once(SEPARATORS) else { return (stem, None) };
-    let known = WORDS.iter().find(|(known, _)| word.eq_ignore_ascii_case(known));
+    let known = WORDS.iter().find(|(_, words)| words.iter().any(|known| word.eq_ignore_ascii_case(known)));
     match known {
-        Some((_, orientation)) => (record.trim_end_matches(SEPARATORS), Some(*orientation)),
+        Some((orientation, _)) => (record.trim_end_matches(SEPARATORS), Some(*orientation)),
         None => (stem, None),
     }
 }
