@@ -168,7 +168,7 @@ fn read_set(
     let pairs: Vec<CheckedPair> = pairs.into_iter().filter(is_named).collect();
     let (mut pairs, mut notes) =
         selection::select(pairs, &study.records.select, study.records.intensity, study.gravity_m_s2)?;
-    pairs.truncate(first_of(study));
+    pairs.truncate(most(study.records.first));
     notes.extend(alike(&pairs));
     let twice = places.note(&pairs, study.records.duplicates);
     notes.extend(twice.iter().flatten().cloned());
@@ -206,13 +206,13 @@ fn read_set(
 }
 
 /// What the rows of a manifest say of pairs besides their horizontal components.
-struct OfRows {
-    third: ThirdComponents,
-    places: Places,
+pub(super) struct OfRows {
+    pub(super) third: ThirdComponents,
+    pub(super) places: Places,
 }
 
 impl OfRows {
-    fn new(rows: &[Row], gravity_m_s2: f64) -> Self {
+    pub(super) fn new(rows: &[Row], gravity_m_s2: f64) -> Self {
         Self { third: ThirdComponents::from_rows(rows, gravity_m_s2), places: Places::from_rows(rows) }
     }
 }
@@ -328,15 +328,15 @@ fn manifest_pairs(
     // nothing is read in vain
     rows.retain(|row| named.is_none_or(|named| named.contains(row.id.as_str())));
     if study.records.select.is_empty() {
-        rows.truncate(first_of(study));
+        rows.truncate(most(study.records.first));
     }
     let of_rows = OfRows::new(&rows, study.gravity_m_s2);
     Ok((pairs::read(rows, study.gravity_m_s2).map_err(JobError::Inputs)?, of_rows))
 }
 
-/// How many of the selected records are used at most.
-fn first_of(study: &UniformRiskStudy) -> usize {
-    study.records.first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX))
+/// How many of the selected records are used at most, where the key `first` says this.
+pub(super) fn most(first: Option<u64>) -> usize {
+    first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX))
 }
 
 /// The records that a study analyses, each with the intensities of its pair and its vertical component if there are

@@ -10,12 +10,11 @@ use uplift_motion::{Combination, RecordPair};
 use uplift_spectra::{MotionSet, RecordOfSet};
 use uplift_study::{DisplacementStudy, RecordSource, SetPlan, SetRecords};
 
-use super::duplicates::Places;
 use super::manifest::{self, Row};
 use super::pairs::{self, CheckedPair};
-use super::record_set::{alike, is_made, synthetic_pairs};
+use super::record_set::{OfRows, alike, is_made, most, synthetic_pairs};
 use super::selection;
-use super::third_component::{ThirdComponents, Vertical};
+use super::third_component::Vertical;
 use crate::error::InputsError;
 
 /// Name of the set where a study names none.
@@ -123,9 +122,8 @@ pub fn read_sets(
     gravity_m_s2: f64,
     events: &dyn Events,
 ) -> Result<RecordSets, InputsError> {
-    let most = most(records);
-    let mut third = ThirdComponents::from_rows(&[], gravity_m_s2);
-    let mut places = Places::from_rows(&[]);
+    let most = most(records.first);
+    let mut of_rows = OfRows::new(&[], gravity_m_s2);
     let (pairs, chosen, source, mut notes) = match &records.source {
         &RecordSource::Synthetic { pairs, seed } => {
             let named = plans.len();
@@ -143,8 +141,7 @@ pub fn read_sets(
         RecordSource::Manifest { manifest, .. } => {
             let RowsOfSets { rows, chosen, notes } = rows_of_sets(manifest, records, plans)?;
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy().into_owned();
-            third = ThirdComponents::from_rows(&rows, gravity_m_s2);
-            places = Places::from_rows(&rows);
+            of_rows = OfRows::new(&rows, gravity_m_s2);
             (pairs::read(rows, gravity_m_s2).map_err(JobError::Inputs)?, chosen, name, notes)
         }
     };
@@ -165,7 +162,7 @@ pub fn read_sets(
             mistakes.push(format!("record set {name:?} has no record{selected}: widen it, or leave the set out"));
         }
         // one motion under two names in two sets is counted once in each
-        match places.note(members.iter().map(|&member| &pairs[member]), records.duplicates) {
+        match of_rows.places.note(members.iter().map(|&member| &pairs[member]), records.duplicates) {
             Ok(note) => notes.extend(note.filter(|note| !notes.contains(note)).into_iter().collect::<Vec<_>>()),
             Err(twice) => {
                 mistakes.extend(twice.into_iter().filter(|line| !mistakes.contains(line)).collect::<Vec<_>>());
@@ -187,7 +184,7 @@ pub fn read_sets(
     let with_vertical = records.vertical;
     let mut verticals = Vec::new().into_iter();
     if with_vertical {
-        verticals = third.read(&pairs).map_err(JobError::Inputs)?.into_iter();
+        verticals = of_rows.third.read(&pairs).map_err(JobError::Inputs)?.into_iter();
     }
     let records: Vec<SetRecord> = (pairs.into_iter())
         .map(|(pair, checksums)| SetRecord { pair, checksums, vertical: verticals.next() })
@@ -206,11 +203,6 @@ struct Chosen {
     name: String,
     tag: String,
     ids: Vec<String>,
-}
-
-/// Records of each set at most.
-fn most(records: &SetRecords) -> usize {
-    records.first.map_or(usize::MAX, |first| usize::try_from(first).unwrap_or(usize::MAX))
 }
 
 /// The rows of a manifest that are in a set, each once; the sets; and notes.
@@ -236,13 +228,13 @@ fn rows_of_sets(path: &Path, records: &SetRecords, plans: &[SetPlan]) -> Result<
         };
         for left_out in &plan.leave_out {
             let before = of_set.len();
-            of_set.retain(|row| !is_called(row, left_out));
+            of_set.retain(|row| !has_name(&row.id, &row.metadata, left_out));
             if of_set.len() == before {
                 notes.push(format!("record set {:?}: {left_out}, which is left out, is not in it", plan.name));
             }
         }
         if records.select.is_empty() {
-            of_set.truncate(most(records)); // nothing is read in vain
+            of_set.truncate(most(records.first)); // nothing is read in vain
         }
         chosen.push(Chosen {
             name: plan.name.clone(),
@@ -254,16 +246,12 @@ fn rows_of_sets(path: &Path, records: &SetRecords, plans: &[SetPlan]) -> Result<
     if mistakes.is_empty() { Ok(RowsOfSets { rows, chosen, notes }) } else { Err(JobError::Inputs(mistakes).into()) }
 }
 
-/// Whether the row has this identifier or record sequence number.
-fn is_called(row: &Row, name: &str) -> bool {
-    has_name(&row.id, &row.metadata, name)
-}
-
-/// The same of a record that was read.
+/// Whether the record has this identifier or record sequence number.
 pub fn is_numbered(record: &SetRecord, name: &str) -> bool {
     has_name(&record.pair.id, &record.pair.metadata, name)
 }
 
+/// The same of a row of a manifest, too.
 fn has_name(id: &str, metadata: &BTreeMap<String, String>, name: &str) -> bool {
     let number = |text: &str| text.strip_prefix("RSN").unwrap_or(text).parse::<u64>().ok();
     let of_id = id.split('_').next().filter(|word| word.starts_with("RSN")).and_then(number);
