@@ -2,21 +2,8 @@
 
 use uplift_motion::IntensityMeasure;
 
-/// Unit suffixes of keys with the unit that they stand for, longest first.
-const UNIT_SUFFIXES: [(&str, &str); 12] = [
-    ("_per_s2", "1/s2"),
-    ("_cm_s2", "cm/s2"),
-    ("_m_s2", "m/s2"),
-    ("_mm_s", "mm/s"),
-    ("_cm_s", "cm/s"),
-    ("_m_s", "m/s"),
-    ("_mm", "mm"),
-    ("_cm", "cm"),
-    ("_in", "in"),
-    ("_m", "m"),
-    ("_g", "g"),
-    ("_s", "s"),
-];
+/// Units as keys end in them, after a low line each, longest first.
+const UNITS: [&str; 12] = ["per_s2", "cm_s2", "m_s2", "mm_s", "cm_s", "m_s", "mm", "cm", "in", "m", "g", "s"];
 
 /// "did you mean `…`?" with the one of `known` most like `word`, if any is like it.
 pub fn did_you_mean(word: &str, known: &[&str]) -> Option<String> {
@@ -96,9 +83,9 @@ pub(crate) fn other_unit(key: &str, known: &[&str]) -> Option<String> {
     })
 }
 
-fn stem_and_unit(key: &str) -> (&str, Option<&'static str>) {
-    UNIT_SUFFIXES
-        .iter()
-        .find_map(|&(suffix, unit)| Some((key.strip_suffix(suffix)?, Some(unit))))
-        .unwrap_or((key, None))
+/// A key without its unit, and the unit as people write it: `1/s2`, `cm/s`.
+fn stem_and_unit(key: &str) -> (&str, Option<String>) {
+    let stem = |unit: &str| key.strip_suffix(unit)?.strip_suffix('_');
+    let parts = UNITS.iter().find_map(|unit| Some((stem(unit)?, Some(unit.replace("per", "1").replace('_', "/")))));
+    parts.unwrap_or((key, None))
 }
