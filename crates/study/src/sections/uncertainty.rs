@@ -378,8 +378,8 @@ fn read_quantity(
     let found = match found? {
         Ok(distribution) => {
             let scatter = match percentiles {
-                Some(percentiles) => Scatter::Percentiles(percentiles?),
-                None if by_limits => Scatter::Limits { limits: [lower??, upper??], mode: mode.flatten() },
+                Some(percentiles) => Scatter::Percentiles { percentiles: percentiles? },
+                None if by_limits => Scatter::Limits { lower: lower??, upper: upper??, mode: mode.flatten() },
                 None => Scatter::Mean { mean: mean.flatten(), coefficient_of_variation: variation?? },
             };
             Some((distribution, Written { family: family?, scatter }))

@@ -7,45 +7,38 @@ use uplift_uncertainty::Family;
 use super::{Uncertainty, UncertaintyKind};
 
 /// How a quantity was said to be distributed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct Written {
+    #[serde(rename = "distribution", serialize_with = "write_family")]
     pub(super) family: Family,
+    #[serde(flatten)]
     pub(super) scatter: Scatter,
 }
 
 /// What of a distribution was given.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
 pub(super) enum Scatter {
     /// The mean, unless it is the value that the quantity has, and the coefficient of variation.
-    Mean { mean: Option<f64>, coefficient_of_variation: f64 },
+    Mean {
+        #[serde(skip_serializing_if = "Option::is_none")]
+        mean: Option<f64>,
+        coefficient_of_variation: f64,
+    },
     /// Two percentages with their values.
-    Percentiles([(f64, f64); 2]),
+    Percentiles { percentiles: [(f64, f64); 2] },
     /// Limits, and the mode of a triangular one.
-    Limits { limits: [f64; 2], mode: Option<f64> },
+    Limits {
+        lower: f64,
+        upper: f64,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        mode: Option<f64>,
+    },
 }
 
-impl Serialize for Written {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("distribution", self.family.key())?;
-        match self.scatter {
-            Scatter::Mean { mean, coefficient_of_variation } => {
-                if let Some(mean) = mean {
-                    map.serialize_entry("mean", &mean)?;
-                }
-                map.serialize_entry("coefficient_of_variation", &coefficient_of_variation)?;
-            }
-            Scatter::Percentiles(percentiles) => map.serialize_entry("percentiles", &percentiles)?,
-            Scatter::Limits { limits: [lower, upper], mode } => {
-                map.serialize_entry("lower", &lower)?;
-                map.serialize_entry("upper", &upper)?;
-                if let Some(mode) = mode {
-                    map.serialize_entry("mode", &mode)?;
-                }
-            }
-        }
-        map.end()
-    }
+#[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
+fn write_family<S: Serializer>(family: &Family, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(family.key())
 }
 
 #[derive(Serialize)]
