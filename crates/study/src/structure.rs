@@ -9,6 +9,7 @@
 
 use std::path::{Path, PathBuf};
 
+pub use uplift_frame::ColumnShape;
 use uplift_statics::RestrainedColumns;
 use uplift_structure::{EquivalentSystem, Kind, RotatingBlock, StructureDescription, UncertainQuantity};
 
@@ -29,16 +30,6 @@ mod resolve;
 mod restrainer;
 mod rocking;
 mod varied;
-
-/// Section of a column whose width is given.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ColumnShape {
-    /// A circle of that diameter.
-    Cylinder,
-    /// A square.
-    #[default]
-    Rectangle,
-}
 
 /// A structure with the oscillator that it is equivalent to.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 use uplift_frame::{FrameError, RockingFrame};
 use uplift_structure::{Kind, Reference};
 
-use super::{ColumnShape, Structure};
+use super::Structure;
 
 impl Structure {
     /// The columns with flat ends, the deck that they carry, and what holds them (Section 6.2); none for a structure
@@ -19,10 +19,7 @@ impl Structure {
             _ => return None,
         };
         let columns = self.columns.as_ref()?;
-        let shape = match self.column_shape {
-            ColumnShape::Rectangle => uplift_frame::ColumnShape::Rectangle,
-            ColumnShape::Cylinder => uplift_frame::ColumnShape::Cylinder,
-        };
+        let shape = self.column_shape;
         let gravity_m_s2 = self.system.conditions().gravity_m_s2();
         let free = RockingFrame::new(*columns.geometry(), columns.columns(), column_kg, deck_kg, shape, gravity_m_s2);
         Some(free.and_then(|free| match columns.restrainer() {
