@@ -87,6 +87,7 @@ pub struct FigureSource {
     pub(crate) spreads: Vec<StoredSpread>,
     pub(crate) influence: Vec<StoredInfluence>,
     pub(crate) consistency: Vec<StoredConsistency>,
+    pub(crate) least_effective: Vec<Option<Vec<f64>>>,
     hazard: Vec<StoredHazard>,
     records: StoredRecords,
     remark: &'static str,
@@ -117,6 +118,8 @@ impl FigureSource {
     /// # Errors
     /// A file that is damaged, or of another kind; a study without sites.
     pub fn read(file: &ResultFile) -> Result<Self, UpliftError> {
+        let consistency = file.consistency()?;
+        let least = consistency.iter().map(|of| uplift::consistency::least_effective(file, of));
         Ok(Self {
             stored: StoredStripes::read(file)?,
             spectra: file.spectra()?,
@@ -124,7 +127,8 @@ impl FigureSource {
             spreads: file.spreads()?,
             // of the risks of its study alone
             influence: if file.is_asked() { Vec::new() } else { file.influence()? },
-            consistency: file.consistency()?,
+            least_effective: least.collect::<Result<_, _>>()?,
+            consistency,
             hazard: file.hazard()?,
             records: file.records()?,
             remark: if file.head()?.synthetic { SYNTHETIC } else { "" },

@@ -40,9 +40,6 @@ pub struct StoredConsistency {
     pub ratio: Array<2>,
     /// Effective records under the weights `[site, level]`; none before a repair.
     pub effective_records: Option<Array<2>>,
-    /// Fewest effective records at a level within the rates compared `[site]`; NaN where there is no repair. None
-    /// before one.
-    pub least_effective: Option<Vec<f64>>,
     /// Displacements of weighted records `[site, poe, strength]`, m; NaN where there is no repair. None before one.
     pub u_m: Option<Array<3>>,
     /// Coefficients of these spectra `[site, poe]`; NaN where there is no fit. None before a repair.
@@ -215,15 +212,13 @@ impl ResultFile {
             years: axes.years,
             ratio: nan(poes),
             effective_records: None,
-            least_effective: None,
             u_m: None,
             fits: None,
         };
         CONSISTENCY.read(self, &names, &lengths, &mut found)?;
         if REPAIRED_SPECTRA.is_in(self, &names) {
-            let records = REPAIRS.read_array("effective_records", self, &names, [(SITE, sites), (&level, levels)])?;
-            let least = self.least_effective(scaled_to, &axes.sites, &found.rate_per_year, &records)?;
-            (found.effective_records, found.least_effective) = (Some(records), Some(least));
+            let by_level = [(SITE, sites), (&level, levels)];
+            found.effective_records = Some(REPAIRS.read_array("effective_records", self, &names, by_level)?);
             found.repaired_level =
                 Some(REPAIRED_LEVELS.read_array("<other>_repaired", self, &names, [(SITE, sites), (RATE, rates)])?);
             let spectrum = [(SITE, sites), (POE, poes), (STRENGTH, strengths)];
@@ -231,30 +226,6 @@ impl ResultFile {
             found.fits = Some(self.repaired_fits(scaled_to, by_poe)?);
         }
         Ok(found)
-    }
-
-    /// The fewest of the effective `records` `[site, level]` at the levels whose rates are within those compared.
-    fn least_effective(
-        &self,
-        scaled_to: IntensityMeasure,
-        sites: &[String],
-        rate_per_year: &Array<2>,
-        records: &Array<2>,
-    ) -> Result<Vec<f64>, ResultError> {
-        let levels = self.reader.axis::<f64>(&axis::level(scaled_to))?;
-        let extrapolation = self.stored_study()?.risk.extrapolate;
-        let of_site = |(site, name): (usize, &String)| {
-            let Some(curve) = self.mean_curve(name, scaled_to)? else { return Ok(f64::NAN) };
-            let [high, .., low] = rate_per_year.block([site]) else { return Ok(f64::NAN) };
-            let is_compared = |level: f64| {
-                let rate = curve.rate_at_extrapolated(level, extrapolation);
-                rate.is_ok_and(|rate| *low <= rate && rate <= *high)
-            };
-            let compared = levels.iter().zip(records.block([site])).filter(|(level, _)| is_compared(**level));
-            // the least of none, and of numbers that are none, is none
-            Ok(compared.map(|(_, records)| *records).fold(f64::NAN, f64::min))
-        };
-        sites.iter().enumerate().map(of_site).collect()
     }
 
     /// The coefficients of the repaired spectra.

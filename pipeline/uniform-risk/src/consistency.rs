@@ -27,6 +27,7 @@ mod write;
 
 pub use answer::Answer;
 pub(crate) use asked::consistency_of_asked;
+pub use asked::least_effective;
 pub use branches::BranchFindings;
 pub use earthquakes::{EarthquakeRow, disaggregated, earthquakes};
 pub use finding::Finding;

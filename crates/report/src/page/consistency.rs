@@ -13,23 +13,25 @@ pub(super) fn consistency(source: &FigureSource) -> Option<TitledTable> {
     let sites = 0..source.stored.sites.len();
     let looked_at = |of: &StoredConsistency, site: usize| of.rate_per_year.block([site]).iter().any(|r| !r.is_nan());
     let poes = all.first().map_or(&[][..], |of| &of.poes);
-    let verdict = |(of, site): (&StoredConsistency, usize)| match of.verdict[site].as_str() {
+    let verdict = |of: &StoredConsistency, site: usize| match of.verdict[site].as_str() {
         "" => "no verdict".to_owned(),
         verdict => verdict.to_owned(),
     };
-    let places = all.iter().flat_map(|of| sites.clone().map(move |site| (of, site)));
-    let table = Table::of(places.filter(|&(of, site)| looked_at(of, site)))
+    let places = all.iter().zip(&source.least_effective).flat_map(|of| sites.clone().map(move |site| (of, site)));
+    let table = Table::of(places.filter(|&((of, _), site)| looked_at(of, site)))
         .left("site", |(_, site)| &source.stored.sites[site])
-        .left("scaled to", |(of, _)| of.scaled_to.label())
-        .left("compared", |(of, _)| of.other.label())
-        .left("verdict", verdict)
+        .left("scaled to", |((of, _), _)| of.scaled_to.label())
+        .left("compared", |((of, _), _)| of.other.label())
+        .left("verdict", |((of, _), site)| verdict(of, site))
         .each(poes.iter().enumerate(), |table, (at, &poe)| {
             let heading = format!("ratio, {}", risk_name(poe, all[0].years));
-            table.right(heading, |(of, site)| two_decimals(of.ratio.block([site])[at]))
+            table.right(heading, |((of, _), site)| two_decimals(of.ratio.block([site])[at]))
         })
-        .right("bias", |(of, site)| two_decimals(of.bias[site]))
-        .right("largest |ln|", |(of, site)| two_decimals(of.max[site]))
-        .when(is_repaired, |table| table.right("effective records, least", |(of, site)| effective(of, site)));
+        .right("bias", |((of, _), site)| two_decimals(of.bias[site]))
+        .right("largest |ln|", |((of, _), site)| two_decimals(of.max[site]))
+        .when(is_repaired, |table| {
+            table.right("effective records, least", |((_, least), site)| effective(least.as_deref(), site))
+        });
     let repair = if is_repaired {
         "If inconsistent, use the repaired spectra or other records."
     } else {
@@ -48,8 +50,8 @@ fn two_decimals(value: f64) -> String {
 }
 
 /// The fewest effective records at a site after a repair.
-fn effective(of: &StoredConsistency, site: usize) -> String {
-    match of.least_effective.as_ref().map(|least| least[site]) {
+fn effective(least: Option<&[f64]>, site: usize) -> String {
+    match least.map(|least| least[site]) {
         Some(least) if least.is_finite() => format!("{least:.0}"),
         _ => "–".to_owned(),
     }

@@ -65,13 +65,13 @@ impl Export {
     /// plain ones.
     fn add_consistency(&self, file: &mut MatFile) {
         let StoredSpectra { strengths, poes, sites, .. } = &self.spectra;
-        for of in &self.consistency {
+        for (of, least) in self.consistency.iter().zip(&self.least_effective) {
             let key = of.scaled_to.key();
             let lengths = &[(SITE, sites.len()), (POE, poes.len())];
             add(file, CONSISTENCY.exported(), lengths, of, |own| format!("consistency_{}_{key}", own.exported_name()));
             let verdicts: Vec<&str> = of.verdict.iter().map(String::as_str).collect();
             file.texts(&format!("consistency_verdict_{key}"), &verdicts);
-            if let Some(least) = &of.least_effective {
+            if let Some(least) = least {
                 file.numbers(&format!("consistency_least_effective_{key}"), &Shape::column(sites.len()), least);
             }
             let shape = Shape(vec![poes.len(), sites.len()]);

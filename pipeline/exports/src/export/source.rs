@@ -12,6 +12,7 @@ use uplift_result::{
 };
 use uplift_studies::uniform_risk::quoted_bands_m;
 use uplift_study::UniformRiskStudy;
+use uplift_uniform_risk::consistency::least_effective;
 
 use super::added::Added;
 use crate::error::ExportsError;
@@ -38,6 +39,8 @@ pub struct Export {
     pub(super) findings: Vec<StoredFinding>,
     /// Whether its records bring the site's hazard of the other measure.
     pub(super) consistency: Vec<StoredConsistency>,
+    /// [`least_effective`] records of each of these.
+    pub(super) least_effective: Vec<Option<Vec<f64>>>,
     pub(super) records: usize,
     /// Name of the result file.
     pub(super) file: String,
@@ -79,6 +82,7 @@ impl Export {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let provenance = provenance_of(&head, &name);
         let return_period = |&poe: &f64| Ok(return_period_from_probability(poe, spectra.years)?);
+        let consistency = file.consistency()?;
         Ok(Self {
             return_periods: spectra.poes.iter().map(return_period).collect::<Result<_, ExportsError>>()?,
             study: file.stored_study()?,
@@ -89,7 +93,8 @@ impl Export {
             alarms: alarms(file)?,
             added: Added::read(file)?,
             findings: file.findings()?,
-            consistency: file.consistency()?,
+            least_effective: consistency.iter().map(|of| least_effective(file, of)).collect::<Result<_, _>>()?,
+            consistency,
             records: file.axes()?.records.len(),
             head,
             spectra,
@@ -175,7 +180,7 @@ impl Export {
     /// out.
     pub(super) fn consistencies(&self) -> impl Iterator<Item = ConsistencyOf<'_>> {
         let of_measure = |of| self.spectra.sites.iter().enumerate().filter_map(move |at| consistency_of(of, at));
-        self.consistency.iter().flat_map(of_measure)
+        self.consistency.iter().zip(&self.least_effective).flat_map(of_measure)
     }
 
     /// Whether any spectrum has one of weighted records beside it.
@@ -191,7 +196,10 @@ impl Export {
     }
 }
 
-fn consistency_of<'a>(of: &'a StoredConsistency, (at, site): (usize, &'a String)) -> Option<ConsistencyOf<'a>> {
+fn consistency_of<'a>(
+    (of, least): (&'a StoredConsistency, &Option<Vec<f64>>),
+    (at, site): (usize, &'a String),
+) -> Option<ConsistencyOf<'a>> {
     let is_known = of.rate_per_year.block([at]).iter().any(|rate| !rate.is_nan());
     is_known.then(|| ConsistencyOf {
         of,
@@ -199,6 +207,6 @@ fn consistency_of<'a>(of: &'a StoredConsistency, (at, site): (usize, &'a String)
         site,
         ratio: of.ratio.block([at]),
         verdict: Some(of.verdict[at].as_str()).filter(|verdict| !verdict.is_empty()),
-        least_effective: of.least_effective.as_ref().map(|least| least[at]),
+        least_effective: least.as_ref().map(|least| least[at]),
     })
 }

@@ -17,7 +17,7 @@ impl Export {
             headings.extend(of.poes.iter().map(over));
         }
         headings.extend(CONSISTENCY.exported().map(|figure| figure.heading().to_owned()));
-        if self.consistency.iter().any(|of| of.least_effective.is_some()) {
+        if self.least_effective.iter().any(Option::is_some) {
             headings.push("effective records, least".to_owned());
         }
         for (column, heading) in headings.iter().enumerate() {
