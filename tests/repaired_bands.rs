@@ -136,7 +136,12 @@ fn they_stand_beside_the_plain_bands_and_hang_on_no_thread() {
     for (stored, asked) in stored.iter().zip(asked["spectra"].as_array().unwrap()) {
         assert_eq!(stored["bands_consistent"], asked["bands_consistent"]);
         assert_eq!(stored["bands_consistent"].as_array().unwrap().len(), 2);
+        // the band to quote is among them
+        assert!(stored["bands_consistent"][0]["truth_upper_m"].as_array().unwrap()[0].is_number());
     }
+    study.uplift(&["export", "r.h5", "--csv", "-o", "r.csv", "-q"]).ok();
+    let exported = std::fs::read_to_string(study.path().join("r.csv")).unwrap();
+    assert!(exported.lines().next().unwrap().contains(",truth_lower_consistent_n"), "{exported:.600}");
     let page = {
         study.uplift(&["report", "r.h5", "-q"]).ok();
         std::fs::read_to_string(study.path().join("r.html")).unwrap()

@@ -104,6 +104,7 @@ pub fn alarms_of_inputs(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, 
     let mut alarms = inputs::result_alarms(file)?;
     let evidence = Evidence::read(file, scope)?;
     alarms.extend(hazard::alarms(&evidence, scope));
+    alarms.extend(consistency::alarms(&evidence, scope));
     Ok(alarms)
 }
 

@@ -127,7 +127,8 @@ pub fn overturning(
         .as_ref()
         .map(|uncertain| uncertainty_report(uncertain, (&found, &weighed, &names), (analysed, &records.set)))
         .transpose()?;
-    let mut alarms = alarms_of_inputs(&file, &Scope { measure: options.measure, ..Scope::default() })?;
+    let site = sites.first().copied().filter(|_| sites.len() == 1);
+    let mut alarms = alarms_of_inputs(&file, &Scope { site, measure: options.measure, ..Scope::default() })?;
     alarms.extend(structure_alarms(structure));
     let counts = (records.count(), scatter.pairs.len());
     alarms.extend(own_risk_alarms(&own_risks(models, (&found, &of_frame), &names, counts)));

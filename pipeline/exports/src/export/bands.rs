@@ -22,7 +22,8 @@ pub(super) struct BandOf<'a> {
     /// Lower limit, median and upper limit over the strengths, m.
     pub(super) limits_m: [&'a [f64]; 3],
     /// Limits of the spectra of all records there could be, and of another set, as
-    /// [`INFERRED_BANDS`](uplift_result::INFERRED_BANDS) names them, m; of plain spectra alone, none in older results.
+    /// [`INFERRED_BANDS`](uplift_result::INFERRED_BANDS) names them, m; joint bands and older results
+    /// have none.
     pub(super) inferred_m: Option<[&'a [f64]; 4]>,
     /// The figures that [`BANDS`](uplift_result::BANDS) exports; NaN where there is none.
     pub(super) figures: [f64; 2],
@@ -37,12 +38,11 @@ impl Export {
         let of_measure = self.bands.as_ref().and_then(|bands| Some((bands, bands.of(row.spectrum.measure)?)));
         let Some((StoredBands { sizes, .. }, of_measure)) = of_measure else { return Vec::new() };
         let Some(of) = kind.of(of_measure) else { return Vec::new() };
-        let inferred = of_measure.inferred.as_ref().filter(|_| kind == BandKind::PLAIN);
         let [site, poe] = row.at;
         let of_size = |(size, &records): (usize, &u32)| BandOf {
             records,
             limits_m: of.limits_m.each_ref().map(|limits| limits.block([site, poe, size])),
-            inferred_m: inferred.map(|of| of.limits_m().map(|limits| limits.block([site, poe, size]))),
+            inferred_m: of.inferred.map(|of| of.limits_m().map(|limits| limits.block([site, poe, size]))),
             figures: of.figures.map(|figure| figure.map_or(f64::NAN, |figure| figure[[site, poe, size]])),
             failed_share: of.failed.map(|failed| failed[[site, size]]),
         };
@@ -64,7 +64,7 @@ impl Export {
     }
 
     /// Whether there are bands beyond the set.
-    pub(super) fn has_inferred_bands(&self) -> bool {
-        self.bands.iter().flat_map(|bands| &bands.measures).any(|of| of.inferred.is_some())
+    pub(super) fn has_inferred_bands(&self, kind: BandKind) -> bool {
+        self.bands.iter().flat_map(|bands| &bands.measures).filter_map(|of| kind.of(of)).any(|of| of.inferred.is_some())
     }
 }

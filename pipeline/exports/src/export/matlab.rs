@@ -162,13 +162,13 @@ impl Export {
                     }
                 }
             }
-            for (kind, failed) in kinds.rev().filter_map(|(kind, own)| Some((kind, own.failed?))) {
+            for (kind, failed) in kinds.clone().rev().filter_map(|(kind, own)| Some((kind, own.failed?))) {
                 file.numbers(&name_with(kind, "failed", key), &of_sizes, failed.values());
             }
-            if let Some(inferred) = &of.inferred {
+            for (kind, inferred) in kinds.filter_map(|(kind, own)| Some((kind, own.inferred?))) {
                 let sizes = (SAMPLE_SIZE, sizes.len());
                 let lengths = &[(SITE, sites.len()), (POE, poes.len()), sizes, (STRENGTH, strengths.len())];
-                add(file, INFERRED_BANDS.quantities, lengths, inferred, |own| own.name_with(key));
+                add(file, INFERRED_BANDS.quantities, lengths, inferred, |own| name_with(kind, own.name, key));
             }
         }
     }

@@ -47,7 +47,7 @@ impl Export {
         let mut more = self.band_cells(BandKind::PLAIN);
         more.extend(self.added_cells());
         more.extend(BandKind::ALL[1..].iter().flat_map(|&kind| self.band_cells(kind)));
-        more.extend(self.inferred_cells());
+        more.extend([BandKind::PLAIN, BandKind::REPAIRED].iter().flat_map(|&kind| self.inferred_cells(kind)));
         for over in self.spread_over() {
             let of = |(place, name)| {
                 let limit_m = move |row: &Row<'_>| Some(all(self.spread_of(row, over)?[place]));
@@ -74,14 +74,13 @@ impl Export {
     }
 
     /// The same of the bands beyond the set, `truth_lower_n20_m`.
-    fn inferred_cells(&self) -> Vec<Cells<'_>> {
-        let Some(bands) = self.bands.as_ref().filter(|_| self.has_inferred_bands()) else { return Vec::new() };
+    fn inferred_cells(&self, kind: BandKind) -> Vec<Cells<'_>> {
+        let Some(bands) = self.bands.as_ref().filter(|_| self.has_inferred_bands(kind)) else { return Vec::new() };
         let of_size = |(size, records): (usize, &u32)| {
-            let key = format!("n{records}");
+            let suffix = format!("{}_n{records}", kind.suffix);
             INFERRED_BANDS.quantities.iter().enumerate().map(move |(limit, quantity)| {
-                let limit_m =
-                    move |row: &Row<'_>| Some(all(self.bands_of(row, BandKind::PLAIN).get(size)?.inferred_m?[limit]));
-                Cells::new(quantity.name_with(&key), limit_m)
+                let limit_m = move |row: &Row<'_>| Some(all(self.bands_of(row, kind).get(size)?.inferred_m?[limit]));
+                Cells::new(before_unit(quantity.name, &suffix), limit_m)
             })
         };
         bands.sizes.iter().enumerate().flat_map(of_size).collect()

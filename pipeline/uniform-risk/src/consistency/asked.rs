@@ -88,7 +88,8 @@ pub(super) fn stored(
     }
 }
 
-/// Fewest effective records at a level within the rates compared `[site]`; NaN where there is no repair. None before one.
+/// Fewest effective records at a level within the rates compared `[site]`; NaN where there is no repair, none before
+/// one.
 ///
 /// # Errors
 /// A `file` that is damaged, or of another kind.
