@@ -7,6 +7,7 @@ use uplift_motion::IntensityMeasure;
 
 use super::declared::{Names, group, of_measure};
 use super::file::ResultFile;
+use super::layout::attribute::bootstrap as attribute;
 use super::layout::axis::{POE, RECORD, REPLICATE, SAMPLE_SIZE, SITE, STRENGTH};
 use super::layout::limit_names;
 use crate::error::ResultError;
@@ -245,7 +246,7 @@ group! {
 impl StoredDraws {
     /// Lengths of the axes of its array.
     pub fn lengths(&self) -> [(&'static str, usize); 3] {
-        [(SAMPLE_SIZE, self.sizes.len()), (REPLICATE, self.replicates), (RECORD, self.records)]
+        [(SAMPLE_SIZE.name, self.sizes.len()), (REPLICATE.name, self.replicates), (RECORD.name, self.records)]
     }
 }
 
@@ -305,7 +306,7 @@ pub fn band_names<'a>(
 
 /// Lengths of the axes of bands `[site, poe, size, strength]`.
 pub fn band_lengths([sites, poes, sizes, strengths]: [usize; 4]) -> [(&'static str, usize); 4] {
-    [(SITE, sites), (POE, poes), (SAMPLE_SIZE, sizes), (STRENGTH, strengths)]
+    [(SITE.name, sites), (POE.name, poes), (SAMPLE_SIZE.name, sizes), (STRENGTH.name, strengths)]
 }
 
 impl ResultFile {
@@ -330,8 +331,8 @@ impl ResultFile {
         if !self.reader.exists(BANDS.root()) {
             return Ok(None);
         }
-        let sizes = self.reader.axis::<u32>(SAMPLE_SIZE)?;
-        let confidence = self.reader.attribute::<f64>(BANDS.root(), "confidence")?;
+        let sizes = self.reader.axis::<u32>(SAMPLE_SIZE.name)?;
+        let confidence = attribute::CONFIDENCE.read(&self.reader, &[])?;
         let limits = limit_names(confidence);
         let shape = [axes.sites.len(), axes.poes.len(), sizes.len(), axes.strengths.len()];
         let lengths = band_lengths(shape);
@@ -431,8 +432,8 @@ impl ResultFile {
         if !DRAWS.is_in(self, &[]) {
             return Ok(None);
         }
-        let sizes = self.reader.axis::<u32>(SAMPLE_SIZE)?;
-        let replicates = self.reader.axis::<u32>(REPLICATE)?.len();
+        let sizes = self.reader.axis::<u32>(SAMPLE_SIZE.name)?;
+        let replicates = self.reader.axis::<u32>(REPLICATE.name)?.len();
         let multiplicities = vec![0; sizes.len() * replicates * records];
         let mut draws = StoredDraws { records, sizes, replicates, multiplicities, unit: self.drawn_unit()? };
         DRAWS.read(self, &[], &draws.lengths(), &mut draws)?;
@@ -441,7 +442,7 @@ impl ResultFile {
 
     /// What the draws are of; records in older results.
     fn drawn_unit(&self) -> Result<Unit, ResultError> {
-        let Ok(word) = self.reader.attribute::<String>(BANDS.root(), "unit") else { return Ok(Unit::Record) };
+        let Ok(word) = attribute::UNIT.read(&self.reader, &[]) else { return Ok(Unit::Record) };
         let unit = Unit::ALL.into_iter().find(|unit| unit.key() == word);
         unit.ok_or_else(|| self.damaged(format!("{}: unit {word:?}", BANDS.root())))
     }
@@ -451,12 +452,12 @@ impl ResultFile {
     /// # Errors
     /// A file without bands, or one that is damaged.
     pub fn band_method(&self) -> Result<BandMethod, ResultError> {
-        let word = self.reader.attribute::<String>(BANDS.root(), "interval")?;
+        let word = attribute::INTERVAL.read(&self.reader, &[])?;
         let interval = Interval::ALL.into_iter().find(|interval| interval.key() == word);
         Ok(BandMethod {
-            confidence: self.reader.attribute::<f64>(BANDS.root(), "confidence")?,
+            confidence: attribute::CONFIDENCE.read(&self.reader, &[])?,
             interval: interval.ok_or_else(|| self.damaged(format!("{}: interval {word:?}", BANDS.root())))?,
-            strength_above: self.reader.attribute::<f64>(BANDS.root(), "strength_above")?,
+            strength_above: attribute::STRENGTH_ABOVE.read(&self.reader, &[])?,
         })
     }
 }

@@ -7,7 +7,7 @@ use uplift_risk::Ordinate;
 
 use super::declared::{Group, Quantity, group, of_measure};
 use super::file::ResultFile;
-use super::layout::axis::{self, KNOT, POE, RATE, RECORD, SITE, STRENGTH};
+use super::layout::axis::{KNOT, POE, RATE, RECORD, SITE, STRENGTH, STRIPE_LEVEL};
 use super::spectra::{Fit, Fits, regression};
 use crate::error::ResultError;
 
@@ -95,23 +95,23 @@ group! {
 group! {
     /// The weights of each site's repair, and what the records are under them.
     pub const REPAIRS: Repaired = CONSISTENCY.path;
-    "effective_records" [SITE, "<im>_level"] Made "1" "effective records under the weights"
+    "effective_records" [SITE, STRIPE_LEVEL] Made "1" "effective records under the weights"
         ("effective records under the weights; after a repair, as all that follows")
         = |of, at| of.diagnosis.stripes[at].effective_records;
     "exponent" [SITE, KNOT] Made "1" "exponent of the weights" = |of, at| of.fit.exponents[at];
     "knot" [SITE, KNOT] Made "<other_unit>" "<label> of the knots"
         ("levels of the other measure at which the exponents hold") = |of, at| of.knot_levels[at];
     "iterations" [SITE] Made "1" "steps of the fit" = |of, _at| f64::from(of.fit.iterations);
-    "mean_ln_ratio" [SITE, "<im>_level"] Made "1" "mean of ln(other measure/measure scaled to) under the weights"
+    "mean_ln_ratio" [SITE, STRIPE_LEVEL] Made "1" "mean of ln(other measure/measure scaled to) under the weights"
         = |of, at| of.diagnosis.stripes[at].mean_ln_ratio;
-    "sd_ln_ratio" [SITE, "<im>_level"] Made "1" "standard deviation of it"
+    "sd_ln_ratio" [SITE, STRIPE_LEVEL] Made "1" "standard deviation of it"
         = |of, at| of.diagnosis.stripes[at].sd_ln_ratio;
 }
 
 group! {
     /// The weights of all runs; kept where it is asked for.
     pub const WEIGHTS: Repaired = CONSISTENCY.path;
-    "weight" [SITE, "<im>_level", RECORD] Made "1" "share of the record at the level"
+    "weight" [SITE, STRIPE_LEVEL, RECORD] Made "1" "share of the record at the level"
         ("share of each record at each level; only with `--keep-weights`") = |of, at| of.weights.shares()[at];
 }
 
@@ -191,11 +191,11 @@ impl ResultFile {
     ) -> Result<StoredConsistency, ResultError> {
         let axes = self.stored_axes()?;
         let (sites, poes, strengths) = (axes.sites.len(), axes.poes.len(), axes.strengths.len());
-        let rates = self.reader.axis::<u32>(RATE)?.len();
-        let level = axis::level(scaled_to);
+        let rates = self.reader.axis::<u32>(RATE.name)?.len();
+        let level = STRIPE_LEVEL.of_measure(scaled_to);
         let levels = self.reader.axis::<f64>(&level)?.len();
-        let lengths = [(SITE, sites), (RATE, rates), (POE, poes)];
-        let by_poe = [(SITE, sites), (POE, poes)];
+        let lengths = [(SITE.name, sites), (RATE.name, rates), (POE.name, poes)];
+        let by_poe = [(SITE.name, sites), (POE.name, poes)];
         let names = consistency_names(scaled_to, other);
         let nan = |inner| Array::from_fn([sites, inner], |_| f64::NAN);
         let mut found = StoredConsistency {
@@ -217,11 +217,11 @@ impl ResultFile {
         };
         CONSISTENCY.read(self, &names, &lengths, &mut found)?;
         if REPAIRED_SPECTRA.is_in(self, &names) {
-            let by_level = [(SITE, sites), (&level, levels)];
+            let by_level = [(SITE.name, sites), (&level[..], levels)];
             found.effective_records = Some(REPAIRS.read_array("effective_records", self, &names, by_level)?);
-            found.repaired_level =
-                Some(REPAIRED_LEVELS.read_array("<other>_repaired", self, &names, [(SITE, sites), (RATE, rates)])?);
-            let spectrum = [(SITE, sites), (POE, poes), (STRENGTH, strengths)];
+            let by_rate = [(SITE.name, sites), (RATE.name, rates)];
+            found.repaired_level = Some(REPAIRED_LEVELS.read_array("<other>_repaired", self, &names, by_rate)?);
+            let spectrum = [(SITE.name, sites), (POE.name, poes), (STRENGTH.name, strengths)];
             found.u_m = Some(REPAIRED_SPECTRA.read_array("u_m", self, &names, spectrum)?);
             found.fits = Some(self.repaired_fits(scaled_to, by_poe)?);
         }

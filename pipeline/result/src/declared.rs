@@ -69,9 +69,9 @@ pub struct Place<T, V> {
     pub get_mut: fn(&mut T, usize) -> &mut V,
 }
 
-/// A [`Quantity`] as a row: the name of the array, its axes, type, unit, long name, in brackets the note where it is
-/// another, after `as` its name in tables and exports and its heading where that is another, and the field; `later`
-/// before all where earlier results lack it.
+/// A [`Quantity`] as a row: the name of the array, its axes (declared ones or names), type, unit, long name, in
+/// brackets the note where it is another, after `as` its name in tables and exports and its heading where that is
+/// another, and the field; `later` before all where earlier results lack it.
 macro_rules! quantity {
     (
         $($later:ident)? $name:literal $axes:tt $kind:ident $unit:literal $long_name:literal $(($note:literal))?
@@ -79,7 +79,7 @@ macro_rules! quantity {
     ) => {
         $crate::declared::Quantity {
             name: $name,
-            axes: &$axes,
+            axes: &$crate::declared::quantity!(@axes $axes),
             unit: $unit,
             long_name: $long_name,
             note: concat!($($note)?),
@@ -88,6 +88,9 @@ macro_rules! quantity {
             field: $crate::declared::quantity!(@field $kind |$of, $at| $field),
         }
     };
+    (@axes [$($axis:tt),* $(,)?]) => { [$($crate::declared::quantity!(@axis $axis)),*] };
+    (@axis $name:literal) => { $name };
+    (@axis $axis:ident) => { $axis.name };
     (@exported) => { None };
     (@exported $name:literal) => { Some(($name, $name)) };
     (@exported $name:literal $heading:literal) => { Some(($name, $heading)) };

@@ -9,6 +9,7 @@ use uplift_study::Kind;
 
 use super::declared::{Group, Names, Quantity, group, named};
 use super::file::ResultFile;
+use super::layout::attribute::{Attribute, design as attribute};
 use super::layout::axis::{BOUND, RECORD_SET, RULE, SCALED_BY, SCALING};
 use crate::error::ResultError;
 
@@ -213,21 +214,23 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn design(&self) -> Result<Option<StoredDesign>, ResultError> {
         self.require(Kind::Displacement)?;
-        let group = RESTRAINED_DESIGN.path;
-        if !self.reader.exists(group) {
+        if !self.reader.exists(RESTRAINED_DESIGN.path) {
             return Ok(None);
         }
-        let number = |name: &str| self.reader.attribute::<f64>(group, name);
+        let number = |attribute: &Attribute<f64>| attribute.read(&self.reader, &[]);
         let designed = if RESTRAINED_DESIGN.is_in(self, &VALUES) {
             StoredDesigned::Bridge
         } else {
-            StoredDesigned::Block { height_m: number("height_m")?, endless_height_m: number("endless_height_m")? }
+            StoredDesigned::Block {
+                height_m: number(&attribute::HEIGHT_M)?,
+                endless_height_m: number(&attribute::ENDLESS_HEIGHT_M)?,
+            }
         };
         Ok(Some(StoredDesign {
-            safety_factor: number("safety_factor")?,
-            percentile: number("percentile")?,
-            noise_relative: number("noise_relative")?,
-            noise_points: self.reader.attribute::<u64>(group, "noise_points")?,
+            safety_factor: number(&attribute::SAFETY_FACTOR)?,
+            percentile: number(&attribute::PERCENTILE)?,
+            noise_relative: number(&attribute::NOISE_RELATIVE)?,
+            noise_points: attribute::NOISE_POINTS.read(&self.reader, &[])?,
             designed,
             rows: self.design_rows(designed)?,
         }))
@@ -258,14 +261,14 @@ impl ResultFile {
     }
 
     fn design_rows(&self, designed: StoredDesigned) -> Result<Vec<DesignRow>, ResultError> {
-        let [sets, to, by] = [RECORD_SET, SCALING, SCALED_BY].map(|axis| self.reader.axis::<String>(axis));
+        let [sets, to, by] = [RECORD_SET, SCALING, SCALED_BY].map(|axis| self.reader.axis::<String>(axis.name));
         let (sets, to, by) = (sets?, to?, by?);
         let rules = match designed {
             StoredDesigned::Bridge => RULES.map(|rule| Some(rule_names(rule)[1])).to_vec(),
             StoredDesigned::Block { .. } => vec![None],
         };
-        let ways = [(RECORD_SET, sets.len()), (SCALING, to.len()), (SCALED_BY, by.len())];
-        let lengths = [ways[0], ways[1], ways[2], (RULE, rules.len()), (BOUND, BOUNDS.len())];
+        let ways = [(RECORD_SET.name, sets.len()), (SCALING.name, to.len()), (SCALED_BY.name, by.len())];
+        let lengths = [ways[0], ways[1], ways[2], (RULE.name, rules.len()), (BOUND.name, BOUNDS.len())];
         let columns = match designed {
             StoredDesigned::Bridge => self.design_columns(&RESTRAINED_DESIGN, &[], lengths)?,
             StoredDesigned::Block { height_m, endless_height_m } => {

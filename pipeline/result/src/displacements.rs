@@ -11,6 +11,7 @@ use uplift_study::{Kind, Structures};
 use super::declared::group;
 use super::design::{BOUNDS, bounds};
 use super::file::ResultFile;
+use super::layout::attribute;
 use super::layout::axis::{self, BOUND, PERCENTILE, RECORD_SET, SCALED_BY, SCALING};
 use crate::error::ResultError;
 
@@ -90,25 +91,28 @@ impl StoredStructures {
     pub fn line_axes(&self) -> Vec<(&'static str, usize)> {
         match self {
             Self::Oscillators { uplift_displacement_m, capacity_m } => {
-                vec![(axis::UPLIFT_DISPLACEMENT, uplift_displacement_m.len()), (axis::CAPACITY, capacity_m.len())]
+                vec![
+                    (axis::UPLIFT_DISPLACEMENT.name, uplift_displacement_m.len()),
+                    (axis::CAPACITY.name, capacity_m.len()),
+                ]
             }
-            Self::Blocks { height_m } => vec![(axis::HEIGHT, height_m.len())],
+            Self::Blocks { height_m } => vec![(axis::HEIGHT.name, height_m.len())],
         }
     }
 
     /// The axes of a spectrum's abscissa, and of those of it at which a run prints its spectra.
     pub fn abscissa_axes(&self) -> [&'static str; 2] {
         match self {
-            Self::Oscillators { .. } => [axis::STRENGTH, axis::PRINTED_STRENGTH],
-            Self::Blocks { .. } => [axis::SLENDERNESS, axis::PRINTED_SLENDERNESS],
+            Self::Oscillators { .. } => [axis::STRENGTH.name, axis::PRINTED_STRENGTH.name],
+            Self::Blocks { .. } => [axis::SLENDERNESS.name, axis::PRINTED_SLENDERNESS.name],
         }
     }
 
     /// Names of the axes of a spectrum.
     pub fn names(&self) -> [(&'static str, &'static str); 4] {
         let [line, of_line] = match self {
-            Self::Oscillators { .. } => [axis::UPLIFT_DISPLACEMENT, axis::CAPACITY],
-            Self::Blocks { .. } => [axis::HEIGHT, ""],
+            Self::Oscillators { .. } => [axis::UPLIFT_DISPLACEMENT.name, axis::CAPACITY.name],
+            Self::Blocks { .. } => [axis::HEIGHT.name, ""],
         };
         let [abscissa, printed] = self.abscissa_axes();
         [("<line>", line), ("<of_line>", of_line), ("<abscissa>", abscissa), ("<printed>", printed)]
@@ -299,19 +303,20 @@ impl ResultFile {
         self.require(Kind::Displacement)?;
         let reader = &self.reader;
         let structures = self.structures()?;
-        let (scalings, scaled_by) = (reader.axis::<String>(SCALING)?, reader.axis::<String>(SCALED_BY)?);
-        let percentiles = reader.axis::<f64>(PERCENTILE)?;
+        let (scalings, scaled_by) = (reader.axis::<String>(SCALING.name)?, reader.axis::<String>(SCALED_BY.name)?);
+        let percentiles = reader.axis::<f64>(PERCENTILE.name)?;
         let (names, [abscissa, printed]) = (structures.names(), structures.abscissa_axes());
         let abscissas = reader.axis::<f64>(abscissa)?;
-        let sets = reader.axis::<String>(RECORD_SET)?;
+        let sets = reader.axis::<String>(RECORD_SET.name)?;
         let mut shape =
             [sets.len(), scalings.len(), scaled_by.len(), structures.lines(), percentiles.len(), abscissas.len()];
         if shape.contains(&0) {
             return Err(self.damaged("an axis of its spectra is empty"));
         }
-        let mut lengths = vec![(RECORD_SET, sets.len()), (SCALING, scalings.len()), (SCALED_BY, scaled_by.len())];
+        let mut lengths =
+            vec![(RECORD_SET.name, sets.len()), (SCALING.name, scalings.len()), (SCALED_BY.name, scaled_by.len())];
         lengths.extend(structures.line_axes());
-        lengths.extend([(PERCENTILE, percentiles.len()), (abscissa, abscissas.len()), (BOUND, BOUNDS.len())]);
+        lengths.extend([(PERCENTILE.name, percentiles.len()), (abscissa, abscissas.len()), (BOUND.name, BOUNDS.len())]);
         let u_m = SPECTRA.read_floats("u_m", self, &names, &lengths)?;
         let percentile_m = Array::new(shape, u_m).map_err(|error| self.damaged(error))?;
         let rounding = if ROUNDED_SPECTRA.is_in(self, &names) {
@@ -337,7 +342,7 @@ impl ResultFile {
             abscissas,
             percentile_m,
             rounding,
-            analyses: reader.attribute::<u64>(SPECTRA.path, "analyses")?,
+            analyses: attribute::spectra::ANALYSES.read(reader, &[])?,
         })
     }
 
@@ -349,7 +354,7 @@ impl ResultFile {
         self.require(Kind::Displacement)?;
         let reader = &self.reader;
         let structures = self.structures()?;
-        let sets = reader.axis::<String>(RECORD_SET)?;
+        let sets = reader.axis::<String>(RECORD_SET.name)?;
         let Some(set) = sets.get(position) else {
             return Err(self.fail(format!("has {} record sets, and number {} is wanted", sets.len(), position + 1)));
         };
@@ -358,8 +363,8 @@ impl ResultFile {
         let motions = reader.axis::<String>(&motion)?;
         let names = [&structures.names()[..], &[("<set>", set), ("<motion>", &motion)]].concat();
         let [abscissa, _] = structures.abscissa_axes();
-        let ways = [reader.axis::<String>(SCALING)?.len(), reader.axis::<String>(SCALED_BY)?.len()];
-        let mut lengths = vec![(SCALING, ways[0]), (SCALED_BY, ways[1]), (motion.as_str(), motions.len())];
+        let ways = [reader.axis::<String>(SCALING.name)?.len(), reader.axis::<String>(SCALED_BY.name)?.len()];
+        let mut lengths = vec![(SCALING.name, ways[0]), (SCALED_BY.name, ways[1]), (motion.as_str(), motions.len())];
         lengths.extend(structures.line_axes());
         lengths.push((abscissa, reader.axis::<f64>(abscissa)?.len()));
         let shape = [ways[0], ways[1], structures.lines(), lengths[lengths.len() - 1].1, motions.len()];
@@ -384,22 +389,22 @@ impl ResultFile {
 
     fn structures(&self) -> Result<StoredStructures, ResultError> {
         let reader = &self.reader;
-        Ok(if reader.attribute::<String>("/", "structure")? == "block" {
-            StoredStructures::Blocks { height_m: reader.axis::<f64>(axis::HEIGHT)? }
+        Ok(if attribute::root::STRUCTURE.read(reader, &[])? == "block" {
+            StoredStructures::Blocks { height_m: reader.axis::<f64>(axis::HEIGHT.name)? }
         } else {
             StoredStructures::Oscillators {
-                uplift_displacement_m: reader.axis::<f64>(axis::UPLIFT_DISPLACEMENT)?,
-                capacity_m: reader.axis::<f64>(axis::CAPACITY)?,
+                uplift_displacement_m: reader.axis::<f64>(axis::UPLIFT_DISPLACEMENT.name)?,
+                capacity_m: reader.axis::<f64>(axis::CAPACITY.name)?,
             }
         })
     }
 
     fn set(&self, name: String) -> Result<StoredSet, ResultError> {
-        let group = MOTIONS.group(&[("<set>", &name)]);
+        let names = [("<set>", &*name)];
         Ok(StoredSet {
-            records: self.reader.attribute::<u64>(&group, "records")?,
-            median_pga_g: self.reader.attribute::<f64>(&group, "median_pga_g")?,
-            median_pgv_cm_s: self.reader.attribute::<f64>(&group, "median_pgv_cm_s")?,
+            records: attribute::set::RECORDS.read(&self.reader, &names)?,
+            median_pga_g: attribute::set::MEDIAN_PGA_G.read(&self.reader, &names)?,
+            median_pgv_cm_s: attribute::set::MEDIAN_PGV_CM_S.read(&self.reader, &names)?,
             name,
         })
     }

@@ -15,6 +15,7 @@ use super::file::ResultFile;
 use super::head::Overview;
 use super::kept_groups::KeptGroups;
 use super::layout::LAYOUT;
+use super::layout::attribute::root;
 use crate::error::ResultError;
 
 /// How the names of the files end that are made of a result.
@@ -160,7 +161,7 @@ impl ResultFile {
 
 /// The layout of the result at `path`, where it is another than this program's.
 fn other_layout(path: &Path) -> Option<i64> {
-    let layout = LabelledReader::open(path).ok()?.attribute::<i64>("/", "layout").ok()?;
+    let layout = root::LAYOUT.read(&LabelledReader::open(path).ok()?, &[]).ok()?;
     (layout != LAYOUT).then_some(layout)
 }
 

@@ -6,6 +6,7 @@ use uplift_regression::Line;
 
 use super::declared::{group, of_measure};
 use super::file::ResultFile;
+use super::layout::attribute::efficiency::SCALED_TO;
 use super::layout::axis::STRENGTH;
 use crate::error::ResultError;
 
@@ -109,7 +110,7 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn efficiency(&self) -> Result<Vec<StoredEfficiency>, ResultError> {
         let strengths = self.axes()?.strengths.len();
-        let lengths = &[(STRENGTH, strengths)];
+        let lengths = &[(STRENGTH.name, strengths)];
         let of = |measure: IntensityMeasure| {
             let names = of_measure(measure);
             let trend = |covariate: String| {
@@ -120,7 +121,7 @@ impl ResultFile {
             let group = format!("{}/{}", TRENDS.root(), measure.key());
             let covariates = if self.reader.exists(&group) { self.reader.children(&group)? } else { Vec::new() };
             // results of earlier versions have no others
-            let said = self.reader.attribute::<String>(&EFFICIENCY.of_measure(measure), "scaled_to").ok();
+            let said = SCALED_TO.read(&self.reader, &names).ok();
             let nan = vec![f64::NAN; strengths];
             let mut found = StoredEfficiency {
                 measure,

@@ -9,6 +9,7 @@ use uplift_job::lock::ResultLock;
 use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
 
 use super::ResultFile;
+use super::layout::attribute::signature;
 use crate::error::ResultError;
 
 /// A result that is being added to: nobody else writes to it meanwhile, from before its numbers are read until what is
@@ -78,7 +79,8 @@ const LONGEST_WAIT: Duration = Duration::from_secs(60);
 /// A file that cannot be written.
 pub fn sign(writer: &mut LabelledWriter, group: &str) -> Result<(), LabelledError> {
     writer.group(group)?;
-    writer.attribute(group, "created", uplift_job::now().as_str())?;
-    writer.attribute(group, "version", uplift_job::VERSION)?;
-    writer.attribute(group, "commit", uplift_job::COMMIT)
+    let names = [("<group>", group)];
+    signature::CREATED.write(writer, &names, uplift_job::now())?;
+    signature::VERSION.write(writer, &names, uplift_job::VERSION)?;
+    signature::COMMIT.write(writer, &names, uplift_job::COMMIT)
 }

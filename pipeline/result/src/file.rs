@@ -9,6 +9,7 @@ use uplift_study::Kind;
 
 use super::asked_spectra::AskedSpectra;
 use super::head::kind_of;
+use super::layout::attribute::root;
 use super::layout::{LAYOUT, axis};
 use super::other_file::no_result;
 use crate::error::ResultError;
@@ -80,9 +81,9 @@ impl ResultFile {
     /// A file that is missing, damaged, not a result, or of another layout.
     pub fn open(path: &Path) -> Result<Self, ResultError> {
         let reader = LabelledReader::open(path).map_err(|error| no_result(path, error))?;
-        let program = reader.attribute::<String>("/", "program").unwrap_or_default();
+        let program = root::PROGRAM.read(&reader, &[]).unwrap_or_default();
         if program != "uplift" {
-            let is_sites = reader.attribute::<String>("/", "kind").is_ok_and(|kind| kind == SITES_KIND);
+            let is_sites = root::KIND.read(&reader, &[]).is_ok_and(|kind| kind == SITES_KIND);
             let what = if is_sites { "the sites of a result as arrays" } else { "an HDF5 file" };
             return Err(JobError::input(format!(
                 "{}: is {what}, but not a result of uplift: give the file that `uplift run` wrote",
@@ -90,7 +91,7 @@ impl ResultFile {
             ))
             .into());
         }
-        let layout = reader.attribute::<i64>("/", "layout")?;
+        let layout = root::LAYOUT.read(&reader, &[])?;
         if layout != LAYOUT {
             return Err(JobError::input(format!(
                 "{}: has layout {layout}, this version of uplift ({}) reads layout {LAYOUT}: run the study again",
@@ -118,7 +119,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged.
     pub fn seed(&self) -> Result<u64, ResultError> {
-        Ok(self.reader.attribute::<u64>("/", "seed")?)
+        Ok(root::SEED.read(&self.reader, &[])?)
     }
 
     /// What its study is of.
@@ -147,15 +148,21 @@ impl ResultFile {
         self.require(Kind::UniformRisk)?;
         let reader = &self.reader;
         let axes = RiskAxes {
-            records: reader.axis::<String>(axis::RECORD)?,
-            strengths: reader.axis::<f64>(axis::STRENGTH)?,
-            poes: reader.axis::<f64>(axis::POE)?,
-            years: reader.attribute::<f64>("/", "poe_years")?,
-            sites: if reader.exists(&axis::path(axis::SITE)) { reader.axis::<String>(axis::SITE)? } else { Vec::new() },
+            records: reader.axis::<String>(axis::RECORD.name)?,
+            strengths: reader.axis::<f64>(axis::STRENGTH.name)?,
+            poes: reader.axis::<f64>(axis::POE.name)?,
+            years: root::POE_YEARS.read(reader, &[])?,
+            sites: if reader.exists(&axis::path(axis::SITE.name)) {
+                reader.axis::<String>(axis::SITE.name)?
+            } else {
+                Vec::new()
+            },
         };
-        for (name, length) in
-            [(axis::RECORD, axes.records.len()), (axis::STRENGTH, axes.strengths.len()), (axis::POE, axes.poes.len())]
-        {
+        for (name, length) in [
+            (axis::RECORD.name, axes.records.len()),
+            (axis::STRENGTH.name, axes.strengths.len()),
+            (axis::POE.name, axes.poes.len()),
+        ] {
             if length == 0 {
                 return Err(self.damaged(format!("{} is empty", axis::path(name))));
             }

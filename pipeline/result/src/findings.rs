@@ -6,7 +6,10 @@ use uplift_labelled::{LabelledError, LabelledWriter};
 
 use super::declared::group;
 use super::file::ResultFile;
-use super::layout::{axis, structures};
+use super::layout::attribute::structure::STRUCTURE_SHA256;
+use super::layout::attribute::{Attribute, answer, signature};
+use super::layout::axis::{self, FINDING};
+use super::layout::structures;
 use crate::error::ResultError;
 
 /// Letters of the key of a question: no two questions asked of a result share them.
@@ -84,19 +87,19 @@ pub struct FindingRow {
 group! {
     /// The numbers of an answer.
     pub const FINDINGS: Vec<FindingRow> = "/structures/<structure>/<command>/<key>";
-    "quantity" ["finding_<key>"] Text "" "what the number is" = |of, at| of[at].quantity;
-    "site" ["finding_<key>"] Text "" "site; may be empty" = |of, at| of[at].site;
-    "im" ["finding_<key>"] Text "" "intensity measure; may be empty" = |of, at| of[at].im;
-    "unit" ["finding_<key>"] Text "" "unit of value, lower and upper"
+    "quantity" [FINDING] Text "" "what the number is" = |of, at| of[at].quantity;
+    "site" [FINDING] Text "" "site; may be empty" = |of, at| of[at].site;
+    "im" [FINDING] Text "" "intensity measure; may be empty" = |of, at| of[at].im;
+    "unit" [FINDING] Text "" "unit of value, lower and upper"
         ("unit of value, lower and upper: `m`, `1/yr`, … (`1` where there is none)") = |of, at| of[at].unit;
-    "band" ["finding_<key>"] Text "" "source of the band"
+    "band" [FINDING] Text "" "source of the band"
         ("source of the band: `records`, `earthquakes`, `records and hazard`, `resampled records`, `structure, \
           records and hazard`, `at most`, …") = |of, at| of[at].band;
-    "value" ["finding_<key>"] F64 "1" "the number, in its unit"
+    "value" [FINDING] F64 "1" "the number, in its unit"
         ("the number, in its unit; `inf` where the structure overturns") = |of, at| of[at].value;
-    "lower" ["finding_<key>"] F64 "1" "lower limit of its band"
+    "lower" [FINDING] F64 "1" "lower limit of its band"
         ("lower limit of its band, in its unit; NaN where there is none") = |of, at| of[at].limits[0];
-    "upper" ["finding_<key>"] F64 "1" "upper limit of its band; alone where no run shows what it bounds"
+    "upper" [FINDING] F64 "1" "upper limit of its band; alone where no run shows what it bounds"
         ("upper limit of its band; alone where no run shows what it bounds: what it is at most")
         = |of, at| of[at].limits[1];
 }
@@ -146,8 +149,8 @@ impl Finding {
     pub fn write_rows(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
         let (key, count) = (self.key(), self.rows.len());
         let (axis, numbers) = (axis::finding(&key), (1..).take(count).collect::<Vec<u32>>());
-        writer.axis(&axis, &numbers, "1", "number of an answer")?;
         let names = [("<command>", self.inquiry.key()), ("<key>", &key), ("<structure>", &self.structure)];
+        FINDING.write(writer, &names, &numbers)?;
         FINDINGS.write(writer, &names, &[(&axis, count)], &self.rows)
     }
 
@@ -250,7 +253,7 @@ impl ResultFile {
         }
         let mut found = Vec::new();
         for structure in reader.children(structures::ROOT)? {
-            let last = reader.attribute::<String>(&structures::group(&structure), STRUCTURE_SHA256)?;
+            let last = STRUCTURE_SHA256.read(reader, &[("<structure>", &structure)])?;
             for inquiry in Inquiry::ALL {
                 let group = format!("{}/{}", structures::group(&structure), inquiry.key());
                 if !reader.exists(&group) {
@@ -269,28 +272,28 @@ impl ResultFile {
 
     fn finding(&self, (structure, inquiry): (&str, Inquiry), key: &str) -> Result<StoredFinding, ResultError> {
         let group = structures::answer(structure, inquiry.key(), key);
-        let text = |name: &str| self.reader.attribute::<String>(&group, name);
-        let request: serde_json::Map<String, serde_json::Value> = serde_json::from_str(&text(REQUEST)?)
-            .map_err(|error| self.damaged(format!("attribute {REQUEST} of {group}: {error}")))?;
+        let names = [("<command>", inquiry.key()), ("<key>", key), ("<structure>", structure), ("<group>", &group)];
+        let text = |attribute: &Attribute<String>| attribute.read(&self.reader, &names);
+        let request: serde_json::Map<String, serde_json::Value> = serde_json::from_str(&text(&answer::REQUEST)?)
+            .map_err(|error| self.damaged(format!("attribute {} of {group}: {error}", answer::REQUEST.name)))?;
         let axis = axis::finding(key);
         let mut rows = vec![FindingRow::default(); self.reader.axis::<u32>(&axis)?.len()];
-        let names = [("<command>", inquiry.key()), ("<key>", key), ("<structure>", structure)];
         FINDINGS.read(self, &names, &[(&axis, rows.len())], &mut rows)?;
         let value = |of: serde_json::Value| of.as_str().map_or_else(|| of.to_string(), str::to_owned);
         Ok(StoredFinding {
             finding: Finding {
                 structure: structure.to_owned(),
-                structure_file: text(STRUCTURE_FILE)?,
-                structure_toml: text(STRUCTURE_TOML)?,
+                structure_file: text(&answer::STRUCTURE_FILE)?,
+                structure_toml: text(&answer::STRUCTURE_TOML)?,
                 inquiry,
                 request: request.into_iter().map(|(name, of)| (name, value(of))).collect(),
-                study_digest: text(STUDY_DIGEST)?,
+                study_digest: text(&answer::STUDY_DIGEST)?,
                 rows,
-                document: text(DOCUMENT)?,
+                document: text(&answer::DOCUMENT)?,
             },
-            created: text("created")?,
-            version: text("version")?,
-            commit: text("commit")?,
+            created: text(&signature::CREATED)?,
+            version: text(&signature::VERSION)?,
+            commit: text(&signature::COMMIT)?,
             is_of_earlier_file: false,
         })
     }
@@ -300,19 +303,6 @@ impl ResultFile {
 fn order(finding: &Finding) -> (&str, Inquiry, String) {
     (&finding.structure, finding.inquiry, finding.question())
 }
-
-/// Attributes of an answer; the first is also one of its structure, of the file as it last was.
-pub const STRUCTURE_SHA256: &str = "structure_sha256";
-/// Attribute: the structure file as it was given.
-pub const STRUCTURE_FILE: &str = "structure_file";
-/// Attribute: the text of the structure file.
-pub const STRUCTURE_TOML: &str = "structure_toml";
-/// Attribute: what was asked, as JSON.
-pub const REQUEST: &str = "request";
-/// Attribute: the digest of the study that the answer is of.
-pub const STUDY_DIGEST: &str = "study_digest";
-/// Attribute: the whole answer, as JSON.
-pub const DOCUMENT: &str = "document";
 
 #[cfg(test)]
 mod tests {

@@ -5,6 +5,7 @@ use uplift_motion::IntensityMeasure;
 
 use super::declared::{group, of_measure};
 use super::file::ResultFile;
+use super::layout::attribute::curve::{NAME, WEIGHT};
 use super::layout::axis;
 use super::peaks::PEAKS;
 use crate::error::ResultError;
@@ -113,7 +114,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn levels(&self) -> Result<Vec<(IntensityMeasure, Vec<f64>)>, ResultError> {
-        let of = |measure| Ok((measure, self.reader.axis::<f64>(&axis::level(measure))?));
+        let of = |measure| Ok((measure, self.reader.axis::<f64>(&axis::STRIPE_LEVEL.of_measure(measure))?));
         self.measures().into_iter().map(of).collect()
     }
 
@@ -123,9 +124,8 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn branches(&self, site: &str, measure: IntensityMeasure) -> Result<Vec<StoredBranch>, ResultError> {
         let of_curve = |curve: String| {
-            let group = HAZARD_CURVE.group(&[("<curve>", &curve)]);
-            let (name, weight) =
-                (self.reader.attribute::<String>(&group, "name")?, self.reader.attribute::<f64>(&group, "weight")?);
+            let names = [("<curve>", &*curve)];
+            let (name, weight) = (NAME.read(&self.reader, &names)?, WEIGHT.read(&self.reader, &names)?);
             Ok(StoredBranch { name, weight, curve: self.curve(&curve, measure)? })
         };
         let names = (0..).map(|index| branch_curve_name(site, measure, index));

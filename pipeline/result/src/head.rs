@@ -6,11 +6,13 @@ use serde::Serialize;
 use uplift_labelled::LabelledReader;
 use uplift_study::Kind;
 
+use super::declared::of_measure;
 use super::digest::UNSAID_NUMERICS;
 use super::file::ResultFile;
 use super::kept_groups::added;
+use super::layout::attribute::{self, Attribute, root};
 use super::layout::axis;
-use super::{MOTIONS, PEAKS, RESTRAINED_DESIGN, SPECTRA, TABLE_EXCITATIONS};
+use super::{MOTIONS, PEAKS, RESTRAINED_DESIGN};
 use crate::error::ResultError;
 
 /// Where the numbers of a result come from: what results of every kind say at their root.
@@ -87,7 +89,7 @@ pub enum Overview {
 
 /// What the result in `reader` is of; uniform risk where it does not say.
 pub(super) fn kind_of(reader: &LabelledReader) -> Kind {
-    let is = |kind: &Kind| reader.attribute::<String>("/", "kind").is_ok_and(|word| word == kind.key());
+    let is = |kind: &Kind| root::KIND.read(reader, &[]).is_ok_and(|word| word == kind.key());
     Kind::ALL.into_iter().find(is).unwrap_or(Kind::UniformRisk)
 }
 
@@ -97,35 +99,35 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged.
     pub fn head(&self) -> Result<Head, ResultError> {
-        let text = |name: &str| self.reader.attribute::<String>("/", name);
+        let text = |attribute: &Attribute<String>| attribute.read(&self.reader, &[]);
         Ok(Head {
             kind: self.kind(),
-            version: text("version")?,
-            commit: text("commit")?,
-            created: text("created")?,
-            command: text("command")?,
-            overrides: text("overrides").ok().map(|all| all.lines().map(str::to_owned).collect()),
-            title: text("title")?,
-            study_file: text("study_file")?,
-            study_toml: text("study_toml")?,
+            version: text(&root::VERSION)?,
+            commit: text(&root::COMMIT)?,
+            created: text(&root::CREATED)?,
+            command: text(&root::COMMAND)?,
+            overrides: text(&root::OVERRIDES).ok().map(|all| all.lines().map(str::to_owned).collect()),
+            title: text(&root::TITLE)?,
+            study_file: text(&root::STUDY_FILE)?,
+            study_toml: text(&root::STUDY_TOML)?,
             record_set: self.record_set()?,
             synthetic: self.is_synthetic()?,
-            seed: (self.kind() == Kind::UniformRisk).then(|| self.reader.attribute::<u64>("/", "seed")).transpose()?,
-            input_checksums: serde_json::from_str(&text("input_checksums")?)
+            seed: (self.kind() == Kind::UniformRisk).then(|| root::SEED.read(&self.reader, &[])).transpose()?,
+            input_checksums: serde_json::from_str(&text(&root::INPUT_CHECKSUMS)?)
                 .map_err(|error| self.damaged(format!("attribute input_checksums of /: {error}")))?,
             numerics: self.numerics(),
-            warnings: text("warnings")?.lines().map(str::to_owned).collect(),
+            warnings: text(&root::WARNINGS)?.lines().map(str::to_owned).collect(),
         })
     }
 
     fn numerics(&self) -> u32 {
-        let said = self.reader.attribute::<i64>("/", "numerics").ok().and_then(|said| u32::try_from(said).ok());
+        let said = root::NUMERICS.read(&self.reader, &[]).ok().and_then(|said| u32::try_from(said).ok());
         said.unwrap_or(UNSAID_NUMERICS)
     }
 
     /// Where the records come from, in a line.
     pub(super) fn record_set(&self) -> Result<String, ResultError> {
-        Ok(self.reader.attribute::<String>("/", "record_set")?)
+        Ok(root::RECORD_SET.read(&self.reader, &[])?)
     }
 
     /// Whether the records are synthetic.
@@ -133,7 +135,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn is_synthetic(&self) -> Result<bool, ResultError> {
-        Ok(self.reader.attribute::<i64>("/", "synthetic")? == 1)
+        Ok(root::SYNTHETIC.read(&self.reader, &[])? == 1)
     }
 
     /// What the result holds.
@@ -143,23 +145,22 @@ impl ResultFile {
     pub fn overview(&self) -> Result<Overview, ResultError> {
         let reader = &self.reader;
         if self.kind() == Kind::Displacement {
-            let group = |name: &str| MOTIONS.group(&[("<set>", name)]);
-            let records = |name: String| Ok((reader.attribute::<u64>(&group(&name), "records")?, name));
+            let records = |name: String| Ok((attribute::set::RECORDS.read(reader, &[("<set>", &name)])?, name));
             let sets =
                 reader.children(MOTIONS.root())?.into_iter().map(records).collect::<Result<Vec<_>, ResultError>>()?;
             return Ok(Overview::Displacement {
-                structure: reader.attribute::<String>("/", "structure")?,
-                analyses: reader.attribute::<u64>(SPECTRA.path, "analyses")?,
+                structure: root::STRUCTURE.read(reader, &[])?,
+                analyses: attribute::spectra::ANALYSES.read(reader, &[])?,
                 sets: sets.into_iter().map(|(records, name)| (name, records)).collect(),
                 has_design: reader.exists(RESTRAINED_DESIGN.path),
             });
         }
         if self.kind() == Kind::ShakeTable {
             return Ok(Overview::ShakeTable {
-                structure: reader.attribute::<String>(TABLE_EXCITATIONS.path, "structure")?,
-                analyses: reader.attribute::<u64>(TABLE_EXCITATIONS.path, "analyses")?,
-                levels: reader.axis::<String>(axis::LEVEL)?,
-                excitations: reader.axis::<String>(axis::EXCITATION)?.len(),
+                structure: attribute::shake_table::STRUCTURE.read(reader, &[])?,
+                analyses: attribute::shake_table::ANALYSES.read(reader, &[])?,
+                levels: reader.axis::<String>(axis::LEVEL.name)?,
+                excitations: reader.axis::<String>(axis::EXCITATION.name)?.len(),
             });
         }
         let mut analyses = Vec::new();
@@ -167,9 +168,10 @@ impl ResultFile {
         let mut measures = self.measures_in(PEAKS.root());
         measures.sort_by_key(|measure| measure.key());
         for measure in measures {
-            analyses.push((measure.label(), reader.attribute::<u64>(&PEAKS.of_measure(measure), "analyses")?));
+            analyses.push((measure.label(), attribute::stripes::ANALYSES.read(reader, &of_measure(measure))?));
         }
-        let sites = reader.exists(&axis::path(axis::SITE)).then(|| reader.axis::<String>(axis::SITE)).transpose()?;
+        let sites =
+            reader.exists(&axis::path(axis::SITE.name)).then(|| reader.axis::<String>(axis::SITE.name)).transpose()?;
         Ok(Overview::UniformRisk {
             analyses,
             sites: sites.unwrap_or_default(),

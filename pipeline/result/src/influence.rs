@@ -5,7 +5,7 @@ use uplift_motion::IntensityMeasure;
 
 use super::declared::{group, of_measure};
 use super::file::ResultFile;
-use super::layout::axis::{self, POE, RECORD, SITE, STRENGTH};
+use super::layout::axis::{BIN, POE, RECORD, SITE, STRENGTH};
 use crate::error::ResultError;
 
 /// Influence on the spectra of one measure.
@@ -40,14 +40,14 @@ group! {
 group! {
     /// Shares of the risk at each ordinate.
     pub const DISAGGREGATION: Array<4> = "/disaggregation/<im>";
-    "share" [SITE, POE, STRENGTH, "<im>_bin"] F64 "1" "share of the risk at the ordinate"
+    "share" [SITE, POE, STRENGTH, BIN] F64 "1" "share of the risk at the ordinate"
         ("share of the risk at the ordinate; NaN where that is 0 or censored") = |of, at| of[at];
 }
 
 group! {
     /// The same of the repaired spectra.
     pub const DISAGGREGATION_REPAIRED: Array<4> = "/disaggregation/<im>/consistent";
-    "share" [SITE, POE, STRENGTH, "<im>_bin"] F64 "1" "share of the risk at the ordinate"
+    "share" [SITE, POE, STRENGTH, BIN] F64 "1" "share of the risk at the ordinate"
         ("the same at the repaired ordinates; NaN at sites without repair") = |of, at| of[at];
 }
 
@@ -63,10 +63,10 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn influence(&self) -> Result<Vec<StoredInfluence>, ResultError> {
         let axes = self.axes()?;
-        let (site, poe) = ((SITE, axes.sites.len()), (POE, axes.poes.len()));
-        let (record, strength) = ((RECORD, axes.records.len()), (STRENGTH, axes.strengths.len()));
+        let (site, poe) = ((SITE.name, axes.sites.len()), (POE.name, axes.poes.len()));
+        let (record, strength) = ((RECORD.name, axes.records.len()), (STRENGTH.name, axes.strengths.len()));
         let of = |measure: IntensityMeasure| {
-            let bin = axis::bin(measure);
+            let bin = BIN.of_measure(measure);
             let bins = self.reader.axis::<f64>(&bin)?;
             let names = of_measure(measure);
             let shares = DISAGGREGATION.read_array("share", self, &names, [site, poe, strength, (&bin, bins.len())])?;

@@ -1,7 +1,7 @@
 //! The result of a study: one HDF5 file, and tidy tables beside it; how both are opened, extended and read.
 //!
 //! [`ResultFile`] opens a result and reads it part by part; arrays are [`declared`] beside the values that they hold,
-//! and [`layout`] names the axes.
+//! and [`layout`] has axes and attributes.
 
 mod asked_spectra;
 mod band_kind;
@@ -56,7 +56,6 @@ pub use efficiency::{StoredEfficiency, StoredTrend};
 pub use error::ResultError;
 pub use extend::{LockedResult, sign};
 pub use file::{ResultFile, RiskAxes};
-pub use findings::{DOCUMENT, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST};
 pub use findings::{FINDINGS, Finding, FindingRow, Inquiry, StoredFinding};
 pub use hazard::{HAZARD_CURVE, branch_curve_name, curve_name};
 pub use hazard::{StoredBranch, StoredCurves, StoredHazard};

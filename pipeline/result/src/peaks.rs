@@ -6,13 +6,13 @@ use uplift_motion::IntensityMeasure;
 use super::RiskAxes;
 use super::declared::{group, of_measure};
 use super::file::ResultFile;
-use super::layout::axis::{self, RECORD, SITE, STRENGTH, THRESHOLD};
+use super::layout::axis::{RECORD, SITE, STRENGTH, STRIPE_LEVEL, THRESHOLD};
 use crate::error::ResultError;
 
 group! {
     /// Peak displacements of all runs; `<not_of_level>` says what is NaN, where something is.
     pub const PEAKS: Array<3> = "/ida/<im>";
-    "edp_m" [RECORD, STRENGTH, "<im>_level"] F64 "m" "peak displacement, infinite where overturned<not_of_level>"
+    "edp_m" [RECORD, STRENGTH, STRIPE_LEVEL] F64 "m" "peak displacement, infinite where overturned<not_of_level>"
         ("peak displacement; `inf` = overturned, NaN = the record is not of the level (`records.at_level`)")
         = |of, at| of[at];
 }
@@ -20,20 +20,20 @@ group! {
 group! {
     /// Impacts of the same runs.
     pub const IMPACTS: Array<3, u32> = PEAKS.path;
-    "impacts" [RECORD, STRENGTH, "<im>_level"] U32 "1" "number of impacts" = |of, at| of[at];
+    "impacts" [RECORD, STRENGTH, STRIPE_LEVEL] U32 "1" "number of impacts" = |of, at| of[at];
 }
 
 group! {
     /// Scale factors, where levels have records of their own.
     pub const FACTORS: Array<2> = PEAKS.path;
-    "factor" [RECORD, "<im>_level"] F64 "1" "scale factor of the record, NaN where it does not belong to the level"
+    "factor" [RECORD, STRIPE_LEVEL] F64 "1" "scale factor of the record, NaN where it does not belong to the level"
         ("scale factor, NaN where the record is not of the level; only with `records.at_level`") = |of, at| of[at];
 }
 
 group! {
     /// How much each record counts, where they do not all count alike.
     pub const SHARES: Array<2> = PEAKS.path;
-    "share" ["<im>_level", RECORD] F64 "1" "how much the record counts at the level, 0 where it does not belong to it"
+    "share" [STRIPE_LEVEL, RECORD] F64 "1" "how much the record counts at the level, 0 where it does not belong to it"
         ("how much the record counts at the level, 0 where it is not of it; only where records do not all count alike \
           at every level") = |of, at| of[at];
 }
@@ -70,9 +70,10 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged.
     pub fn peaks(&self, axes: &RiskAxes, measure: IntensityMeasure) -> Result<StoredPeaks, ResultError> {
-        let level = axis::level(measure);
+        let level = STRIPE_LEVEL.of_measure(measure);
         let levels = self.reader.axis::<f64>(&level)?;
-        let lengths = [(RECORD, axes.records.len()), (STRENGTH, axes.strengths.len()), (level.as_str(), levels.len())];
+        let lengths =
+            [(RECORD.name, axes.records.len()), (STRENGTH.name, axes.strengths.len()), (level.as_str(), levels.len())];
         let edp_m = PEAKS.read_array("edp_m", self, &of_measure(measure), lengths)?;
         let shares = self.shares_of_levels(axes.records.len(), measure, levels.len())?;
         Ok(StoredPeaks { levels, edp_m, shares })
@@ -88,12 +89,13 @@ impl ResultFile {
         measure: IntensityMeasure,
         levels: usize,
     ) -> Result<Option<SetsOfLevels>, ResultError> {
-        let (names, level) = (of_measure(measure), axis::level(measure));
+        let (names, level) = (of_measure(measure), STRIPE_LEVEL.of_measure(measure));
         if !FACTORS.is_in(self, &names) {
             return Ok(None);
         }
-        let factors =
-            FACTORS.read_array("factor", self, &names, [(RECORD, records), (level.as_str(), levels)])?.into_values();
+        let factors = FACTORS
+            .read_array("factor", self, &names, [(RECORD.name, records), (level.as_str(), levels)])?
+            .into_values();
         Ok(Some(SetsOfLevels { factors, shares: self.shares_of_levels(records, measure, levels)? }))
     }
 
@@ -104,8 +106,8 @@ impl ResultFile {
         measure: IntensityMeasure,
         levels: usize,
     ) -> Result<Option<Vec<f64>>, ResultError> {
-        let (names, level) = (of_measure(measure), axis::level(measure));
-        let lengths = [(level.as_str(), levels), (RECORD, records)];
+        let (names, level) = (of_measure(measure), STRIPE_LEVEL.of_measure(measure));
+        let lengths = [(level.as_str(), levels), (RECORD.name, records)];
         SHARES
             .is_in(self, &names)
             .then(|| Ok(SHARES.read_array("share", self, &names, lengths)?.into_values()))

@@ -12,6 +12,7 @@ use uplift_labelled::LabelledWriter;
 
 use super::digest::study_digest;
 use super::layout::LAYOUT;
+use super::layout::attribute::root;
 use crate::error::ResultError;
 
 /// What someone needs to repeat a run.
@@ -119,26 +120,26 @@ impl Provenance {
     ) -> Result<(), ResultError> {
         let checksums =
             serde_json::to_string(&self.input_checksums).map_err(|error| JobError::input(error.to_string()))?;
-        writer.attribute("/", "program", "uplift")?;
-        writer.attribute("/", "version", uplift_job::VERSION)?;
-        writer.attribute("/", "commit", uplift_job::COMMIT)?;
-        writer.attribute("/", "layout", LAYOUT)?;
-        writer.attribute("/", "numerics", i64::from(NUMERICS))?;
-        writer.attribute("/", "created", self.created.as_str())?;
-        writer.attribute("/", "command", self.command.as_str())?;
-        writer.attribute("/", "overrides", self.overrides.join("\n").as_str())?;
-        writer.attribute("/", "title", title)?;
-        writer.attribute("/", "study_file", self.study_file.as_str())?;
-        writer.attribute("/", "study_place", self.study_place.as_str())?;
-        writer.attribute("/", "study_toml", study_toml)?;
-        writer.attribute("/", "gravity_m_s2", gravity_m_s2)?;
-        writer.attribute("/", "record_set", record_set)?;
-        writer.attribute("/", "synthetic", i64::from(synthetic))?;
-        writer.attribute("/", "input_checksums", checksums.as_str())?;
-        writer.attribute("/", "warnings", warnings.join("\n").as_str())?;
-        writer.attribute("/", "threads", i64::try_from(self.threads).unwrap_or(i64::MAX))?;
-        writer.attribute("/", "wall_time_s", self.wall_time_s)?;
-        writer.attribute("/", "platform", format!("{} {}", std::env::consts::OS, std::env::consts::ARCH).as_str())?;
+        root::PROGRAM.write(writer, &[], "uplift")?;
+        root::VERSION.write(writer, &[], uplift_job::VERSION)?;
+        root::COMMIT.write(writer, &[], uplift_job::COMMIT)?;
+        root::LAYOUT.write(writer, &[], LAYOUT)?;
+        root::NUMERICS.write(writer, &[], NUMERICS)?;
+        root::CREATED.write(writer, &[], self.created.as_str())?;
+        root::COMMAND.write(writer, &[], self.command.as_str())?;
+        root::OVERRIDES.write(writer, &[], self.overrides.join("\n"))?;
+        root::TITLE.write(writer, &[], title)?;
+        root::STUDY_FILE.write(writer, &[], self.study_file.as_str())?;
+        root::STUDY_PLACE.write(writer, &[], self.study_place.as_str())?;
+        root::STUDY_TOML.write(writer, &[], study_toml)?;
+        root::GRAVITY_M_S2.write(writer, &[], gravity_m_s2)?;
+        root::RECORD_SET.write(writer, &[], record_set)?;
+        root::SYNTHETIC.write(writer, &[], synthetic)?;
+        root::INPUT_CHECKSUMS.write(writer, &[], checksums)?;
+        root::WARNINGS.write(writer, &[], warnings.join("\n"))?;
+        root::THREADS.write(writer, &[], i64::try_from(self.threads).unwrap_or(i64::MAX))?;
+        root::WALL_TIME_S.write(writer, &[], self.wall_time_s)?;
+        root::PLATFORM.write(writer, &[], format!("{} {}", std::env::consts::OS, std::env::consts::ARCH))?;
         Ok(())
     }
 }

@@ -7,10 +7,10 @@ use uplift_motion::IntensityMeasure;
 use uplift_structure::UncertainQuantity;
 use uplift_study::Kind;
 
-use super::declared::group;
+use super::declared::{group, of_measure};
 use super::file::ResultFile;
+use super::layout::attribute::stripes::OSCILLATOR_KEY;
 use super::layout::axis::RECORD;
-use super::peaks::PEAKS;
 use crate::error::ResultError;
 
 /// What a result knows of its records; arrays run over `[record]`.
@@ -139,7 +139,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn oscillator_key(&self, measure: IntensityMeasure) -> Result<String, ResultError> {
-        Ok(self.reader.attribute::<String>(&PEAKS.of_measure(measure), "oscillator_key")?)
+        Ok(OSCILLATOR_KEY.read(&self.reader, &of_measure(measure))?)
     }
 
     /// What a result of uniform risk knows of its records.
@@ -148,8 +148,8 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn records(&self) -> Result<StoredRecords, ResultError> {
         self.require(Kind::UniformRisk)?;
-        let ids = self.reader.axis::<String>(RECORD)?;
-        let lengths = [(RECORD, ids.len())];
+        let ids = self.reader.axis::<String>(RECORD.name)?;
+        let lengths = [(RECORD.name, ids.len())];
         let intensity = |measure| {
             INTENSITY.read_array("<im>_<unit_key>", self, &intensity_names(measure), lengths).map(Array::into_values)
         };

@@ -7,6 +7,7 @@ use uplift_study::Kind;
 
 use super::declared::group;
 use super::file::ResultFile;
+use super::layout::attribute::shake_table as attribute;
 use super::layout::axis::{DIRECTION, EXCITATION, LEVEL, PERIOD};
 use crate::error::ResultError;
 
@@ -175,7 +176,7 @@ impl ShakeTable {
     /// # Errors
     /// Whatever keeps the file from being written.
     pub fn write(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
-        let lengths = &[(LEVEL, self.levels.len()), (EXCITATION, self.excitations.len())];
+        let lengths = &[(LEVEL.name, self.levels.len()), (EXCITATION.name, self.excitations.len())];
         TABLE_EXCITATIONS.write(writer, &[], lengths, self)?;
         TABLE_TESTS.write(writer, &[], lengths, self)?;
         TABLE_ORDER.write_array(writer, &[], &self.order())
@@ -219,16 +220,16 @@ impl ResultFile {
     pub fn shake_table(&self) -> Result<ShakeTable, ResultError> {
         self.require(Kind::ShakeTable)?;
         let reader = &self.reader;
-        let (names, ids) = (reader.axis::<String>(LEVEL)?, reader.axis::<String>(EXCITATION)?);
-        let (level, excitation) = ((LEVEL, names.len()), (EXCITATION, ids.len()));
+        let (names, ids) = (reader.axis::<String>(LEVEL.name)?, reader.axis::<String>(EXCITATION.name)?);
+        let (level, excitation) = ((LEVEL.name, names.len()), (EXCITATION.name, ids.len()));
         if names.is_empty() || ids.is_empty() {
             return Err(self.damaged("an axis of its tests is empty"));
         }
         let mut table = ShakeTable {
             records: self.record_set()?,
             synthetic: self.is_synthetic()?,
-            structure: reader.attribute::<String>(TABLE_EXCITATIONS.path, "structure")?,
-            length_scale: reader.attribute::<f64>(TABLE_EXCITATIONS.path, "length_scale")?,
+            structure: attribute::STRUCTURE.read(reader, &[])?,
+            length_scale: attribute::LENGTH_SCALE.read(reader, &[])?,
             levels: names.into_iter().map(|name| TableLevel { name, pgv_srss_m_s: f64::NAN }).collect(),
             tests: vec![TableTest::default(); level.1 * excitation.1],
             excitations: ids.into_iter().map(|exc_id| Excitation { exc_id, ..Excitation::default() }).collect(),
@@ -245,8 +246,8 @@ impl ResultFile {
         if !TABLE_SPECTRA.is_in(self, &[]) {
             return Ok(None);
         }
-        let periods_s = self.reader.axis::<f64>(PERIOD)?;
-        let lengths = [excitation, (DIRECTION, DIRECTIONS.len()), (PERIOD, periods_s.len())];
+        let periods_s = self.reader.axis::<f64>(PERIOD.name)?;
+        let lengths = [excitation, (DIRECTION.name, DIRECTIONS.len()), (PERIOD.name, periods_s.len())];
         let nan = |axes: &[(&str, usize)]| vec![f64::NAN; axes.iter().map(|(_, length)| length).product()];
         let design_m_s2 = DESIGN_SPECTRUM.is_in(self, &[]).then(|| nan(&lengths[2..]));
         let mut spectra = TableSpectra { periods_s, recorded_m_s2: nan(&lengths), design_m_s2 };

@@ -9,7 +9,8 @@ use uplift_risk::OrdinateFlag;
 
 use super::declared::{Group, Quantity, of_measure, quantity};
 use super::file::ResultFile;
-use super::layout::{HALF_WIDTHS, URS_PRECISION, axis};
+use super::layout::attribute::{Attribute, precision as attribute};
+use super::layout::axis;
 use crate::error::ResultError;
 
 /// The spectra of a result, read as its study says (`risk.contour`), with their coefficients.
@@ -229,7 +230,7 @@ impl MeasureSpectra {
     /// Lengths of the axes of its arrays.
     fn lengths(&self) -> [(&'static str, usize); 3] {
         let [sites, poes, strengths] = self.u_m.shape();
-        [(axis::SITE, sites), (axis::POE, poes), (axis::STRENGTH, strengths)]
+        [(axis::SITE.name, sites), (axis::POE.name, poes), (axis::STRENGTH.name, strengths)]
     }
 
     /// Writes the spectra into the group of their measure.
@@ -253,9 +254,7 @@ impl ResultFile {
     /// How well the records know the spectra, a sentence a measure; none in older results, and where nothing can be
     /// said.
     pub fn precision(&self) -> Vec<String> {
-        let words = |measure: IntensityMeasure| {
-            self.reader.attribute::<String>(&urs::GROUP.of_measure(measure), URS_PRECISION).ok()
-        };
+        let words = |measure: IntensityMeasure| attribute::PRECISION.read(&self.reader, &of_measure(measure)).ok();
         self.measures().into_iter().filter_map(words).collect()
     }
 
@@ -263,9 +262,8 @@ impl ResultFile {
     /// the records tell it one by one, and as their earthquakes tell it. None where no two pairs are known to share an
     /// earthquake, and in older results.
     pub fn half_widths(&self, measure: IntensityMeasure) -> Option<[f64; 2]> {
-        let group = urs::GROUP.of_measure(measure);
-        let [by_record, by_event] = HALF_WIDTHS.map(|name| self.reader.attribute::<f64>(&group, name).ok());
-        Some([by_record?, by_event?])
+        let width = |attribute: &Attribute<f64>| attribute.read(&self.reader, &of_measure(measure)).ok();
+        Some([width(&attribute::HALF_WIDTH)?, width(&attribute::HALF_WIDTH_BY_EVENT)?])
     }
 
     /// The spectra and coefficients of a result of uniform risk; of the risks that it was asked for, if it was

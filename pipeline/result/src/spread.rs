@@ -174,7 +174,12 @@ impl ResultFile {
                     let names = [of_measure(measure)[0], ("<site>", name)];
                     if over.group().is_in(self, &names) {
                         let mut spread = Spread { mean_m: nan(), fractiles_m: FRACTILES.map(|_| nan()) };
-                        over.group().read(self, &names, &[(POE, poes), (STRENGTH, strengths)], &mut spread)?;
+                        over.group().read(
+                            self,
+                            &names,
+                            &[(POE.name, poes), (STRENGTH.name, strengths)],
+                            &mut spread,
+                        )?;
                         spreads.push(StoredSpread { measure, over, site, spread });
                     }
                 }

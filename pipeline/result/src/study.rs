@@ -3,6 +3,7 @@
 use uplift_study::{AnyStudy, Kind, Study, UniformRiskStudy};
 
 use super::file::ResultFile;
+use super::layout::attribute::root;
 use crate::error::ResultError;
 
 impl ResultFile {
@@ -12,7 +13,7 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn stored_study(&self) -> Result<UniformRiskStudy, ResultError> {
         self.require(Kind::UniformRisk)?;
-        match Study::stored(&self.reader.attribute::<String>("/", "study_toml")?) {
+        match Study::stored(&root::STUDY_TOML.read(&self.reader, &[])?) {
             Ok(AnyStudy::UniformRisk(study)) => Ok(*study),
             Ok(other) => Err(self.damaged(format!("its study {} is of another kind", other.title()))),
             Err(error) => {

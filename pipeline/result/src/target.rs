@@ -10,6 +10,7 @@ use uplift_job::study_run::RunOptions;
 use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
 use uplift_study::AnyStudy;
 
+use super::layout::attribute::{Attribute, root};
 use super::provenance::place_of;
 use crate::error::ResultError;
 use crate::what_counts;
@@ -66,13 +67,13 @@ pub fn replaces_another(study: &AnyStudy, options: &RunOptions) -> Result<Option
     let path = options.result_file(&study.output().file);
     // whatever else is there was looked at by `check_place`
     let Some(earlier) = LabelledReader::open(path).ok().filter(|_| !options.force) else { return Ok(None) };
-    let text = |name: &str| earlier.attribute::<String>("/", name).unwrap_or_default();
-    if what_counts(&text("study_toml")) == what_counts(&study.to_toml()?) {
+    let text = |attribute: &Attribute<String>| attribute.read(&earlier, &[]).unwrap_or_default();
+    if what_counts(&text(&root::STUDY_TOML)) == what_counts(&study.to_toml()?) {
         return Ok(None);
     }
     let name = path.display();
     if !is_of_file(&text, study, &options.study_file) {
-        let other = text("study_file");
+        let other = text(&root::STUDY_FILE);
         return Ok(Some(format!("{name} is the result of another study ({other})")));
     }
     let sorted = |mut all: Vec<String>| {
@@ -81,8 +82,7 @@ pub fn replaces_another(study: &AnyStudy, options: &RunOptions) -> Result<Option
     };
     let own = sorted(options.overrides.clone());
     // what an earlier version wrote does not say
-    let kept =
-        earlier.attribute::<String>("/", "overrides").map(|all| sorted(all.lines().map(str::to_owned).collect()));
+    let kept = root::OVERRIDES.read(&earlier, &[]).map(|all| sorted(all.lines().map(str::to_owned).collect()));
     Ok(kept.ok().filter(|kept| *kept != own).map(|kept| {
         let said = |all: &[String]| match all {
             [] => "without --set".to_owned(),
@@ -94,10 +94,10 @@ pub fn replaces_another(study: &AnyStudy, options: &RunOptions) -> Result<Option
 
 /// Whether an earlier result is of this study file, which may have changed since: of the same place, or of the same
 /// name with the same title.
-fn is_of_file(text: &impl Fn(&str) -> String, study: &AnyStudy, file: &Path) -> bool {
+fn is_of_file(text: &impl Fn(&Attribute<String>) -> String, study: &AnyStudy, file: &Path) -> bool {
     let place = place_of(file);
-    let same_place = !place.is_empty() && text("study_place") == place;
-    let (kept, title) = (text("study_file"), text("title"));
+    let same_place = !place.is_empty() && text(&root::STUDY_PLACE) == place;
+    let (kept, title) = (text(&root::STUDY_FILE), text(&root::TITLE));
     let same_name = Path::new(&kept).file_name() == file.file_name();
     same_place || (same_name && !title.is_empty() && title == study.title())
 }
@@ -119,7 +119,7 @@ fn check_replaceable(path: &Path, force: bool) -> Result<(), ResultError> {
         return Err(refused("is not an HDF5 file").into());
     }
     match LabelledReader::open(path) {
-        Ok(reader) if reader.attribute::<String>("/", "program").is_ok_and(|program| program == "uplift") => Ok(()),
+        Ok(reader) if root::PROGRAM.read(&reader, &[]).is_ok_and(|program| program == "uplift") => Ok(()),
         Ok(_) => Err(refused("is an HDF5 file of another program").into()),
         // another program's, or one of ours that another program has written to
         Err(LabelledError::Unsealed { .. }) => {

@@ -76,5 +76,5 @@ pub fn write_branch_spectra(
 ) -> Result<(), LabelledError> {
     spectra.write_array(writer, names, branches.spectra_m.values())?;
     let [poes, strengths] = branches.spread.mean_m.shape();
-    spread.write(writer, names, &[(axis::POE, poes), (axis::STRENGTH, strengths)], &branches.spread)
+    spread.write(writer, names, &[(axis::POE.name, poes), (axis::STRENGTH.name, strengths)], &branches.spread)
 }

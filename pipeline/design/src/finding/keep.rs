@@ -7,11 +7,9 @@ use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::text::counted;
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_result::layout::{axis, structures};
-use uplift_result::{
-    DOCUMENT, Finding, LockedResult, REQUEST, STRUCTURE_FILE, STRUCTURE_SHA256, STRUCTURE_TOML, STUDY_DIGEST,
-    StoredFinding, sign,
-};
+use uplift_result::layout::attribute::{self, answer};
+use uplift_result::layout::axis;
+use uplift_result::{Finding, LockedResult, StoredFinding, sign};
 
 use crate::error::DesignError;
 
@@ -91,18 +89,20 @@ fn tell_of_another_file(finding: &Finding, earlier: &[StoredFinding], events: &d
 fn add(writer: &mut LabelledWriter, finding: &Finding, group: &str) -> Result<(), LabelledError> {
     sign(writer, group)?;
     let sha256 = finding.structure_sha256();
-    writer.attribute(&structures::group(&finding.structure), STRUCTURE_SHA256, sha256.as_str())?;
+    let key = finding.key();
+    let names = [("<command>", finding.inquiry.key()), ("<key>", &key), ("<structure>", &finding.structure)];
+    attribute::structure::STRUCTURE_SHA256.write(writer, &names, sha256.as_str())?;
     let request: Map<String, Value> =
         finding.request.iter().map(|(name, value)| (name.clone(), value.as_str().into())).collect();
-    for (name, text) in [
-        (STRUCTURE_FILE, finding.structure_file.as_str()),
-        (STRUCTURE_SHA256, &sha256),
-        (STRUCTURE_TOML, &finding.structure_toml),
-        (STUDY_DIGEST, &finding.study_digest),
-        (REQUEST, &Value::Object(request).to_string()),
-        (DOCUMENT, &finding.document),
+    for (attribute, text) in [
+        (answer::STRUCTURE_FILE, finding.structure_file.as_str()),
+        (answer::STRUCTURE_SHA256, &sha256),
+        (answer::STRUCTURE_TOML, &finding.structure_toml),
+        (answer::STUDY_DIGEST, &finding.study_digest),
+        (answer::REQUEST, &Value::Object(request).to_string()),
+        (answer::DOCUMENT, &finding.document),
     ] {
-        writer.attribute(group, name, text)?;
+        attribute.write(writer, &names, text)?;
     }
     finding.write_rows(writer)
 }

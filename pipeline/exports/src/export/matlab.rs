@@ -40,7 +40,7 @@ impl Export {
             let key = spectra.measure.key();
             // spectra come site by site, in each probability by probability: the order of MATLAB's columns
             let shape = Shape(vec![strengths.len(), poes.len(), sites.len()]);
-            let lengths = &[(SITE, sites.len()), (POE, poes.len()), (STRENGTH, strengths.len())];
+            let lengths = &[(SITE.name, sites.len()), (POE.name, poes.len()), (STRENGTH.name, strengths.len())];
             add(&mut file, urs::GROUP.exported(), lengths, spectra, |own| own.name_with(key));
             let rows = self.rows().filter(|row| row.spectrum.measure == spectra.measure);
             let quoted_m: Vec<[Vec<f64>; 2]> = rows.map(|row| row.quoted_m()).collect();
@@ -67,7 +67,7 @@ impl Export {
         let StoredSpectra { strengths, poes, sites, .. } = &self.spectra;
         for (of, least) in self.consistency.iter().zip(&self.least_effective) {
             let key = of.scaled_to.key();
-            let lengths = &[(SITE, sites.len()), (POE, poes.len())];
+            let lengths = &[(SITE.name, sites.len()), (POE.name, poes.len())];
             add(file, CONSISTENCY.exported(), lengths, of, |own| format!("consistency_{}_{key}", own.exported_name()));
             let verdicts: Vec<&str> = of.verdict.iter().map(String::as_str).collect();
             file.texts(&format!("consistency_verdict_{key}"), &verdicts);
@@ -128,7 +128,7 @@ impl Export {
 
     /// What `uplift measures` found, if it was run: columns over the strengths.
     fn add_efficiency(&self, file: &mut MatFile) {
-        let lengths = &[(STRENGTH, self.spectra.strengths.len())];
+        let lengths = &[(STRENGTH.name, self.spectra.strengths.len())];
         for of in &self.added.efficiency {
             let key = of.measure.key();
             add(file, EFFICIENCY.exported(), lengths, of, |own| own.name_with(key));
@@ -166,8 +166,9 @@ impl Export {
                 file.numbers(&name_with(kind, "failed", key), &of_sizes, failed.values());
             }
             for (kind, inferred) in kinds.filter_map(|(kind, own)| Some((kind, own.inferred?))) {
-                let sizes = (SAMPLE_SIZE, sizes.len());
-                let lengths = &[(SITE, sites.len()), (POE, poes.len()), sizes, (STRENGTH, strengths.len())];
+                let sizes = (SAMPLE_SIZE.name, sizes.len());
+                let lengths =
+                    &[(SITE.name, sites.len()), (POE.name, poes.len()), sizes, (STRENGTH.name, strengths.len())];
                 add(file, INFERRED_BANDS.quantities, lengths, inferred, |own| name_with(kind, own.name, key));
             }
         }

@@ -67,7 +67,7 @@ impl TestsExport {
         file.texts("warnings", &said.iter().map(String::as_str).collect::<Vec<_>>());
         file.texts("level", &levels.iter().map(|level| level.name.as_str()).collect::<Vec<_>>());
         file.texts("exc_id", &excitations.iter().map(|one| one.exc_id.as_str()).collect::<Vec<_>>());
-        let lengths = &[(LEVEL, levels.len()), (EXCITATION, excitations.len())];
+        let lengths = &[(LEVEL.name, levels.len()), (EXCITATION.name, excitations.len())];
         for group in [&TABLE_EXCITATIONS, &TABLE_TESTS] {
             add(&mut file, group.quantities, lengths, &self.table, |own| own.name.to_owned());
         }
@@ -77,7 +77,8 @@ impl TestsExport {
         if let Some(spectra) = &self.table.spectra {
             let count = spectra.periods_s.len();
             file.numbers("period_s", &Shape::column(count), &spectra.periods_s);
-            let lengths = &[(EXCITATION, excitations.len()), (DIRECTION, DIRECTIONS.len()), (PERIOD, count)];
+            let directions = (DIRECTION.name, DIRECTIONS.len());
+            let lengths = &[(EXCITATION.name, excitations.len()), directions, (PERIOD.name, count)];
             add(&mut file, TABLE_SPECTRA.quantities, lengths, spectra, |own| own.name.to_owned());
             if let Some(design_m_s2) = &spectra.design_m_s2 {
                 add(&mut file, DESIGN_SPECTRUM.quantities, lengths, design_m_s2, |own| own.name.to_owned());

@@ -8,6 +8,7 @@ use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::declared::Names;
+use uplift_result::layout::attribute::bootstrap as attribute;
 use uplift_result::layout::{axis, limit_names};
 use uplift_result::{
     BANDS, BandKind, BandsOfKind, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, InferredBands, JOINT_BANDS,
@@ -21,7 +22,7 @@ use crate::error::QuestionsError;
 
 /// Groups and axes of the file that bands replace.
 fn replaced() -> [String; 3] {
-    [BANDS.root().to_owned(), axis::path(axis::SAMPLE_SIZE), axis::path(axis::REPLICATE)]
+    [BANDS.root().to_owned(), axis::path(axis::SAMPLE_SIZE.name), axis::path(axis::REPLICATE.name)]
 }
 
 /// All that is written of a bootstrap.
@@ -73,16 +74,15 @@ pub(super) fn write_bands(locked: &LockedResult, file: &BandsFile<'_>) -> Result
 
 fn add_bands(writer: &mut LabelledWriter, file: &BandsFile<'_>) -> Result<(), LabelledError> {
     let BandsFile { stored, plan, settings, .. } = file;
-    writer.axis(axis::SAMPLE_SIZE, plan.sizes(), "1", "records drawn in a replicate")?;
+    axis::SAMPLE_SIZE.write(writer, &[], plan.sizes())?;
     let numbers: Vec<u32> = (0..).take(plan.replicates()).collect();
-    writer.axis(axis::REPLICATE, &numbers, "1", "number of the replicate")?;
-    let root = BANDS.root();
-    sign(writer, root)?;
-    writer.attribute(root, "plan", file.plan_source)?;
-    writer.attribute(root, "unit", plan.unit().key())?;
-    writer.attribute(root, "confidence", settings.confidence)?;
-    writer.attribute(root, "interval", settings.interval.key())?;
-    writer.attribute(root, "strength_above", settings.strength_above)?;
+    axis::REPLICATE.write(writer, &[], &numbers)?;
+    sign(writer, BANDS.root())?;
+    attribute::PLAN.write(writer, &[], file.plan_source)?;
+    attribute::UNIT.write(writer, &[], plan.unit().key())?;
+    attribute::CONFIDENCE.write(writer, &[], settings.confidence)?;
+    attribute::INTERVAL.write(writer, &[], settings.interval.key())?;
+    attribute::STRENGTH_ABOVE.write(writer, &[], settings.strength_above)?;
     let draws = StoredDraws {
         records: stored.records.len(),
         sizes: plan.sizes().to_vec(),

@@ -8,6 +8,7 @@ use uplift_job::table::{ColumnsOf, write_table};
 use uplift_job::text::finite;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::declared::Quantity;
+use uplift_result::layout::attribute::efficiency::SCALED_TO;
 use uplift_result::layout::axis;
 use uplift_result::{EFFICIENCY, EFFICIENCY_OF_STRIPES, LockedResult, StoredEfficiency, TRENDS, sign};
 use uplift_uniform_risk::StoredStripes;
@@ -19,7 +20,7 @@ use crate::error::QuestionsError;
 /// The groups that a new look replaces, with the axes of the measures that were computed from the runs of others.
 fn replaced(earlier: &[StoredEfficiency]) -> Vec<String> {
     let told = earlier.iter().filter(|of| of.scaled_to != of.measure);
-    let axes = told.map(|of| axis::path(&axis::common_level(of.measure)));
+    let axes = told.map(|of| axis::path(&axis::COMMON_LEVEL.of_measure(of.measure)));
     [EFFICIENCY.root(), TRENDS.root()].map(str::to_owned).into_iter().chain(axes).collect()
 }
 
@@ -56,15 +57,16 @@ fn add(
     for found in measures {
         let MeasureEfficiency { own, .. } = found;
         let measure = own.measure;
-        let levels = if own.scaled_to == measure { axis::level(measure) } else { axis::common_level(measure) };
+        let axis = if own.scaled_to == measure { axis::STRIPE_LEVEL } else { axis::COMMON_LEVEL };
+        let levels = axis.of_measure(measure);
         if own.scaled_to != measure {
-            let long_name = format!("level of {} that every record is brought to", measure.long_name());
-            writer.axis(&levels, &found.levels, measure.unit(), &long_name)?;
+            let names = [("<im>", measure.key()), ("<unit>", measure.unit()), ("<measure>", measure.long_name())];
+            axis.write(writer, &names, &found.levels)?;
         }
         let names = [("<im>", measure.key()), ("<levels>", &levels)];
-        let lengths = [(axis::STRENGTH, own.rocking.len()), (&levels, found.levels.len())];
+        let lengths = [(axis::STRENGTH.name, own.rocking.len()), (&levels, found.levels.len())];
         EFFICIENCY_OF_STRIPES.write(writer, &names, &lengths, &found.dispersions)?;
-        writer.attribute(&EFFICIENCY.of_measure(measure), "scaled_to", own.scaled_to.key())?;
+        SCALED_TO.write(writer, &names, own.scaled_to.key())?;
         EFFICIENCY.write(writer, &names, &lengths, own)?;
         for (covariate, trend) in covariates.iter().zip(&own.trends) {
             let names = [names[0], ("<covariate>", covariate.key), ("<with>", covariate.long_name)];

@@ -17,7 +17,7 @@ use crate::error::QuestionsError;
 
 /// The groups that a new look replaces.
 fn replaced(stored: &StoredStripes) -> Vec<String> {
-    let bins = stored.measures.iter().map(|own| axis::path(&axis::bin(own.measure)));
+    let bins = stored.measures.iter().map(|own| axis::path(&axis::BIN.of_measure(own.measure)));
     [INFLUENCE.root(), DISAGGREGATION.root()].map(str::to_owned).into_iter().chain(bins).collect()
 }
 
@@ -60,9 +60,8 @@ fn add(writer: &mut LabelledWriter, stored: &StoredStripes, influences: &[Influe
         }
         if !found.repaired {
             let from: Vec<f64> = std::iter::once(0.0).chain(measure.levels.iter().copied()).collect();
-            let long_name =
-                format!("{} from which a bin reaches up to the next, the last without end", found.measure.label());
-            writer.axis(&axis::bin(found.measure), &from, found.measure.unit(), &long_name)?;
+            let names = [names[0], ("<unit>", found.measure.unit()), ("<label>", found.measure.label())];
+            axis::BIN.write(writer, &names, &from)?;
         }
         disaggregation.write_array(writer, &names, found.shares.values())?;
     }

@@ -1,10 +1,12 @@
-//! The tables of arrays in `docs/hdf5-layout.md` are those declared.
+//! The tables of arrays, axes and attributes in `docs/hdf5-layout.md` are those declared.
 
 use std::fmt::Write as _;
 use std::path::Path;
 use std::{env, fs};
 
 use super::{Group, Names, Quantity, named};
+use crate::layout::attribute;
+use crate::layout::axis::{self, Axis};
 use crate::*;
 
 impl<T> Group<T> {
@@ -50,6 +52,11 @@ const EXAMPLES: Names<'_> = &[
     ("<many>", "branches or structures"),
     ("<levels>", "<im>_level"),
     ("<with>: ", ""),
+    (
+        "<group>",
+        "/bootstrap`, `/influence`, `/disaggregation`, `/efficiency`, `/sufficiency`, `/consistency`, \
+         `/structures/<structure>/<command>/<key>",
+    ),
     ("<im>", "pgv"),
 ];
 
@@ -119,25 +126,72 @@ fn declared() -> impl Iterator<Item = (&'static str, &'static str, String)> {
     .into_iter()
 }
 
-/// What stands before a table: the groups whose arrays it has.
-const MARK: (&str, &str) = ("<!-- arrays: ", " -->");
+impl Axis {
+    /// Its row of a table of axes in `docs/hdf5-layout.md`.
+    fn row(&self) -> String {
+        let Axis { name, unit, long_name, note } = self;
+        let note = if note.is_empty() { long_name } else { note };
+        // of an array this stands for both axes that it may have
+        let names = [&[("<branches>", "branch_<site>_<im>")], EXAMPLES].concat();
+        named(&format!("| `{name}` | {unit} | {note} |\n"), &names).into_owned()
+    }
+}
 
-/// The page with its tables of declared groups made again, and the groups in them.
-fn made_anew(page: &str) -> (String, Vec<&str>) {
+/// The row of an attribute of the root in its table in `docs/hdf5-layout.md`.
+fn root_row([name, element, note]: &[&str; 3]) -> String {
+    let element = if *element == "String" { "text" } else { element };
+    format!("| `{name}` | {element} | {note} |\n")
+}
+
+/// The row of another group in the tables of attributes.
+fn attributes_row(group: &str, all: &[[&str; 3]]) -> String {
+    let said = |[name, _, note]: &[&str; 3]| match *note {
+        "" => format!("`{name}`"),
+        note => format!("`{name}` ({note})"),
+    };
+    let all: Vec<String> = all.iter().map(said).collect();
+    named(&format!("| `{group}` | {} |\n", all.join(", ")), EXAMPLES).into_owned()
+}
+
+/// The kinds of tables, as the comments before them name them, with their headings.
+const TABLES: [(&str, &str); 4] = [
+    ("arrays", "| array | dimensions | type | unit | content |\n|---|---|---|---|---|\n"),
+    ("axes", "| `/axes/…` | unit | content |\n|---|---|---|\n"),
+    ("attributes", "| group | attributes |\n|---|---|\n"),
+    ("attributes of the root", "| attribute | type | content |\n|---|---|---|\n"),
+];
+
+/// Everything declared: the kind of its table, the name that the comment before the table lists, and its rows there.
+fn all_rows() -> Vec<(&'static str, &'static str, String)> {
+    let arrays = declared().map(|(_, path, rows)| ("arrays", path, rows));
+    let axes = axis::ALL.iter().map(|axis| ("axes", axis.name, axis.row()));
+    let attributes = attribute::ALL.iter().map(|(group, all)| match *group {
+        "/" => ("attributes of the root", *group, all.iter().map(root_row).collect()),
+        _ => ("attributes", *group, attributes_row(group, all)),
+    });
+    arrays.chain(axes).chain(attributes).collect()
+}
+
+/// The page with its tables of what is declared made again, and what is in them, by kind and name.
+fn made_anew(page: &str) -> (String, Vec<(&str, &str)>) {
     let (mut made, mut shown) = (String::new(), Vec::new());
+    let all = all_rows();
     let mut lines = page.lines().peekable();
     while let Some(line) = lines.next() {
         writeln!(made, "{line}").unwrap();
-        let Some(paths) = line.strip_prefix(MARK.0).and_then(|rest| rest.strip_suffix(MARK.1)) else { continue };
+        let marked = line.strip_prefix("<!-- ").and_then(|rest| rest.strip_suffix(" -->")?.split_once(": "));
+        let Some((kind, names)) = marked else { continue };
+        let Some((_, heading)) = TABLES.iter().find(|(own, _)| *own == kind) else { continue };
         while lines.next_if(|line| line.is_empty()).is_some() {}
         while lines.next_if(|line| line.starts_with('|')).is_some() {}
         while lines.next_if(|line| line.is_empty()).is_some() {}
-        made.push_str("\n| array | dimensions | type | unit | content |\n|---|---|---|---|---|\n");
-        for path in paths.split(", ") {
-            let rows: String = declared().filter(|(_, own, _)| *own == path).map(|(.., rows)| rows).collect();
-            assert!(!rows.is_empty(), "no group {path} is declared");
+        write!(made, "\n{heading}").unwrap();
+        for name in names.split(", ") {
+            let rows = all.iter().filter(|(of, own, _)| (*of, *own) == (kind, name)).map(|(.., rows)| rows.as_str());
+            let rows: String = rows.collect();
+            assert!(!rows.is_empty(), "{kind}: {name} is not declared");
             made.push_str(&rows);
-            shown.push(path);
+            shown.push((kind, name));
         }
         if lines.peek().is_some() {
             made.push('\n');
@@ -147,12 +201,12 @@ fn made_anew(page: &str) -> (String, Vec<&str>) {
 }
 
 #[test]
-fn the_documentation_has_every_declared_array() {
+fn the_documentation_has_all_that_is_declared() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/hdf5-layout.md");
     let page = fs::read_to_string(&path).unwrap();
     let (made, shown) = made_anew(&page);
-    for (_, group, _) in declared() {
-        assert!(shown.contains(&group), "docs/hdf5-layout.md has no table of {group}");
+    for (kind, name, _) in all_rows() {
+        assert!(shown.contains(&(kind, name)), "docs/hdf5-layout.md has no table of {kind} with {name}");
     }
     if env::var_os("UPDATE_DOCS").is_some() {
         fs::write(&path, &made).unwrap();

@@ -2,6 +2,7 @@
 
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::declared::Lengths;
+use uplift_result::layout::attribute::design as attribute;
 use uplift_result::layout::axis;
 use uplift_result::{RESTRAINED_DESIGN, ROUNDING, RULES, SOLITARY_CAPACITY, SOLITARY_DESIGN, VALUES, rule_names};
 use uplift_study::{DesignPlan, Designed, DisplacementStudy, Structures};
@@ -17,7 +18,7 @@ pub(super) fn write(
 ) -> Result<(), LabelledError> {
     match designs {
         Designs::Restrained(examples) => {
-            writer.axis_text(axis::RULE, &RULES.map(|rule| rule_names(rule)[0].to_owned()), "design rule")?;
+            axis::RULE.write_texts(writer, &[], &RULES.map(|rule| rule_names(rule)[0].to_owned()))?;
             let (values, rounding) =
                 (examples.iter().map(|own| &own.example), examples.iter().map(|own| &own.rounding));
             RESTRAINED_DESIGN.write_rows(writer, &VALUES, lengths, values.map(Some))?;
@@ -31,20 +32,19 @@ pub(super) fn write(
             SOLITARY_CAPACITY.write_rows(writer, &[], lengths, values())?;
         }
     }
-    let group = RESTRAINED_DESIGN.path;
-    writer.attribute(group, "safety_factor", plan.safety_factor)?;
-    writer.attribute(group, "percentile", plan.percentile)?;
-    writer.attribute(group, "noise_relative", plan.noise_relative)?;
-    writer.attribute(group, "noise_points", plan.noise_points as u64)?;
+    attribute::SAFETY_FACTOR.write(writer, &[], plan.safety_factor)?;
+    attribute::PERCENTILE.write(writer, &[], plan.percentile)?;
+    attribute::NOISE_RELATIVE.write(writer, &[], plan.noise_relative)?;
+    attribute::NOISE_POINTS.write(writer, &[], plan.noise_points as u64)?;
     match (plan.designed, &study.structures) {
         (Designed::Bridge { width_m, height_m }, Structures::Oscillators(family)) => {
-            writer.attribute(group, "strength", strength(width_m, height_m))?;
-            writer.attribute(group, "uplift_displacement_m", family.uplift_displacement_m[0])?;
-            writer.attribute(group, "least_capacity_m", width_m)
+            attribute::STRENGTH.write(writer, &[], strength(width_m, height_m))?;
+            attribute::UPLIFT_DISPLACEMENT_M.write(writer, &[], family.uplift_displacement_m[0])?;
+            attribute::LEAST_CAPACITY_M.write(writer, &[], width_m)
         }
         (Designed::Block { height_m, endless_height_m }, _) => {
-            writer.attribute(group, "height_m", height_m)?;
-            writer.attribute(group, "endless_height_m", endless_height_m)
+            attribute::HEIGHT_M.write(writer, &[], height_m)?;
+            attribute::ENDLESS_HEIGHT_M.write(writer, &[], endless_height_m)
         }
         (Designed::Bridge { .. }, Structures::Blocks(_)) => Ok(()),
     }

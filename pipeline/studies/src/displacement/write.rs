@@ -5,7 +5,7 @@ use std::path::Path;
 
 use uplift_inputs::{NamedSet, RecordSets, SetRecord};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_result::layout::axis as axes;
+use uplift_result::layout::{attribute, axis};
 use uplift_result::{
     BOUNDS, MOTIONS, Provenance, ROUNDED_SPECTRA, RULES, SET_SPECTRA, SPECTRA, SetSpectra, StoredMotion,
     StoredStructures,
@@ -50,14 +50,14 @@ impl DisplacementOutcome<'_> {
         let ([abscissa, printed_axis], abscissae) = (structures.abscissa_axes(), of_study.abscissa());
         let mut lengths = structures.line_axes();
         lengths.extend([
-            (axes::RECORD_SET, self.sets.len()),
-            (axes::SCALING, scaling.to.len()),
-            (axes::SCALED_BY, scaling.by.len()),
-            (axes::PERCENTILE, percentiles.len()),
+            (axis::RECORD_SET.name, self.sets.len()),
+            (axis::SCALING.name, scaling.to.len()),
+            (axis::SCALED_BY.name, scaling.by.len()),
+            (axis::PERCENTILE.name, percentiles.len()),
             (abscissa, abscissae.len()),
             (printed_axis, printed(abscissae).len()),
-            (axes::RULE, RULES.len()),
-            (axes::BOUND, BOUNDS.len()),
+            (axis::RULE.name, RULES.len()),
+            (axis::BOUND.name, BOUNDS.len()),
         ]);
         lengths
     }
@@ -72,26 +72,25 @@ pub(crate) fn write_displacements(path: &Path, outcome: &DisplacementOutcome<'_>
     write_root(&mut writer, outcome)?;
     let structures = StoredStructures::from(&outcome.study.structures);
     let (names, lengths) = (structures.names(), outcome.lengths(&structures));
-    write_axes(&mut writer, outcome, structures.abscissa_axes())?;
+    write_axes(&mut writer, outcome)?;
     SPECTRA.write_rows(&mut writer, &names, &lengths, outcome.spectra.iter().map(Some))?;
     ROUNDED_SPECTRA.write_rows(&mut writer, &names, &lengths, outcome.rounding.iter().map(Some))?;
-    writer.attribute(SPECTRA.path, "analyses", outcome.analyses)?;
-    writer.attribute(SPECTRA.path, "seconds", outcome.seconds)?;
+    attribute::spectra::ANALYSES.write(&mut writer, &[], outcome.analyses)?;
+    attribute::spectra::SECONDS.write(&mut writer, &[], outcome.seconds)?;
     let mut taken = BTreeSet::new();
     for ((set, motions), spectra) in outcome.records.sets.iter().zip(outcome.sets).zip(outcome.spectra) {
-        let axis = axes::motion(&set.name, &mut taken);
+        let axis = axis::motion(&set.name, &mut taken);
         let names = [&names[..], &[("<set>", &set.name), ("<motion>", &axis)]].concat();
         let lengths = [&lengths[..], &[(&axis, motions.motions().len())]].concat();
         let ids: Vec<String> = motions.motions().iter().map(|motion| motion.id.clone()).collect();
-        writer.axis_text(&axis, &ids, "component of a record")?;
+        axis::MOTION.write_texts(&mut writer, &names, &ids)?;
         SET_SPECTRA.write(&mut writer, &names, &lengths, spectra)?;
         let stored = stored_motions(outcome.records, set, motions);
         MOTIONS.write_rows(&mut writer, &names, &lengths, stored.iter().map(Some))?;
-        let group = MOTIONS.group(&names);
-        writer.attribute(&group, "records", set.members.len() as u64)?;
-        writer.attribute(&group, "tag", set.tag.as_str())?;
-        writer.attribute(&group, "median_pga_g", motions.median_pga_g())?;
-        writer.attribute(&group, "median_pgv_cm_s", motions.median_pgv_cm_s())?;
+        attribute::set::RECORDS.write(&mut writer, &names, set.members.len() as u64)?;
+        attribute::set::TAG.write(&mut writer, &names, set.tag.as_str())?;
+        attribute::set::MEDIAN_PGA_G.write(&mut writer, &names, motions.median_pga_g())?;
+        attribute::set::MEDIAN_PGV_CM_S.write(&mut writer, &names, motions.median_pgv_cm_s())?;
     }
     if let (Some(designs), Some(plan)) = (outcome.designs, &outcome.study.design) {
         design::write(&mut writer, outcome.study, plan, designs, &lengths)?;
@@ -105,45 +104,41 @@ fn write_root(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) ->
     let toml = study.to_toml()?;
     let own = (study.title.as_str(), study.gravity_m_s2, toml.as_str());
     outcome.provenance.write(writer, own, (&records.description, records.synthetic), outcome.warnings)?;
-    writer.attribute("/", "kind", Kind::Displacement.key())?;
+    attribute::root::KIND.write(writer, &[], Kind::Displacement.key())?;
     let structure = match study.structures {
         Structures::Oscillators(_) => "oscillator",
         Structures::Blocks(_) => "block",
     };
-    writer.attribute("/", "structure", structure)?;
+    attribute::root::STRUCTURE.write(writer, &[], structure)?;
     Ok(())
 }
 
-fn write_axes(
-    writer: &mut LabelledWriter,
-    outcome: &DisplacementOutcome<'_>,
-    [abscissa, printed_axis]: [&str; 2],
-) -> Result<(), LabelledError> {
+fn write_axes(writer: &mut LabelledWriter, outcome: &DisplacementOutcome<'_>) -> Result<(), LabelledError> {
     let study = outcome.study;
     let names: Vec<String> = outcome.records.sets.iter().map(|set| set.name.clone()).collect();
-    writer.axis_text(axes::RECORD_SET, &names, "record set")?;
+    axis::RECORD_SET.write_texts(writer, &[], &names)?;
     let to: Vec<String> = study.scaling.to.iter().map(ToString::to_string).collect();
-    writer.axis_text(axes::SCALING, &to, "what motions are scaled to, a multiple of the set's median peak")?;
+    axis::SCALING.write_texts(writer, &[], &to)?;
     let by: Vec<String> = study.scaling.by.iter().map(|by| by.key().to_owned()).collect();
-    writer.axis_text(axes::SCALED_BY, &by, "whose peak is scaled")?;
-    match &study.structures {
+    axis::SCALED_BY.write_texts(writer, &[], &by)?;
+    let printed_axis = match &study.structures {
         Structures::Oscillators(family) => {
-            let uplift = &family.uplift_displacement_m;
-            writer.axis(axes::UPLIFT_DISPLACEMENT, uplift, "m", "displacement at uplift u_up")?;
-            let long_name = "displacement capacity u_cap, infinite for zero post-uplift stiffness";
-            writer.axis(axes::CAPACITY, &family.capacity_m, "m", long_name)?;
-            writer.axis(axes::STRENGTH, &family.strengths, "1", "uplift strength f_up/(m g)")?;
+            axis::UPLIFT_DISPLACEMENT.write(writer, &[], &family.uplift_displacement_m)?;
+            axis::CAPACITY.write(writer, &[], &family.capacity_m)?;
+            axis::STRENGTH.write(writer, &[], &family.strengths)?;
+            axis::PRINTED_STRENGTH
         }
         Structures::Blocks(family) => {
-            writer.axis(axes::HEIGHT, &family.height_m, "m", "height 2H of the block")?;
-            writer.axis(axes::SLENDERNESS, &family.slendernesses, "1", "slenderness tan(alpha)")?;
+            axis::HEIGHT.write(writer, &[], &family.height_m)?;
+            axis::SLENDERNESS.write(writer, &[], &family.slendernesses)?;
+            axis::PRINTED_SLENDERNESS
         }
-    }
+    };
     let abscissae = study.structures.abscissa();
     let shown: Vec<f64> = printed(abscissae).into_iter().map(|at| abscissae[at]).collect();
-    writer.axis(printed_axis, &shown, "1", &format!("{abscissa} at which a run prints its spectra"))?;
-    writer.axis(axes::PERCENTILE, &study.percentiles, "%", "percentile over the motions of a set")?;
-    writer.axis_text(axes::BOUND, &BOUNDS.map(str::to_owned), "a value, and its range over a small sweep")
+    printed_axis.write(writer, &[], &shown)?;
+    axis::PERCENTILE.write(writer, &[], &study.percentiles)?;
+    axis::BOUND.write_texts(writer, &[], &BOUNDS.map(str::to_owned))
 }
 
 /// What a result holds of the motions of a set: two a record.

@@ -3,10 +3,8 @@
 use std::path::Path;
 
 use uplift_labelled::LabelledWriter;
-use uplift_result::layout::axis;
-use uplift_result::{
-    DESIGN_SPECTRUM, DIRECTIONS, Provenance, ShakeTable, TABLE_EXCITATIONS, TABLE_SPECTRA, TableSpectra,
-};
+use uplift_result::layout::{attribute, axis};
+use uplift_result::{DESIGN_SPECTRUM, DIRECTIONS, Provenance, ShakeTable, TABLE_SPECTRA, TableSpectra};
 use uplift_study::{Kind, ShakeTableStudy};
 
 use crate::error::StudiesError;
@@ -36,26 +34,26 @@ pub(crate) fn write_shake_table(path: &Path, outcome: &ShakeTableOutcome<'_>) ->
     let toml = study.to_toml()?;
     let own = (study.title.as_str(), study.gravity_m_s2, toml.as_str());
     outcome.provenance.write(&mut writer, own, (&table.records, table.synthetic), outcome.warnings)?;
-    writer.attribute("/", "kind", Kind::ShakeTable.key())?;
+    attribute::root::KIND.write(&mut writer, &[], Kind::ShakeTable.key())?;
     let names: Vec<String> = table.levels.iter().map(|level| level.name.clone()).collect();
     let excitations: Vec<String> = table.excitations.iter().map(|one| one.exc_id.clone()).collect();
-    writer.axis_text(axis::LEVEL, &names, "level of shaking")?;
-    writer.axis_text(axis::EXCITATION, &excitations, "excitation")?;
+    axis::LEVEL.write_texts(&mut writer, &[], &names)?;
+    axis::EXCITATION.write_texts(&mut writer, &[], &excitations)?;
     table.write(&mut writer)?;
     table.spectra.iter().try_for_each(|spectra| write_spectra(&mut writer, spectra, excitations.len()))?;
-    writer.attribute(TABLE_EXCITATIONS.path, "structure", table.structure.as_str())?;
-    writer.attribute(TABLE_EXCITATIONS.path, "length_scale", table.length_scale)?;
-    writer.attribute(TABLE_EXCITATIONS.path, "analyses", table.tests.len() as u64)?;
-    writer.attribute(TABLE_EXCITATIONS.path, "seconds", outcome.seconds)?;
+    attribute::shake_table::STRUCTURE.write(&mut writer, &[], table.structure.as_str())?;
+    attribute::shake_table::LENGTH_SCALE.write(&mut writer, &[], table.length_scale)?;
+    attribute::shake_table::ANALYSES.write(&mut writer, &[], table.tests.len() as u64)?;
+    attribute::shake_table::SECONDS.write(&mut writer, &[], outcome.seconds)?;
     writer.finish()?;
     Ok(())
 }
 
 fn write_spectra(writer: &mut LabelledWriter, spectra: &TableSpectra, excitations: usize) -> Result<(), StudiesError> {
-    writer.axis_text(axis::DIRECTION, &DIRECTIONS.map(str::to_owned), "horizontal component")?;
-    writer.axis(axis::PERIOD, &spectra.periods_s, "s", "natural period in the time of the table")?;
-    let periods = (axis::PERIOD, spectra.periods_s.len());
-    let lengths = [(axis::EXCITATION, excitations), (axis::DIRECTION, DIRECTIONS.len()), periods];
+    axis::DIRECTION.write_texts(writer, &[], &DIRECTIONS.map(str::to_owned))?;
+    axis::PERIOD.write(writer, &[], &spectra.periods_s)?;
+    let periods = (axis::PERIOD.name, spectra.periods_s.len());
+    let lengths = [(axis::EXCITATION.name, excitations), (axis::DIRECTION.name, DIRECTIONS.len()), periods];
     TABLE_SPECTRA.write(writer, &[], &lengths, spectra)?;
     spectra.design_m_s2.iter().try_for_each(|design| DESIGN_SPECTRUM.write(writer, &[], &lengths, design))?;
     Ok(())

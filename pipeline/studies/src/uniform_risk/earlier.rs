@@ -8,6 +8,7 @@ use uplift_ida::{Axes, Cells};
 use uplift_inputs::{Record, RecordSet, motion_keys};
 use uplift_labelled::{LabelledError, LabelledReader};
 use uplift_result::declared::of_measure;
+use uplift_result::layout::attribute::stripes::OSCILLATOR_KEY;
 use uplift_result::layout::axis;
 use uplift_result::{FACTORS, IMPACTS, INTENSITY, MOTION_KEYS, PEAKS, ResultFile, intensity_names};
 use uplift_study::{MeasurePlan, UniformRiskStudy};
@@ -39,8 +40,8 @@ impl EarlierStripes {
         cells: &mut Cells,
     ) -> Result<(), LabelledError> {
         let reader = &self.reader;
-        let (group, names) = (PEAKS.of_measure(measure.measure), of_measure(measure.measure));
-        if !reader.exists(&group) || reader.attribute::<String>(&group, "oscillator_key")? != oscillator_key(study) {
+        let names = of_measure(measure.measure);
+        if !reader.exists(&PEAKS.group(&names)) || OSCILLATOR_KEY.read(reader, &names)? != oscillator_key(study) {
             return Ok(());
         }
         if reader.exists(&FACTORS.first_path(&names)) {
@@ -51,8 +52,8 @@ impl EarlierStripes {
         let positions = |values: &[f64]| -> HashMap<u64, usize> {
             values.iter().enumerate().map(|(index, value)| (value.to_bits(), index)).collect()
         };
-        let strengths = reader.axis::<f64>(axis::STRENGTH)?;
-        let levels = reader.axis::<f64>(&axis::level(measure.measure))?;
+        let strengths = reader.axis::<f64>(axis::STRENGTH.name)?;
+        let levels = reader.axis::<f64>(&axis::STRIPE_LEVEL.of_measure(measure.measure))?;
         let edp_m = reader.array::<f64>(&PEAKS.first_path(&names))?;
         let impacts = reader.array::<u32>(&IMPACTS.first_path(&names))?;
         let stored = Axes { motions: stored_motions.len(), systems: strengths.len(), scales: levels.len() };

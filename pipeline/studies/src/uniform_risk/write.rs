@@ -8,10 +8,11 @@ use uplift_inputs::{DrawnStructure, Record, motion_keys};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::{Combination, IntensityMeasure};
 use uplift_result::declared::of_measure;
-use uplift_result::layout::{HALF_WIDTHS, URS_PRECISION, axis};
+use uplift_result::layout::attribute::root;
+use uplift_result::layout::{attribute, axis};
 use uplift_result::{
     DRAWN_QUANTITY, DRAWN_STRUCTURE, FACTORS, IMPACTS, INTENSITY, KeptGroups, MOTION_KEYS, MeasureSpectra, PEAKS,
-    RECORDS, RISK_SURFACE, SHARES, StoredRecords, drawn_names, intensity_names, urs,
+    RECORDS, RISK_SURFACE, SHARES, StoredRecords, drawn_names, intensity_names,
 };
 use uplift_uniform_risk::consistency::Keep;
 
@@ -53,34 +54,38 @@ fn write_root(writer: &mut LabelledWriter, outcome: &ComputedStudy<'_>) -> Resul
     let toml = study.to_toml()?;
     let own = (study.title.as_str(), study.gravity_m_s2, toml.as_str());
     outcome.provenance.write(writer, own, (&records.description, records.synthetic), outcome.warnings)?;
-    writer.attribute("/", "seed", study.seed)?;
-    writer.attribute("/", "poe_years", study.risk.years)?;
-    writer.attribute("/", "contour", study.risk.contour.key())?;
+    root::SEED.write(writer, &[], study.seed)?;
+    root::POE_YEARS.write(writer, &[], study.risk.years)?;
+    root::CONTOUR.write(writer, &[], study.risk.contour.key())?;
     Ok(())
 }
 
 fn write_axes(writer: &mut LabelledWriter, outcome: &ComputedStudy<'_>) -> Result<(), LabelledError> {
     let study = outcome.study;
     let ids: Vec<String> = outcome.records.records.iter().map(|record| record.id.clone()).collect();
-    writer.axis_text(axis::RECORD, &ids, "ground motion record")?;
-    writer.axis(axis::STRENGTH, &study.strengths, "1", "uplift strength f_up/(m g)")?;
+    axis::RECORD.write_texts(writer, &[], &ids)?;
+    axis::STRENGTH.write(writer, &[], &study.strengths)?;
     for plan in &study.measures {
-        let intensity = study.records.intensity.long_name();
-        let long_name = format!("stripe level of {}, {intensity}", plan.measure.long_name());
-        writer.axis(&axis::level(plan.measure), &plan.levels, plan.measure.unit(), &long_name)?;
+        let (measure, combination) = (plan.measure, study.records.intensity.long_name());
+        let names = [
+            ("<im>", measure.key()),
+            ("<unit>", measure.unit()),
+            ("<measure>", measure.long_name()),
+            ("<combination>", combination),
+        ];
+        axis::STRIPE_LEVEL.write(writer, &names, &plan.levels)?;
     }
     if study.risk.maf_surface {
-        writer.axis(axis::THRESHOLD, &study.risk.thresholds_m, "m", "displacement threshold")?;
+        axis::THRESHOLD.write(writer, &[], &study.risk.thresholds_m)?;
     }
     if let Some(structures) = outcome.spectra.first().and_then(|spectra| spectra.structures.first()) {
-        writer.axis_text(axis::STRUCTURE, &structures.names, "possible structure")?;
+        axis::STRUCTURE.write_texts(writer, &[], &structures.names)?;
     }
     let sites: Vec<String> = study.sites.iter().map(|site| site.name.clone()).collect();
     if !sites.is_empty() {
-        writer.axis_text(axis::SITE, &sites, "site")?;
+        axis::SITE.write_texts(writer, &[], &sites)?;
     }
-    let years = study.risk.years;
-    writer.axis(axis::POE, &study.risk.poe, "1", &format!("probability of exceedance in {years} years"))
+    axis::POE.write(writer, &[("<years>", &study.risk.years.to_string())], &study.risk.poe)
 }
 
 fn write_records(
@@ -89,7 +94,7 @@ fn write_records(
     combination: Combination,
 ) -> Result<(), LabelledError> {
     let stored = stored_records(records);
-    let lengths = [(axis::RECORD, records.len())];
+    let lengths = [(axis::RECORD.name, records.len())];
     RECORDS.write(writer, &[], &lengths, &stored)?;
     MOTION_KEYS.write(writer, &[], &lengths, &stored)?;
     for measure in IntensityMeasure::OF_CHAPTER_4.into_iter().chain(stored.further.keys().copied()) {
@@ -150,7 +155,6 @@ fn write_measure(
     stored: &MeasureSpectra,
 ) -> Result<(), LabelledError> {
     let (stripes, measure) = (&outcome.stripes[index], stored.measure);
-    let group = PEAKS.of_measure(measure);
     let not_of_level =
         if stripes.at_level.is_some() { ", NaN where the record does not belong to the level" } else { "" };
     let names = [of_measure(measure)[0], ("<not_of_level>", not_of_level)];
@@ -162,9 +166,9 @@ fn write_measure(
             SHARES.write_array(writer, &names, shares)?;
         }
     }
-    writer.attribute(&group, "oscillator_key", oscillator_key(outcome.study).as_str())?;
-    writer.attribute(&group, "analyses", stripes.analyses)?;
-    writer.attribute(&group, "seconds", stripes.seconds)?;
+    attribute::stripes::OSCILLATOR_KEY.write(writer, &names, oscillator_key(outcome.study))?;
+    attribute::stripes::ANALYSES.write(writer, &names, stripes.analyses)?;
+    attribute::stripes::SECONDS.write(writer, &names, stripes.seconds)?;
 
     let spectra = &outcome.spectra[index];
     if spectra.ordinates.values().is_empty() {
@@ -175,11 +179,10 @@ fn write_measure(
     }
     stored.write_spectra(writer)?;
     if let Some(precision) = outcome.precision.iter().find(|own| own.im == measure.label()) {
-        let group = urs::GROUP.of_measure(measure);
-        writer.attribute(&group, URS_PRECISION, precision.words().as_str())?;
-        let widths = [Some(precision.half_width[0]), precision.half_width_by_event];
-        for (name, width) in HALF_WIDTHS.into_iter().zip(widths) {
-            width.map(|width| writer.attribute(&group, name, width)).transpose()?;
+        attribute::precision::PRECISION.write(writer, &names, precision.words())?;
+        attribute::precision::HALF_WIDTH.write(writer, &names, precision.half_width[0])?;
+        if let Some(width) = precision.half_width_by_event {
+            attribute::precision::HALF_WIDTH_BY_EVENT.write(writer, &names, width)?;
         }
     }
     write_branches(writer, outcome, spectra)?;

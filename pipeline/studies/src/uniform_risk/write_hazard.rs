@@ -7,6 +7,7 @@ use uplift_hazard::HazardCurve;
 use uplift_inputs::{HazardInput, OtherHazard, SiteHazard};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_result::declared::of_measure;
+use uplift_result::layout::attribute::curve as attribute;
 use uplift_result::layout::axis;
 use uplift_result::{
     BRANCH_WEIGHTS, EPISTEMIC, EPISTEMIC_SPECTRA, HAZARD_CURVE, UNCERTAINTY, UNCERTAINTY_SPECTRA, branch_curve_name,
@@ -25,9 +26,9 @@ pub(super) fn write_hazard(writer: &mut LabelledWriter, hazard: &[Vec<SiteHazard
         write_curve(writer, of_input(&site.curve), &curve_name(&site.site, site.measure), &axis, label)?;
         for (index, branch) in site.branches.iter().enumerate() {
             let name = branch_curve_name(&site.site, site.measure, index);
-            let group = write_curve(writer, of_input(&branch.input), &name, &format!("{axis}_{}", index + 1), label)?;
-            writer.attribute(&group, "name", branch.name.as_str())?;
-            writer.attribute(&group, "weight", branch.weight)?;
+            write_curve(writer, of_input(&branch.input), &name, &format!("{axis}_{}", index + 1), label)?;
+            attribute::NAME.write(writer, &[("<curve>", &name)], branch.name.as_str())?;
+            attribute::WEIGHT.write(writer, &[("<curve>", &name)], branch.weight)?;
         }
     }
     Ok(())
@@ -45,23 +46,21 @@ pub(super) fn write_other_hazard(writer: &mut LabelledWriter, hazard: &[OtherHaz
     Ok(())
 }
 
-/// Write a curve of this name; its group.
+/// Write a curve of this name.
 fn write_curve(
     writer: &mut LabelledWriter,
     (curve, file): (&HazardCurve, Option<&Path>),
     name: &str,
     axis: &str,
     label: &str,
-) -> Result<String, LabelledError> {
-    writer.axis(axis, curve.im(), curve.unit(), &format!("{label} of the hazard curve"))?;
-    let names = [("<curve>", name), ("<axis>", axis)];
+) -> Result<(), LabelledError> {
+    let names = [("<curve>", name), ("<axis>", axis), ("<unit>", curve.unit()), ("<label>", label)];
+    axis::HAZARD.write(writer, &names, curve.im())?;
     HAZARD_CURVE.write(writer, &names, &[(axis, curve.maf().len())], curve)?;
-    let group = HAZARD_CURVE.group(&names);
     let file = file.map(|file| file.display().to_string()).unwrap_or_default();
-    writer.attribute(&group, "source", curve.source())?;
-    writer.attribute(&group, "file", file.as_str())?;
-    writer.attribute(&group, "unit", curve.unit())?;
-    Ok(group)
+    attribute::SOURCE.write(writer, &names, curve.source())?;
+    attribute::FILE.write(writer, &names, file)?;
+    attribute::UNIT.write(writer, &names, curve.unit())
 }
 
 fn of_input(input: &HazardInput) -> (&HazardCurve, Option<&Path>) {
@@ -78,8 +77,8 @@ pub(super) fn write_branches(
     for branches in &spectra.branches {
         let site = &outcome.study.sites[branches.site].name;
         let axis = axis::branch(site, spectra.measure, &mut axes);
-        writer.axis_text(&axis, &branches.names, "branch of the hazard")?;
         let own = [of_measure(spectra.measure)[0], ("<site>", site), ("<branches>", &axis)];
+        axis::BRANCH.write_texts(writer, &own, &branches.names)?;
         BRANCH_WEIGHTS.write_array(writer, &own, &branches.weights)?;
         let groups = (&EPISTEMIC_SPECTRA, &EPISTEMIC);
         write_branch_spectra(writer, branches, groups, &[&own[..], &BRANCHES].concat())?;
@@ -96,7 +95,7 @@ pub(super) fn write_structures(
     for structures in &spectra.structures {
         let site = &outcome.study.sites[structures.site].name;
         let words = [("<one>", "structure"), ("<many>", "structures")];
-        let own = [of_measure(spectra.measure)[0], ("<site>", site), ("<branches>", axis::STRUCTURE)];
+        let own = [of_measure(spectra.measure)[0], ("<site>", site), ("<branches>", axis::STRUCTURE.name)];
         let groups = (&UNCERTAINTY_SPECTRA, &UNCERTAINTY);
         write_branch_spectra(writer, structures, groups, &[own.as_slice(), &words].concat())?;
     }

@@ -22,7 +22,7 @@ use crate::{BRANCHES, write_branch_spectra};
 
 /// The groups and axes that a new look replaces.
 pub fn replaced() -> Vec<String> {
-    let axes = [axis::RATE, axis::KNOT].map(axis::path);
+    let axes = [axis::RATE.name, axis::KNOT.name].map(axis::path);
     std::iter::once(CONSISTENCY.root().to_owned()).chain(axes).collect()
 }
 
@@ -58,9 +58,9 @@ pub fn add(
     writer.attribute(CONSISTENCY.root(), "smoothness", question.settings.smoothness)?;
     writer.attribute(CONSISTENCY.root(), "repair", if repairs.is_empty() { "none" } else { "weights" })?;
     let rates: Vec<u32> = (1..).take(DEVIATION_RATES).collect();
-    writer.axis(axis::RATE, &rates, "1", "annual rate at which hazards are compared, the most frequent first")?;
+    axis::RATE.write(writer, &[], &rates)?;
     let knots: Vec<u32> = (1..).take(KNOTS).collect();
-    writer.axis(axis::KNOT, &knots, "1", "knot of the weights' exponent")?;
+    axis::KNOT.write(writer, &[], &knots)?;
     for (measure, levels) in &question.analyses {
         let own: Vec<&Finding> = findings.iter().filter(|finding| finding.scaled_to == *measure).collect();
         let repairs = repairs.iter().find(|repairs| repairs.measure == *measure);
@@ -80,16 +80,16 @@ fn write_measure(
     (repairs, keep): (Option<&Repairs>, Keep),
 ) -> Result<(), LabelledError> {
     let (other, sites, poes) = (findings[0].other, question.sites.len(), question.poes.len());
-    let (names, level) = (consistency_names(measure, other), axis::level(measure));
+    let (names, level) = (consistency_names(measure, other), axis::STRIPE_LEVEL.of_measure(measure));
     let strengths = repairs.map_or(0, |repairs| repairs.ordinates.shape()[2]);
     let lengths = [
-        (axis::SITE, sites),
-        (axis::RATE, DEVIATION_RATES),
-        (axis::POE, poes),
-        (axis::STRENGTH, strengths),
-        (axis::KNOT, KNOTS),
+        (axis::SITE.name, sites),
+        (axis::RATE.name, DEVIATION_RATES),
+        (axis::POE.name, poes),
+        (axis::STRENGTH.name, strengths),
+        (axis::KNOT.name, KNOTS),
         (level.as_str(), levels),
-        (axis::RECORD, question.records.len()),
+        (axis::RECORD.name, question.records.len()),
     ];
     let stored = stored(question, (measure, other), levels, (findings, findings), repairs);
     CONSISTENCY.write(writer, &names, &lengths, &stored)?;
