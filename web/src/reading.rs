@@ -12,8 +12,7 @@ use uplift_risk::{
 use crate::calculator::{Answer, At, Risk, refused};
 use crate::stripes::{Measure, Stripes};
 
-/// How often a band is to hold the displacement of all records like those at hand, as `uplift spectrum` has it.
-pub(crate) const CONFIDENCE: f64 = 0.9;
+pub(crate) use uplift_bootstrap::QUOTED_CONFIDENCE as CONFIDENCE;
 
 /// Stripes and hazard of one measure at a site.
 #[derive(Clone, Copy)]

@@ -6,6 +6,9 @@ use crate::inversion::Inversion;
 use crate::rates::Rates;
 use crate::skewed_mean::{SampleQuantiles, SkewedMean, StudentQuantiles};
 
+/// How often a band that is quoted is to hold the number of all records there could be.
+pub const QUOTED_CONFIDENCE: f64 = 0.9;
+
 /// Limits of an ordinate beyond the set that it was computed with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InferredLimits {

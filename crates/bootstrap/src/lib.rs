@@ -47,7 +47,7 @@ mod weighted_replicates;
 pub use accuracy::{error_of_median, range_of_interval};
 pub use error::BootstrapError;
 pub use falling::{crossing, falling};
-pub use inferred::{InferredLimits, inferred_limits, inferred_mean, inferred_rate, truth_limits};
+pub use inferred::{InferredLimits, QUOTED_CONFIDENCE, inferred_limits, inferred_mean, inferred_rate, truth_limits};
 pub use interval::{Band, Interval};
 pub use jackknife::{acceleration, contributions, without_each};
 pub use over_curves::{inferred_limits_over_curves, inferred_mean_over_alternatives, inferred_rate_over_curves};

@@ -12,8 +12,7 @@ use super::hazard::Hazard;
 use super::risk::OVERTURNING_M;
 use crate::error::DesignError;
 
-/// How often a band is to hold the number of all records there could be.
-pub(super) const CONFIDENCE: f64 = 0.9;
+pub(super) use uplift_bootstrap::QUOTED_CONFIDENCE as CONFIDENCE;
 
 /// What scatters: the positions of the records of each unit.
 #[derive(Debug, Clone, PartialEq)]

@@ -13,5 +13,6 @@ mod result_job;
 mod shard;
 mod work;
 
-pub use shard::{MOST_SHARDS, ShardReport, carry_out_shard, hold, join, run_shard, shard_path};
+use shard::shard_ending;
+pub use shard::{MOST_SHARDS, SHARD, ShardReport, carry_out_shard, hold, join, run_shard, shard_path};
 pub use work::{Analysed, LabelledPlan, Work, rate, seconds};

@@ -37,6 +37,10 @@ const TEXT_MARK: &[u8] = b"# uplift ";
 /// All in which spaces count.
 const MARKS: [&[u8]; 7] = [MATLAB_MARK, WORKBOOK_MARK, PNG_MARK, SVG_MARK, PAGE_MARK, NRML_MARK, TEXT_MARK];
 
+/// The ending of the file with the arrays of a table of sites.
+pub const SITE_ARRAYS: &str = "sites.h5";
+/// The ending of the table with their spectra.
+pub const SITE_SPECTRA: &str = "sites.csv";
 /// The attribute `kind` of a file with the numbers of many sites.
 pub const SITES_KIND: &str = "sites";
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use uplift_job::outputs::{SITES_KIND, beside};
+use uplift_job::outputs::{SITE_ARRAYS, SITE_SPECTRA, SITES_KIND, beside};
 use uplift_job::{Array, JobError};
 use uplift_labelled::{LabelledArray, LabelledReader};
 use uplift_study::Kind;
@@ -182,7 +182,7 @@ impl ResultFile {
     /// Why a result of uniform risk without sites has no spectra, and where those of a table of sites are.
     pub fn without_spectra(&self) -> ResultError {
         if self.stored_study().is_ok_and(|study| study.site_table.is_some()) {
-            let [arrays, table] = ["sites.h5", "sites.csv"].map(|ending| beside(&self.path, ending));
+            let [arrays, table] = [SITE_ARRAYS, SITE_SPECTRA].map(|ending| beside(&self.path, ending));
             let (name, arrays, table) = (self.path.display(), arrays.display(), table.display());
             return self.fail(format!(
                 "the spectra of a table of sites are not in the result, but in {arrays} and {table}: open these, or \

@@ -23,8 +23,8 @@ use crate::error::UniformRiskError;
 use crate::quoted::{BandOf, QuotedUnits};
 use crate::stored_stripes::{StoredMeasure, poe_index, stored_measure};
 
-/// How often a band is to hold the displacement of all records like those at hand.
-pub const CONFIDENCE: f64 = 0.9;
+pub use uplift_bootstrap::QUOTED_CONFIDENCE as CONFIDENCE;
+
 /// The names of the limits of that band, m, in tables and exports.
 pub const QUOTED_LIMITS: [&str; 2] = ["lower_m", "upper_m"];
 /// The strengths that are shown where none are asked for, or the nearest that a result has.

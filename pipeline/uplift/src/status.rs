@@ -7,12 +7,14 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use uplift_atomic_file::folder_of;
+use uplift_engine::analysis::SHARD;
 use uplift_engine::checkpoint::{Finding, RowFile, checkpoint_path};
 use uplift_job::JobError;
 use uplift_job::lock::ResultLock;
 use uplift_questions::bootstrap::{finished_strengths, part_path};
 use uplift_result::earlier::made_of;
 use uplift_result::{Overview, ResultFile, StoredFinding, is_hdf5};
+use uplift_studies::uniform_risk::site_table::SLICE;
 use uplift_study::Study;
 
 use crate::error::UpliftError;
@@ -183,9 +185,9 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
 /// Files named as the shards of the result at `result`, and as the checkpoints and shards of what is asked of it.
 fn shards_of(result: &Path) -> Vec<PathBuf> {
     let text = |name: Option<&OsStr>| name.unwrap_or(result.as_os_str()).to_string_lossy().into_owned();
-    let (own, asked) = (format!("{}.shard-", text(result.file_stem())), format!("{}.", text(result.file_name())));
+    let (own, asked) = (format!("{}.{SHARD}", text(result.file_stem())), format!("{}.", text(result.file_name())));
     let of_question =
-        |rest: &str| rest.rsplit_once('.').is_some_and(|(_, end)| end == "part" || end.starts_with("shard-"));
+        |rest: &str| rest.rsplit_once('.').is_some_and(|(_, end)| end == "part" || end.starts_with(SHARD));
     let is_one = |name: &str| name.starts_with(&own) || name.strip_prefix(&asked).is_some_and(of_question);
     let mut shards: Vec<PathBuf> = neighbours(result).filter(|(name, _)| is_one(name)).map(|(_, path)| path).collect();
     shards.sort();
@@ -194,7 +196,7 @@ fn shards_of(result: &Path) -> Vec<PathBuf> {
 
 /// Slices by their names, `study.slice-3-of-8.h5`, of each number that a table was cut into.
 fn slices_of(result: &Path) -> Vec<SlicesStatus> {
-    let own = format!("{}.slice-", result.file_stem().unwrap_or_default().to_string_lossy());
+    let own = format!("{}.{SLICE}", result.file_stem().unwrap_or_default().to_string_lossy());
     let mut by_count: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (name, _) in neighbours(result) {
         let numbers = name.strip_prefix(&own).and_then(|rest| rest.strip_suffix(".h5")?.split_once("-of-"));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use uplift_ida::Shard;
 use uplift_job::events::Events;
 
-use super::{Analysed, ShardReport, Work, join, run_shard};
+use super::{Analysed, ShardReport, Work, join, run_shard, shard_ending};
 use crate::checkpoint::{Checkpoint, FinishedRows, path_beside};
 use crate::error::EngineError;
 
@@ -38,8 +38,7 @@ impl Work<'_> {
     /// As [`Work::carry_out`]; a file that is a shard of other work, or that another job has.
     pub fn shard_beside(self, result: &Path, shard: Shard, events: &dyn Events) -> Result<ShardReport, EngineError> {
         self.needs().for_shard(shard).require(result, events)?;
-        let (number, width) = (shard.index + 1, shard.count.to_string().len());
-        let path = path_beside(result, &self.title, &format!("shard-{number:0width$}-of-{}", shard.count));
+        let path = path_beside(result, &self.title, &shard_ending(shard));
         run_shard(self, &path, shard, events)
     }
 }

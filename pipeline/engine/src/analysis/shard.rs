@@ -33,10 +33,18 @@ pub struct ShardReport {
     pub file: PathBuf,
 }
 
-/// Where the rows of one shard of the analyses of the result at `result` are kept.
-pub fn shard_path(result: &Path, Shard { index, count }: Shard) -> PathBuf {
+/// What the ending of a file with the rows of a shard begins with.
+pub const SHARD: &str = "shard-";
+
+/// The ending of the file with the rows of a shard.
+pub(super) fn shard_ending(Shard { index, count }: Shard) -> String {
     let width = count.to_string().len();
-    beside(result, &format!("shard-{:0width$}-of-{count}", index + 1))
+    format!("{SHARD}{:0width$}-of-{count}", index + 1)
+}
+
+/// Where the rows of one shard of the analyses of the result at `result` are kept.
+pub fn shard_path(result: &Path, shard: Shard) -> PathBuf {
+    beside(result, &shard_ending(shard))
 }
 
 /// Makes the folder of the file of a shard, and keeps others off the file.

@@ -11,7 +11,7 @@ pub use cube::{SiteArrays, cube_path};
 pub use files::{SiteTableFiles, site_table_paths};
 pub use layout::{SHOWN_ON_MAP, SiteRow, SiteTableLayout};
 pub use repair::{SiteConsistency, SiteRepair};
-pub use slices::{join, slice_path, sorted_slices, stripes_beside};
+pub use slices::{SLICE, join, slice_path, sorted_slices, stripes_beside};
 
 use std::path::{Path, PathBuf};
 

@@ -12,7 +12,7 @@ use super::earthquakes::EarthquakeRow;
 use super::{Finding, Question, Repairs};
 
 /// Displacements that agreement is looked at from, m: below it rocking has only just begun.
-const COMPARED_FROM_M: f64 = 0.01;
+const AGREEMENT_FROM_M: f64 = 0.01;
 
 /// The report on the consistency of a study or of its result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -414,9 +414,9 @@ fn agreement(question: &Question, plain_m: &[(IntensityMeasure, Array<3>)], repa
                 let [pga, pgv] = [pga, pgv].map(|own| displacement(own.ordinates.block([site])));
                 pga.into_iter().zip(pgv).collect::<Vec<_>>()
             };
-            Agreement::from_pairs(sites.iter().flat_map(of_site), COMPARED_FROM_M, f64::INFINITY)
+            Agreement::from_pairs(sites.iter().flat_map(of_site), AGREEMENT_FROM_M, f64::INFINITY)
         });
-        (Agreement::from_pairs(plain, COMPARED_FROM_M, f64::INFINITY).map(numbers), repaired.map(numbers))
+        (Agreement::from_pairs(plain, AGREEMENT_FROM_M, f64::INFINITY).map(numbers), repaired.map(numbers))
     };
     let all: Vec<usize> = (0..question.sites.len()).collect();
     let mut rows = Vec::new();

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use uplift_inputs::SiteList;
-use uplift_job::outputs::{SITES_KIND, beside, mark};
+use uplift_job::outputs::{SITE_ARRAYS, SITES_KIND, beside, mark};
 use uplift_job::{Array, JobError};
 use uplift_labelled::{AttributeValue, GrowingArray, LabelledReader, LabelledWriter};
 use uplift_regression::ExponentialFit;
@@ -89,7 +89,7 @@ pub(super) const TABLES: &str = "tables";
 
 /// The file beside the result file `result`.
 pub fn cube_path(result: &Path) -> PathBuf {
-    beside(result, "sites.h5")
+    beside(result, SITE_ARRAYS)
 }
 
 /// Whether the file in `reader` says that it is of the result of this study digest.

@@ -17,6 +17,8 @@ use super::files::SiteTableFiles;
 use super::{SiteOutput, Tally};
 use crate::error::StudiesError;
 
+/// What the ending of the result of a slice begins with.
+pub const SLICE: &str = "slice-";
 /// Slices named where some are missing.
 const NAMED: usize = 5;
 
@@ -27,7 +29,7 @@ pub fn slice_path(result: &Path, slice: SiteSlice) -> PathBuf {
 
 fn ending(SiteSlice { number, count }: SiteSlice) -> String {
     let width = count.to_string().len();
-    format!("slice-{number:0width$}-of-{count}.h5")
+    format!("{SLICE}{number:0width$}-of-{count}.h5")
 }
 
 /// The results whose stripes a slice at `path` takes instead of computing them: that of the whole table, and that of
