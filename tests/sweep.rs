@@ -211,7 +211,8 @@ fn an_unfinished_sweep_has_a_status() {
     let study = SmallStudy::new();
     let ask = ["sweep", "study.toml", "--over", "oscillator.restitution=0.85,0.95", "-q"];
     study.uplift(&ask).ok();
-    assert_eq!(study.uplift(&["status", "results/study.sweep"]).code, 4);
+    let finished = study.uplift(&["status", "results/study.sweep"]);
+    assert!(finished.code == 4 && finished.stderr.contains("is a folder: name a result in it"), "{}", finished.stderr);
     // as an interruption leaves it
     std::fs::remove_file(study.path().join("results/study.sweep/comparison.csv")).unwrap();
     std::fs::remove_file(study.path().join("results/study.sweep/restitution-0.95.h5")).unwrap();

@@ -268,7 +268,9 @@ fn of_unequal_length(pairs: &[CheckedPair], study: &UniformRiskStudy) -> Option<
 /// Records whose unit is probably not what it is taken for: the first, and how many more.
 pub(super) fn of_unusual_peak(pairs: &[CheckedPair], gravity_m_s2: f64) -> Option<String> {
     let told = |(pair, _): &CheckedPair| {
-        let told = unusual_peaks(&[&pair.h1, &pair.h2].map(|motion| motion.pga_m_s2() / gravity_m_s2))?;
+        let motions = [&pair.h1, &pair.h2];
+        let pga_g = motions.map(|motion| motion.pga_m_s2() / gravity_m_s2);
+        let told = unusual_peaks(&pga_g, &motions.map(|motion| 100.0 * motion.pgv_m_s()))?;
         Some(format!("{}: {told}", pair.id))
     };
     let unusual: Vec<String> = pairs.iter().filter_map(told).collect();

@@ -152,6 +152,15 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
     if let Some(sweep) = is_sweep.then(|| SweepStatus::read(input)).flatten() {
         return Ok(StatusReport { sweep: Some(sweep), ..StatusReport::default() });
     }
+    if input.is_dir() {
+        let is_result = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "h5");
+        let first = in_folder(input).map(|(_, path)| path).filter(is_result).min();
+        let what = first.map_or_else(
+            || "it has no results".to_owned(),
+            |first| format!("name a result in it, such as {}", first.display()),
+        );
+        return Err(JobError::input(format!("{} is a folder: {what}", input.display())).into());
+    }
     if let Some(bootstrap) = BootstrapStatus::read(input.to_owned()) {
         return Ok(StatusReport { bootstrap: Some(bootstrap), ..StatusReport::default() });
     }
@@ -213,7 +222,12 @@ fn slices_of(result: &Path) -> Vec<SlicesStatus> {
 
 /// What is in the folder of a result, with the name of each.
 fn neighbours(result: &Path) -> impl Iterator<Item = (String, PathBuf)> {
-    let entries = std::fs::read_dir(folder_of(result)).into_iter().flatten().flatten();
+    in_folder(folder_of(result))
+}
+
+/// What is in a folder, with the name of each.
+fn in_folder(folder: &Path) -> impl Iterator<Item = (String, PathBuf)> + use<> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     entries.map(|entry| (name_of(&entry), entry.path()))
 }
 

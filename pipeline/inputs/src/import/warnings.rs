@@ -32,15 +32,21 @@ const ODD_DURATION_RATIO: f64 = 1.5;
 /// Peaks beyond which the unit is probably not what it is taken for, g: nobody feels less than 0.001 g, and a file in g
 /// read as cm/s2 is below it up to a true PGA of 1 g; the strongest one recorded has about 4 g.
 const USUAL_PGA_G: [f64; 2] = [1e-3, 3.0];
+/// Velocity beyond which it is probably not what it is taken for, cm/s: some 300 were recorded.
+const USUAL_PGV_CM_S: f64 = 400.0;
 /// Ratio of the peaks of two components beyond which they are hardly in one unit: it is below some 5 where the ground
 /// moved, and g taken for cm/s2 multiplies one of them by 981.
 const USUAL_PGA_RATIO: f64 = 20.0;
 
-/// What to say of the largest accelerations \[g\] of the components of a record, which the ground hardly has.
-pub(crate) fn unusual_peaks(pga_g: &[f64]) -> Option<String> {
+/// What to say of the largest accelerations \[g\] and velocities \[cm/s\] of the components of a record, which the
+/// ground hardly has.
+pub(crate) fn unusual_peaks(pga_g: &[f64], pgv_cm_s: &[f64]) -> Option<String> {
     let [least, largest] = USUAL_PGA_G;
     if let Some(strong) = pga_g.iter().find(|&&pga_g| pga_g >= largest || pga_g.is_nan()) {
         return Some(format!("mistake? PGA {strong:.3} g: is its unit right, cm/s2 perhaps?"));
+    }
+    if let Some(fast) = pgv_cm_s.iter().find(|&&pgv_cm_s| pgv_cm_s > USUAL_PGV_CM_S) {
+        return Some(format!("mistake? PGV {fast:.0} cm/s: is its unit right, m/s2 perhaps?"));
     }
     let weakest = pga_g.iter().copied().fold(f64::INFINITY, f64::min);
     let strongest = pga_g.iter().copied().fold(0.0, f64::max);
@@ -78,7 +84,8 @@ pub fn of_pair(
         let share = 100.0 * measures.residual_velocity_share;
         add("odd baseline", format!("a velocity of {share:.0} % of the PGV is left at the end: its baseline is odd"));
     }
-    if let Some(text) = unusual_peaks(&motions.map(|motion| motion.pga_m_s2() / gravity_m_s2)) {
+    let pga_g = motions.map(|motion| motion.pga_m_s2() / gravity_m_s2);
+    if let Some(text) = unusual_peaks(&pga_g, &motions.map(|motion| 100.0 * motion.pgv_m_s())) {
         add("unusual peak", text);
     }
     for (motion, description) in motions.iter().zip(descriptions) {
@@ -207,7 +214,7 @@ mod tests {
     #[test]
     fn peaks_of_another_unit() {
         for usual in [[0.1, 0.2], [0.002, 0.01], [1.0, 2.9]] {
-            assert_eq!(unusual_peaks(&usual), None);
+            assert_eq!(unusual_peaks(&usual, &[300.0, 20.0]), None);
         }
         // 0.3 g read as cm/s2; 1.3 g read so beside 0.9 g; 30 cm/s2 read as g
         for (pga_g, words) in [
@@ -216,9 +223,12 @@ mod tests {
             ([30.0, 0.1], "PGA 30.000 g: is its unit right, cm/s2 perhaps?"),
             ([0.0, 0.1], "PGA 0.000e0 g"),
         ] {
-            let told = unusual_peaks(&pga_g).unwrap();
+            let told = unusual_peaks(&pga_g, &[20.0]).unwrap();
             assert!(told.starts_with(&format!("mistake? {words}")), "{told}");
         }
+        // 50 cm/s and 0.2 g read as g in place of m/s2
+        let told = unusual_peaks(&[1.96, 1.5], &[490.0, 380.0]).unwrap();
+        assert!(told.starts_with("mistake? PGV 490 cm/s: is its unit right, m/s2 perhaps?"), "{told}");
     }
 
     #[test]

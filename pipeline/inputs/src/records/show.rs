@@ -148,7 +148,8 @@ fn file(path: &Path, files: FileOptions) -> Result<FileReport, InputsError> {
         .iter()
         .map(|recording| ComponentReport::from_recording(recording, files.gravity_m_s2))
         .collect();
-    let warnings = components.iter().filter_map(|component| unusual_peaks(&[component.pga_g])).collect();
+    let warnings =
+        components.iter().filter_map(|component| unusual_peaks(&[component.pga_g], &[component.pgv_cm_s])).collect();
     Ok(FileReport { file: path.to_owned(), format: file.format.to_string(), components, warnings })
 }
 
