@@ -7,6 +7,7 @@
 )]
 
 use plotters::prelude::*;
+use serde::Serialize;
 
 use super::figure::{Figure, Panel};
 use super::legend::{Entry, draw_swatch, legend};
@@ -69,7 +70,7 @@ pub struct Drawing {
 }
 
 /// A name in the legend, and the line or area that stands before it.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Swatch {
     /// The name.
     pub name: String,

@@ -14,18 +14,11 @@ pub(super) struct DrawnFigure {
     id: String,
     title: String,
     caption: String,
-    legend: Vec<LegendEntry>,
+    legend: Vec<Swatch>,
     /// The panels as SVG.
     drawings: Vec<String>,
     /// What can be read off each.
     panels: Vec<ReadablePanel>,
-}
-
-/// A name in the legend after its sample, as SVG.
-#[derive(Debug, Serialize)]
-struct LegendEntry {
-    name: String,
-    svg: String,
 }
 
 /// A panel whose values can be read off; its texts are plain.
@@ -57,12 +50,11 @@ impl DrawnFigure {
             drawings.push(visible(&drawing.svg).into_owned());
             panels.extend(drawing.places.into_iter().map(|place| readable(panel, place)));
         }
-        let entry = |Swatch { name, svg }| LegendEntry { name, svg };
         Ok(Self {
             id: figure.id.clone(),
             title: figure.title.clone(),
             caption: figure.caption.clone(),
-            legend: swatches(figure).map_err(|reason| refused(figure, reason))?.into_iter().map(entry).collect(),
+            legend: swatches(figure).map_err(|reason| refused(figure, reason))?,
             drawings,
             panels,
         })
