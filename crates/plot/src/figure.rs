@@ -154,6 +154,25 @@ pub enum Hatch {
     Falling,
 }
 
+impl Figure {
+    /// A figure without a remark, two panels in a row.
+    pub fn new(
+        id: impl Into<String>,
+        title: impl Into<String>,
+        caption: impl Into<String>,
+        panels: Vec<Panel>,
+    ) -> Self {
+        let columns = panels.len().min(2);
+        Self { id: id.into(), title: title.into(), caption: caption.into(), remark: String::new(), panels, columns }
+    }
+
+    /// The same figure with a remark.
+    #[must_use]
+    pub fn with_remark(self, remark: impl Into<String>) -> Self {
+        Self { remark: remark.into(), ..self }
+    }
+}
+
 impl Panel {
     /// Lines over two axes.
     pub fn lines(title: impl Into<String>, x: Axis, y: Axis, series: Vec<Series>) -> Self {
@@ -183,6 +202,11 @@ impl Series {
     /// A line with a name.
     pub fn line(name: impl Into<String>, points: Vec<(f64, f64)>, tone: Tone) -> Self {
         Self { name: name.into(), points, tone, marks: Marks::None }
+    }
+
+    /// Dots without a line.
+    pub fn dots(name: impl Into<String>, points: Vec<(f64, f64)>, tone: Tone) -> Self {
+        Self { name: name.into(), points, tone, marks: Marks::Only }
     }
 
     /// A line through computed values, which are marked where they are few: between them nothing was computed.

@@ -43,16 +43,15 @@ pub use validation::{distributions_figure, pairs_figure};
 
 use std::path::Path;
 
-use uplift::Array;
-use uplift::JobError;
-use uplift::UpliftError;
 use uplift::result::{
     Kind, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredInfluence, StoredRecords, StoredSpectra,
     StoredSpread, StoredStripes,
 };
+use uplift::text::risks_in_words;
 use uplift::uniform_risk::site_table::cube_path;
+use uplift::{Array, JobError, UpliftError};
 use uplift_motion::IntensityMeasure;
-use uplift_plot::{Axis, Figure, Panel, Series, Tone, share_y};
+use uplift_plot::{Axis, Band, Figure, Panel, Series, Tone, share_y};
 
 /// The figures of the result at `path`, of either kind.
 ///
@@ -67,8 +66,7 @@ pub fn result_figures(path: &Path, strengths: &[f64]) -> Result<Vec<Figure>, Upl
     }
     match file.kind() {
         Kind::UniformRisk => {
-            let remark = if file.head()?.synthetic { SYNTHETIC } else { "" };
-            let maps = site_maps(path, &file, strengths, remark)?;
+            let maps = site_maps(path, &file, strengths, remark(file.head()?.synthetic))?;
             if !maps.is_empty() && file.axes()?.sites.is_empty() {
                 return Ok(maps);
             }
@@ -131,7 +129,7 @@ impl FigureSource {
             consistency,
             hazard: file.hazard()?,
             records: file.records()?,
-            remark: if file.head()?.synthetic { SYNTHETIC } else { "" },
+            remark: remark(file.head()?.synthetic),
         })
     }
 
@@ -166,10 +164,10 @@ impl FigureSource {
         if extent == Extent::All {
             confidence.extend(confidence::bands(self));
             confidence.extend(confidence::initiation(self));
-            confidence.extend(demand::fragilities(self)?);
+            confidence.push(demand::fragilities(self)?);
             confidence.extend(tails::tail_shares(self));
             causes.extend(demand::risk_surfaces(self)?);
-            causes.extend(demand::ida_curves(self)?);
+            causes.push(demand::ida_curves(self)?);
             // structures of a motion are no more observations than the motion is: as `uplift measures` has it
             if self.stored.units.structures_of_a_motion == 1 {
                 causes.push(efficiency::efficiency(self)?);
@@ -188,19 +186,28 @@ impl FigureSource {
         // the sites are compared: what lies higher must be larger
         share_y(&mut panels);
         let columns = if panels.len() > 4 { 3 } else { panels.len().min(2) };
-        Figure {
-            id: id.into(),
-            title: title.into(),
-            caption: caption.into(),
-            remark: self.remark.to_owned(),
-            panels,
-            columns,
-        }
+        Figure { columns, ..Figure::new(id, title, caption, panels).with_remark(self.remark) }
     }
 
     /// A line over the strengths.
     fn over_strengths(&self, name: impl Into<String>, values: &[f64], tone: Tone) -> Series {
         Series::sampled(name, self.stored.strengths.iter().copied().zip(values.iter().copied()).collect(), tone)
+    }
+
+    /// Lines at the target rates of the spectra between two ends, with one name.
+    fn targets(&self, (from, to): (f64, f64), tone: Tone) -> impl Iterator<Item = Series> {
+        let stored = &self.stored;
+        let name = format!("targets: {}", risks_in_words(&stored.poes, stored.years, ", "));
+        let names = std::iter::once(name).chain(std::iter::repeat(String::new()));
+        let line = move |(&rate, name): (&f64, String)| Series::line(name, vec![(from, rate), (to, rate)], tone);
+        stored.targets_per_year.iter().zip(names).map(line)
+    }
+
+    /// An area between two lines over the strengths.
+    fn between(&self, lower: &[f64], upper: &[f64], tone: Tone) -> Band {
+        let limits = self.stored.strengths.iter().zip(lower.iter().zip(upper));
+        let points = limits.map(|(&eta, (&low, &high))| (eta, low, high)).collect();
+        Band { name: String::new(), points, tone }
     }
 
     /// Positions of the sites shown: the first nine.
@@ -223,8 +230,11 @@ fn spanned(axis: Axis, values: &[f64]) -> Axis {
     }
 }
 
-/// What figures of synthetic records say.
-const SYNTHETIC: &str = "synthetic records: not for design";
+/// What figures of synthetic records say; those of others say nothing.
+fn remark(is_synthetic: bool) -> &'static str {
+    if is_synthetic { "synthetic records: not for design" } else { "" }
+}
+
 /// Label of the strength axis.
 const STRENGTH: &str = "uplift strength η = f_{up}/(m g)";
 /// Label of an axis of peak displacements.

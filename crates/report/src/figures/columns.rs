@@ -3,7 +3,7 @@
 use uplift::UpliftError;
 use uplift::pushover::{ProtocolReport, PushoverReport};
 use uplift::restrainer::RestrainerCurve;
-use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 use uplift_statics::{
     LinearLaw, LoadingProtocol, Parts, ProtocolPoint, RestrainedColumns, Restrainer, Spring, StaticsError, TendonPath,
     tilt,
@@ -19,11 +19,6 @@ const ANCHORED_SHARES: [f64; 3] = [0.125, 0.25, 0.375];
 const DISPLACEMENT: &str = "displacement u, m";
 const FORCE: &str = "force F, kN";
 const FORCE_OVER_WEIGHT: &str = "force over weight F/(N W)";
-
-fn figure(id: &str, title: String, caption: impl Into<String>, panels: Vec<Panel>) -> Figure {
-    let columns = panels.len().min(2);
-    Figure { id: id.to_owned(), title, caption: caption.into(), remark: String::new(), panels, columns }
-}
 
 /// Evenly spaced values from 0 to `to`.
 fn spaced(to: f64) -> impl Iterator<Item = f64> {
@@ -76,7 +71,7 @@ pub fn pushover_figure(report: &PushoverReport) -> Figure {
         .map(|event| (event.state.displacement_m, kilo(event.state.force_n)))
         .filter(|(at_m, _)| *at_m <= to_m)
         .collect();
-    series.push(Series { name: "events".to_owned(), points: events, tone: Tone::Distinct(0), marks: Marks::Only });
+    series.push(Series::dots("events", events, Tone::Distinct(0)));
     let mut panels = vec![Panel::lines("", Axis::linear(DISPLACEMENT), Axis::linear(FORCE), series)];
     let mut caption =
         "Force over displacement of the deck: the exact law with its events (dots), and the curves compared with it."
@@ -85,7 +80,7 @@ pub fn pushover_figure(report: &PushoverReport) -> Figure {
         panels.push(over_weight(report, to_m));
         caption += " The exact and the linearised laws also over the weight, as in Fig. 5.4b.";
     }
-    figure("pushover", format!("Pushover of {}", report.name), caption, panels)
+    Figure::new("pushover", format!("Pushover of {}", report.name), caption, panels)
 }
 
 /// `F/(N W)` of the exact law and of linear ones.
@@ -117,7 +112,7 @@ fn restrainer_figure_of(name: &str, restrainer: &Restrainer, to_m: f64) -> Figur
         series.push(Series::line("springs alone", points, Tone::Distinct(1)));
     }
     let x = Axis::linear("elongation, or deformation of the springs, mm");
-    figure(
+    Figure::new(
         "restrainer",
         format!("Restrainer of {name}"),
         "Force over elongation of the restrainer, tendon included, and over deformation of its springs alone (Fig. \
@@ -134,9 +129,9 @@ pub fn protocol_figure(report: &ProtocolReport) -> Figure {
 fn protocol_figure_of(history: &[ProtocolPoint]) -> Figure {
     let points = history.iter().map(|point| (point.time_s / 3600.0, 100.0 * point.drift)).collect();
     let series = vec![Series::line("drift", points, Tone::Distinct(0))];
-    figure(
+    Figure::new(
         "protocol",
-        "Loading protocol".to_owned(),
+        "Loading protocol",
         "Drift over time (Fig. 5.11).",
         vec![Panel::lines("", Axis::linear("time, h"), Axis::linear("drift, %"), series)],
     )
@@ -191,9 +186,9 @@ fn stiffnesses(columns: &RestrainedColumns) -> Result<Figure, UpliftError> {
     }
     let panel =
         |title: &str, series| Panel::lines(title, Axis::linear(DISPLACEMENT), Axis::linear(FORCE_OVER_WEIGHT), series);
-    Ok(figure(
+    Ok(Figure::new(
         "stiffnesses",
-        "Force over displacement for linear restrainers".to_owned(),
+        "Force over displacement for linear restrainers",
         "Force over displacement for linear restrainers of several shares of the critical stiffness: linearised as in \
          Fig. 5.4b, and exact.",
         vec![panel("linearised", linear), panel("exact", exact)],
@@ -227,9 +222,9 @@ fn anchorages(columns: &RestrainedColumns) -> Result<Figure, UpliftError> {
     }
     let panel =
         |title: &str, series| Panel::lines(title, Axis::linear(DISPLACEMENT), Axis::linear(FORCE_OVER_WEIGHT), series);
-    Ok(figure(
+    Ok(Figure::new(
         "anchorages",
-        "Force over displacement by anchorage".to_owned(),
+        "Force over displacement by anchorage",
         "Force over displacement for the same linear restrainers anchored at the column (bold) and in the foundation \
          (thin, Fig. 6.4a), where each is as stiff as four: linearised, and exact.",
         vec![panel("linearised", linear), panel("exact", exact)],
@@ -259,9 +254,9 @@ fn base_moments(columns: &RestrainedColumns) -> Result<Figure, UpliftError> {
         series.push(Series::line(name, points, Tone::Distinct(index)));
     }
     let y = Axis::linear("moment at the base of a column, kN m");
-    Ok(figure(
+    Ok(Figure::new(
         "base-moment",
-        "Moment at the base by anchorage".to_owned(),
+        "Moment at the base by anchorage",
         "Moment at the base of a column with restrainers of the same pushover, half the critical stiffness: anchored \
          in the foundation it grows with the tendon's force, in the column it does not (Fig. 6.4b, c).",
         vec![Panel::lines("", Axis::linear(DISPLACEMENT), y, series)],
@@ -281,7 +276,7 @@ fn sections(report: &PushoverReport) -> Figure {
         Series::line("top", line(columns, to_m, |state| kilo(state.sections.top_moment_n_m)), Tone::Distinct(0)),
         Series::line("base", line(columns, to_m, |state| kilo(state.sections.base_moment_n_m)), Tone::Distinct(1)),
     ];
-    figure(
+    Figure::new(
         "sections",
         format!("Sections of {}", report.name),
         "Forces on the end sections of a column over the displacement of the deck (Eq. 5.4 to 5.7, exact).",
@@ -312,9 +307,9 @@ fn paths(report: &PushoverReport, restrainer: &Restrainer) -> Result<Figure, Upl
         let points = line(&held, to_m, |state| 1e3 * state.elongation_m);
         elongations.push(Series::line(name, points, Tone::Distinct(index)));
     }
-    Ok(figure(
+    Ok(Figure::new(
         "tendon-path",
-        "Path of the tendon".to_owned(),
+        "Path of the tendon",
         "Force and elongation of the tendon by its path, without stoppers: held in the axis, or free in its duct (Fig. \
          6.9, A2.1).",
         vec![

@@ -21,9 +21,7 @@ impl FigureSource {
             (None, [lower_m, _, upper_m]) => [lower_m, upper_m],
         }
         .map(|limit_m| limit_m.block([site, poe, stored.of_set(self.stored.records.len())]));
-        let limits = self.stored.strengths.iter().zip(lower_m.iter().zip(upper_m));
-        let points = limits.map(|(&eta, (&low, &high))| (eta, low, high)).collect();
-        Some(Band { name: String::new(), points, tone })
+        Some(self.between(lower_m, upper_m, tone))
     }
 
     /// Band and median of one site, probability and size, by position.
@@ -35,9 +33,7 @@ impl FigureSource {
         tone: Tone,
     ) -> (Band, Series) {
         let [lower, median, upper] = limits_m.each_ref().map(|limits| limits.block(at));
-        let limits = lower.iter().zip(upper);
-        let points = self.stored.strengths.iter().zip(limits).map(|(&eta, (&low, &high))| (eta, low, high)).collect();
-        (Band { name: String::new(), points, tone }, self.over_strengths(name, median, tone))
+        (self.between(lower, upper, tone), self.over_strengths(name, median, tone))
     }
 }
 

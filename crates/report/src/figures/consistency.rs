@@ -1,7 +1,6 @@
 //! Whether the records bring the site's hazard of the measure that they are not scaled to.
 
 use uplift::result::StoredConsistency;
-use uplift::text::risks_in_words;
 use uplift_plot::{Axis, Band, Figure, Panel, Series, Tone};
 
 use super::FigureSource;
@@ -42,12 +41,7 @@ fn panel(source: &FigureSource, of: &StoredConsistency, site: usize) -> Option<P
         return None;
     }
     let (left, right) = (left / MARGIN, right * MARGIN);
-    let mut series = Vec::new();
-    for (poe, &rate) in source.stored.targets_per_year.iter().enumerate() {
-        let name = if poe == 0 { targets(source) } else { String::new() };
-        series.push(Series::line(name, vec![(left, rate), (right, rate)], Tone::Faint));
-    }
-    series.extend(lines);
+    let series = source.targets((left, right), Tone::Faint).chain(lines).collect();
     let (scaled_to, other) = (of.scaled_to, of.other);
     let title = format!("{}, scaled to {}", source.stored.sites[site], scaled_to.label());
     let x = Axis::log(format!("{}, {}", other.label(), other.unit())).between(left, right);
@@ -55,10 +49,4 @@ fn panel(source: &FigureSource, of: &StoredConsistency, site: usize) -> Option<P
     let points = vec![(left, low, high), (right, low, high)];
     let bands = vec![Band { name: "rates compared".to_owned(), points, tone: Tone::Faint }];
     Some(Panel { bands, ..Panel::lines(title, x, y, series) })
-}
-
-/// The name of the rates of the spectra.
-fn targets(source: &FigureSource) -> String {
-    let stored = &source.stored;
-    format!("targets: {}", risks_in_words(&stored.poes, stored.years, ", "))
 }

@@ -5,7 +5,7 @@ use uplift_risk::{RiskCurve, ThresholdGrid};
 
 use super::spectra::RATE;
 use super::{DISPLACEMENT, FigureSource, STRENGTH};
-use uplift::text::{nearest, risk_in_words, risks_in_words};
+use uplift::text::{nearest, risk_in_words};
 use uplift::{JobError, UpliftError};
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
@@ -35,7 +35,7 @@ impl FigureSource {
     }
 }
 
-pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, UpliftError> {
+pub(super) fn ida_curves(source: &FigureSource) -> Result<Figure, UpliftError> {
     let stored = &source.stored;
     let strength = source.shown_strength();
     let mut panels = Vec::new();
@@ -77,7 +77,7 @@ pub(super) fn ida_curves(source: &FigureSource) -> Result<Option<Figure>, Uplift
         "Peak displacement of every record scaled to every level (grey), of the first record, and percentiles over the \
          records at each level (Fig. A2.13, A2.14)."
     };
-    Ok(Some(source.figure("ida", title, caption, panels)))
+    Ok(source.figure("ida", title, caption, panels))
 }
 
 /// A percentile of demands in ascending order with how much they count, where this is not alike.
@@ -89,7 +89,7 @@ fn percentile(demands: &[(f64, f64)], is_weighted: bool, probability: f64) -> f6
     quantile(&demands, probability)
 }
 
-pub(super) fn fragilities(source: &FigureSource) -> Result<Option<Figure>, UpliftError> {
+pub(super) fn fragilities(source: &FigureSource) -> Result<Figure, UpliftError> {
     let stored = &source.stored;
     let strength = source.shown_strength();
     let mut panels = Vec::new();
@@ -114,7 +114,7 @@ pub(super) fn fragilities(source: &FigureSource) -> Result<Option<Figure>, Uplif
     } else {
         "Share of the records that exceed a displacement at each level (Eq. 4.7): counted, not fitted."
     };
-    Ok(Some(source.figure("fragility", title, caption, panels)))
+    Ok(source.figure("fragility", title, caption, panels))
 }
 
 pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftError> {
@@ -140,14 +140,7 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
             }
         }
         for panel in &mut panels {
-            for (poe, &target) in stored.targets_per_year.iter().enumerate() {
-                let name = if poe == 0 {
-                    format!("targets: {}", risks_in_words(&stored.poes, stored.years, ", "))
-                } else {
-                    String::new()
-                };
-                panel.series.push(Series::line(name, vec![(1e-4, target), (2.8, target)], Tone::Distinct(5)));
-            }
+            panel.series.extend(source.targets((1e-4, 2.8), Tone::Distinct(5)));
         }
         let label = measure.measure.label();
         let caption = "Annual rate at which a displacement is exceeded (Fig. 4.4a), and the target rates.";

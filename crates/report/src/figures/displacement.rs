@@ -68,8 +68,7 @@ struct Line {
 
 impl DisplacementSource<'_> {
     fn figure(&self, id: String, title: String, caption: String, columns: usize, panels: Vec<Panel>) -> Figure {
-        let remark = if self.stored.synthetic { super::SYNTHETIC } else { "" };
-        Figure { id, title, caption, remark: remark.to_owned(), panels, columns }
+        Figure { columns, ..Figure::new(id, title, caption, panels).with_remark(super::remark(self.stored.synthetic)) }
     }
 
     /// Ways of scaling shown, by position.

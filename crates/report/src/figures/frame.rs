@@ -2,7 +2,7 @@
 
 use uplift::response::{FrameHistoryRow, FrameResponseReport, FrameRun};
 use uplift_frame::Model;
-use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
 /// Points over time or along a path.
 type Points = Vec<(f64, f64)>;
@@ -50,17 +50,11 @@ pub fn frame_figure(report: &FrameResponseReport) -> Figure {
     } else {
         ("In the plane of each component, ", "")
     };
-    Figure {
-        id: "frame".to_owned(),
-        title: format!("{} under {} times {scale}", report.name, records.join(" and ")),
-        caption: format!(
-            "{path}drift of the columns over time, base shear of the deck over drift, and the force of a tendon (Fig. \
-             6.14 to 6.16).{torsion}"
-        ),
-        remark: String::new(),
-        panels,
-        columns: 2,
-    }
+    let caption = format!(
+        "{path}drift of the columns over time, base shear of the deck over drift, and the force of a tendon (Fig. 6.14 \
+         to 6.16).{torsion}"
+    );
+    Figure::new("frame", format!("{} under {} times {scale}", report.name, records.join(" and ")), caption, panels)
 }
 
 fn points(report: &FrameResponseReport, run: &FrameRun, of: Of) -> Points {
@@ -91,12 +85,7 @@ fn plan(run: &FrameRun) -> Panel {
     let reach_m = if largest_m > 0.0 { 1.1 * largest_m } else { 1.0 };
     let farthest = path.iter().max_by(|one, other| one.0.hypot(one.1).total_cmp(&other.0.hypot(other.1)));
     let series = vec![
-        Series {
-            name: "farthest".to_owned(),
-            points: farthest.copied().into_iter().collect(),
-            tone: Tone::Distinct(3),
-            marks: Marks::Only,
-        },
+        Series::dots("farthest", farthest.copied().into_iter().collect(), Tone::Distinct(3)),
         Series::line("path of the deck", path, Tone::Thin(2)),
     ];
     let axis = |label: &str| Axis::linear(label).between(-reach_m, reach_m);

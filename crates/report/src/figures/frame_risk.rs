@@ -1,10 +1,10 @@
 //! The risk of a frame beside its proxies: risk curves, and the collapse fragility.
 
 use uplift::structure::FrameRiskReport;
-use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
-/// Points on a fitted curve.
-const POINTS: u32 = 120;
+use super::overturning::{counted_and_fitted, overturning_panel};
+use super::remark;
 
 /// Annual frequency over displacement with the target, and the share of records that overturn the frame.
 pub fn frame_risk_figure(report: &FrameRiskReport) -> Figure {
@@ -23,37 +23,16 @@ pub fn frame_risk_figure(report: &FrameRiskReport) -> Figure {
         series.push(Series::line("target", target, Tone::Faint));
     }
     let curves = Panel::lines("", Axis::log("displacement of the deck, m"), Axis::log("annual rate, 1/yr"), series);
-    Figure {
-        id: "frame-risk".to_owned(),
-        title: format!("Risk of {} at {}", report.structure.name, report.site),
-        caption:
-            "Annual rate at which a displacement of the deck is exceeded, by the frame and by its proxies; share of \
-                  the records that overturn the frame at each level: counted (dots) and lognormal (line)."
-                .to_owned(),
-        remark: if report.source.synthetic { "synthetic records: not for design" } else { "" }.to_owned(),
-        panels: vec![curves, fragility(report)],
-        columns: 2,
-    }
+    let title = format!("Risk of {} at {}", report.structure.name, report.site);
+    let caption = "Annual rate at which a displacement of the deck is exceeded, by the frame and by its proxies; share \
+                   of the records that overturn the frame at each level: counted (dots) and lognormal (line).";
+    Figure::new("frame-risk", title, caption, vec![curves, fragility(report)])
+        .with_remark(remark(report.source.synthetic))
 }
 
 fn fragility(report: &FrameRiskReport) -> Panel {
     let found = &report.overturning;
-    let shares = found.levels.iter().zip(&found.overturned);
-    let points = shares.map(|(&level, &count)| (level, f64::from(count) / report.records as f64)).collect();
-    let counted = "overturning, counted".to_owned();
-    let mut series = vec![Series { name: counted, points, tone: Tone::Distinct(0), marks: Marks::Only }];
-    if let (Some(fit), [first, .., last]) = (&found.fit, &found.levels[..]) {
-        let ratio = last / first;
-        let curve = (0..=POINTS).map(|step| {
-            let level = first * ratio.powf(f64::from(step) / f64::from(POINTS));
-            (level, fit.fragility.probability(level))
-        });
-        series.push(Series::line("overturning, lognormal", curve.collect(), Tone::Distinct(0)));
-    }
-    Panel::lines(
-        "",
-        Axis::log(format!("{}, {}", report.im, report.unit)),
-        Axis::linear("share of the records that overturn").between(0.0, 1.0),
-        series,
-    )
+    let counts = (&found.levels[..], &found.overturned[..], report.records as f64);
+    let series = counted_and_fitted("overturning", counts, found.fit.as_ref(), Tone::Distinct(0));
+    overturning_panel(report.im, report.unit, series)
 }

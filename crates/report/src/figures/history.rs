@@ -2,7 +2,7 @@
 
 use uplift::response::{BlockHistory, HistoryRow, ResponseHistory};
 use uplift_block::Moment;
-use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
 /// Points over time, s.
 type Points = Vec<(f64, f64)>;
@@ -65,23 +65,13 @@ fn figure(
         Series::line(name, vec![(0.0, at), (end_s, at)], Tone::Distinct(2))
     };
     let panel = |y: &str, series: Vec<Series>| Panel::lines("", time(), Axis::linear(y), series);
-    Figure {
-        id: "history".to_owned(),
-        title: title.to_owned(),
-        caption: caption.to_owned(),
-        remark: String::new(),
-        panels: vec![
-            panel("ground acceleration, m/s²", vec![Series::line("ground acceleration", ground, Tone::Faint)]),
-            panel(
-                axis,
-                vec![
-                    Series::line(name, points, Tone::Distinct(0)),
-                    boundary(1.0, limit.0),
-                    boundary(-1.0, ""),
-                    Series { name: "impacts".to_owned(), points: impacts, tone: Tone::Distinct(1), marks: Marks::Only },
-                ],
-            ),
-        ],
-        columns: 1,
-    }
+    let moved = vec![
+        Series::line(name, points, Tone::Distinct(0)),
+        boundary(1.0, limit.0),
+        boundary(-1.0, ""),
+        Series::dots("impacts", impacts, Tone::Distinct(1)),
+    ];
+    let ground = vec![Series::line("ground acceleration", ground, Tone::Faint)];
+    let panels = vec![panel("ground acceleration, m/s²", ground), panel(axis, moved)];
+    Figure { columns: 1, ..Figure::new("history", title, caption, panels) }
 }

@@ -2,15 +2,15 @@
 
 use uplift::library::{FitReport, LevelReport, LibraryReport, MeasureReport, Normalised, SystemReport};
 use uplift_fragility::LognormalFragility;
-use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
+
+use super::overturning::fitted;
 
 /// Names of the figures.
 pub(crate) const LIBRARY_FIGURES: [&str; 4] = ["block-pga", "block-pgv", "oscillator-pga", "oscillator-pgv"];
 /// Columns of panels, and systems in a panel: of more, so many from the first to the last.
 const MOST_COLUMNS: usize = 3;
 const MOST_LINES: usize = 7;
-/// Points on a fitted curve.
-const POINTS: u32 = 120;
 
 /// A figure for each kind of system and intensity: under which share of the motions it overturns and rocks, and its
 /// median response.
@@ -52,17 +52,12 @@ fn figure(report: &LibraryReport, systems: &[&SystemReport], measure: Normalised
     }
     panels.extend(columns.iter().map(|column| panel(column, measure, None)));
     let kind = systems.first().map_or("", |system| system.kind);
-    Figure {
-        id: format!("{kind}-{}", measure.key()),
-        title: format!("Rocking response of {kind}s over normalised {}", measure.key().to_uppercase()),
-        caption:
-            "Shares of the motions, counted (dots) and lognormal (lines), and the median response over all motions, \
-                  which ends where half of them overturn."
-                .to_owned(),
-        remark: if report.synthetic { super::SYNTHETIC } else { "" }.to_owned(),
-        columns: if columns.len() == 1 { panels.len() } else { columns.len() },
-        panels,
-    }
+    let id = format!("{kind}-{}", measure.key());
+    let title = format!("Rocking response of {kind}s over normalised {}", measure.key().to_uppercase());
+    let caption = "Shares of the motions, counted (dots) and lognormal (lines), and the median response over all \
+                   motions, which ends where half of them overturn.";
+    let columns = if columns.len() == 1 { panels.len() } else { columns.len() };
+    Figure { columns, ..Figure::new(id, title, caption, panels).with_remark(super::remark(report.synthetic)) }
 }
 
 /// What the systems of a column have in common.
@@ -126,11 +121,9 @@ fn shares(system: &SystemReport, measure: Normalised, event: &str, tone: Tone) -
     let ends = points.first().zip(points.last()).map(|(first, last)| (first.0, last.0));
     let parameters = fit(system, measure, event).and_then(|fit| Some((fit.median?, fit.dispersion?)));
     let curve = parameters.zip(ends).and_then(|((median, dispersion), (first, last))| {
-        let fragility = LognormalFragility::new(median, dispersion).ok()?;
-        let level = |step| first * (last / first).powf(f64::from(step) / f64::from(POINTS));
-        Some((0..=POINTS).map(level).map(|level| (level, fragility.probability(level))).collect())
+        Some(fitted(&LognormalFragility::new(median, dispersion).ok()?, first, last))
     });
     // without a fit it is a name for the legend alone
     let line = Series::line(line_name(system), curve.unwrap_or_default(), tone);
-    vec![Series { name: String::new(), points, tone, marks: Marks::Only }, line]
+    vec![Series::dots("", points, tone), line]
 }

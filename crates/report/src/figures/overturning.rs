@@ -1,10 +1,13 @@
 //! Collapse fragilities of a structure: counted, and the lognormal curves beside them.
 
-use uplift::structure::{CollapseReport, OverturningReport};
-use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
+use uplift::structure::OverturningReport;
+use uplift_fragility::{LognormalFit, LognormalFragility};
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
-/// Points on a fitted curve.
-const POINTS: u32 = 120;
+use super::remark;
+
+/// Steps between the points on a fitted curve.
+const STEPS: u32 = 120;
 
 /// A panel for each measure: shares of the records that overturn at each level as dots, the fitted curve as a line.
 pub fn overturning_figure(report: &OverturningReport) -> Figure {
@@ -13,41 +16,42 @@ pub fn overturning_figure(report: &OverturningReport) -> Figure {
         .overturning
         .chunk_by(|a, b| a.im == b.im)
         .map(|models| {
-            Panel::lines(
-                "",
-                Axis::log(format!("{}, {}", models[0].im, models[0].unit)),
-                Axis::linear("share of the records that overturn").between(0.0, 1.0),
-                models.iter().enumerate().flat_map(|(index, found)| series(index, found)).collect(),
-            )
+            let series = models.iter().enumerate().flat_map(|(index, found)| {
+                let counts = (&found.levels[..], &found.overturned[..], f64::from(found.records));
+                counted_and_fitted(found.model, counts, found.fit.as_ref(), Tone::Distinct(index))
+            });
+            overturning_panel(models[0].im, models[0].unit, series.collect())
         })
         .collect();
-    Figure {
-        id: "overturning".to_owned(),
-        title: format!("Overturning of {}", report.structure.name),
-        caption:
-            "Collapse fragility: share of the records that overturn the structure at each intensity level (dots), and \
-                  the lognormal curve of maximum likelihood (lines)."
-                .to_owned(),
-        remark: if report.source.synthetic { "synthetic records: not for design" } else { "" }.to_owned(),
-        columns: panels.len().min(2),
-        panels,
-    }
+    let title = format!("Overturning of {}", report.structure.name);
+    let caption = "Collapse fragility: share of the records that overturn the structure at each intensity level \
+                   (dots), and the lognormal curve of maximum likelihood (lines).";
+    Figure::new("overturning", title, caption, panels).with_remark(remark(report.source.synthetic))
 }
 
-/// Dots and line of one model.
-fn series(index: usize, found: &CollapseReport) -> Vec<Series> {
-    let (name, records) = (found.model, f64::from(found.records));
-    let counted = found.levels.iter().zip(&found.overturned);
-    let points = counted.map(|(&level, &overturned)| (level, f64::from(overturned) / records)).collect();
-    let tone = Tone::Distinct(index);
-    let mut series = vec![Series { name: format!("{name}, counted"), points, tone, marks: Marks::Only }];
-    if let (Some(fit), [first, .., last]) = (&found.fit, &found.levels[..]) {
-        let ratio = last / first;
-        let curve = (0..=POINTS).map(|step| {
-            let level = first * ratio.powf(f64::from(step) / f64::from(POINTS));
-            (level, fit.fragility.probability(level))
-        });
-        series.push(Series::line(format!("{name}, lognormal"), curve.collect(), tone));
+/// Shares of the records that overturn over the levels of a measure.
+pub(super) fn overturning_panel(measure: &str, unit: &str, series: Vec<Series>) -> Panel {
+    let y = Axis::linear("share of the records that overturn").between(0.0, 1.0);
+    Panel::lines("", Axis::log(format!("{measure}, {unit}")), y, series)
+}
+
+/// Dots for the records counted at each level, of so many, and the line of the fit.
+pub(super) fn counted_and_fitted(
+    name: &str,
+    (levels, overturned, records): (&[f64], &[u32], f64),
+    fit: Option<&LognormalFit>,
+    tone: Tone,
+) -> Vec<Series> {
+    let points = levels.iter().zip(overturned).map(|(&level, &count)| (level, f64::from(count) / records)).collect();
+    let mut series = vec![Series::dots(format!("{name}, counted"), points, tone)];
+    if let (Some(fit), &[first, .., last]) = (fit, levels) {
+        series.push(Series::line(format!("{name}, lognormal"), fitted(&fit.fragility, first, last), tone));
     }
     series
+}
+
+/// A lognormal curve between two levels.
+pub(super) fn fitted(fragility: &LognormalFragility, first: f64, last: f64) -> Vec<(f64, f64)> {
+    let level = |step| first * (last / first).powf(f64::from(step) / f64::from(STEPS));
+    (0..=STEPS).map(level).map(|level| (level, fragility.probability(level))).collect()
 }

@@ -23,12 +23,8 @@ pub fn pulse_figures(plan: &PulsePlan, spectra: &[PulseSpectra]) -> Vec<Figure> 
         format!("{block} and a coefficient of restitution of {r}")
     });
     let figure = |id: &str, title: &str, caption: String, panel: &dyn Fn(&PulseSpectra) -> Panel| Figure {
-        id: id.to_owned(),
-        title: title.to_owned(),
-        caption,
-        remark: String::new(),
-        panels: spectra.iter().map(panel).collect(),
         columns: spectra.len(),
+        ..Figure::new(id, title, caption, spectra.iter().map(panel).collect())
     };
     let pulse = &plan.blocks;
     vec![

@@ -2,9 +2,10 @@
 
 use uplift::result::{DIRECTIONS, ShakeTable};
 use uplift_fragility::quantile;
-use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 use uplift_validation::Sample;
 
+use super::remark;
 use super::validation::stairs;
 
 /// Every figure of the tests.
@@ -46,12 +47,8 @@ fn drifts(table: &ShakeTable) -> Figure {
         let series = table.levels.iter().enumerate().map(|(index, level)| {
             let tests = table.of_level(index).filter(|(one, _)| one.class == class);
             let points = (1..).map(f64::from).zip(tests).filter(|(_, (_, test))| test.drift.is_finite());
-            Series {
-                name: level.name.clone(),
-                points: points.map(|(place, (_, test))| (place, 100.0 * test.drift)).collect(),
-                tone: Tone::Distinct(index),
-                marks: Marks::Only,
-            }
+            let points = points.map(|(place, (_, test))| (place, 100.0 * test.drift)).collect();
+            Series::dots(&level.name, points, Tone::Distinct(index))
         });
         Panel::lines(class, Axis::linear("excitation of the class"), Axis::linear("drift, %"), series.collect())
     };
@@ -69,12 +66,8 @@ fn drifts(table: &ShakeTable) -> Figure {
 fn shears(table: &ShakeTable) -> Figure {
     let series = table.levels.iter().enumerate().map(|(index, level)| {
         let tests = table.of_level(index).filter(|(_, test)| test.drift.is_finite());
-        Series {
-            name: level.name.clone(),
-            points: tests.map(|(_, test)| (100.0 * test.drift, 1e-3 * test.base_shear_n)).collect(),
-            tone: Tone::Distinct(index),
-            marks: Marks::Only,
-        }
+        let points = tests.map(|(_, test)| (100.0 * test.drift, 1e-3 * test.base_shear_n)).collect();
+        Series::dots(&level.name, points, Tone::Distinct(index))
     });
     let (x, y) = (Axis::linear("drift, %"), Axis::linear("base shear, kN"));
     figure(
@@ -124,12 +117,5 @@ fn spectra(table: &ShakeTable) -> Option<Figure> {
 }
 
 fn figure(table: &ShakeTable, id: &str, title: &str, caption: &str, panels: Vec<Panel>) -> Figure {
-    Figure {
-        id: id.to_owned(),
-        title: format!("{title}, {}", table.structure),
-        caption: caption.to_owned(),
-        remark: if table.synthetic { "synthetic records: not for design" } else { "" }.to_owned(),
-        columns: panels.len().clamp(1, 2),
-        panels,
-    }
+    Figure::new(id, format!("{title}, {}", table.structure), caption, panels).with_remark(remark(table.synthetic))
 }

@@ -10,7 +10,7 @@ use uplift::result::ResultFile;
 use uplift::text::{nearest, risk_in_words, rounded};
 use uplift::uniform_risk::site_table::{SHOWN_ON_MAP, SiteArrays};
 use uplift::uniform_risk::strength_index;
-use uplift_plot::{Axis, Figure, Marks, Panel, Series, Tone};
+use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
 /// Ends of the classes, m.
 const ENDS_M: [f64; 13] = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0];
@@ -55,17 +55,11 @@ fn site_map(sites: &SiteArrays, shown: &[usize], (measure, poe): (usize, usize),
     };
     let panels: Vec<Panel> = shown.iter().zip(&dots).map(panel).collect();
     let risk = risk_in_words(sites.poes[poe], sites.years);
-    Figure {
-        id: format!("map-{key}-{}pct", rounded(100.0 * sites.poes[poe], 6)),
-        title: format!("Displacement of {risk}, by {}", key.to_uppercase()),
-        caption:
-            "Displacement that a structure of this uplift strength must accommodate. Where sites overlap, the largest \
-                  is drawn."
-                .to_owned(),
-        remark: remark.to_owned(),
-        columns: panels.len().min(2),
-        panels,
-    }
+    let id = format!("map-{key}-{}pct", rounded(100.0 * sites.poes[poe], 6));
+    let title = format!("Displacement of {risk}, by {}", key.to_uppercase());
+    let caption = "Displacement that a structure of this uplift strength must accommodate. Where sites overlap, the \
+                   largest is drawn.";
+    Figure::new(id, title, caption, panels).with_remark(remark)
 }
 
 /// From where to where the map goes, longitudes and latitudes: a degree of both is of one length in its middle.
@@ -127,7 +121,7 @@ impl Classes {
         let of = self.ends_m.len() + 1;
         let series = |name: String, tone, holds: &dyn Fn(f64) -> bool| {
             let points = dots.iter().filter(|dot| holds(dot.u_m)).map(|dot| dot.place).collect();
-            Series { name, points, tone, marks: Marks::Only }
+            Series::dots(name, points, tone)
         };
         let mut all: Vec<Series> = (0..of)
             .map(|step| {

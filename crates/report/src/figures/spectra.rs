@@ -51,14 +51,7 @@ pub fn hazard_figure(curves: &[NamedCurve]) -> Figure {
             None => panels.push(Panel::lines("", Axis::log(label), Axis::log(RATE), vec![series])),
         }
     }
-    Figure {
-        id: "hazard".to_owned(),
-        title: "Hazard curves".to_owned(),
-        caption: "Annual rate at which an intensity level is exceeded.".to_owned(),
-        remark: String::new(),
-        columns: panels.len().min(2),
-        panels,
-    }
+    Figure::new("hazard", "Hazard curves", "Annual rate at which an intensity level is exceeded.", panels)
 }
 
 /// The rarest spectra of all sites by the first measure in one panel; none of a single site.

@@ -4,7 +4,7 @@ use super::{DISPLACEMENT, FigureSource, STRENGTH};
 use uplift::result::{SpreadOver, StoredSpread};
 use uplift::text::risk_in_words;
 use uplift_motion::IntensityMeasure;
-use uplift_plot::{Axis, Band, Figure, Panel, Tone};
+use uplift_plot::{Axis, Figure, Panel, Tone};
 
 /// A figure for each measure and each of what is not known.
 pub(super) fn spreads(source: &FigureSource) -> Vec<Figure> {
@@ -14,11 +14,8 @@ pub(super) fn spreads(source: &FigureSource) -> Vec<Figure> {
         let mut panel = Panel::lines(title, Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), Vec::new());
         for (poe, &probability) in spectra.poes.iter().enumerate() {
             let tone = Tone::Distinct(poe);
-            let [_, lower, .., upper] = spread.limits_m(poe);
-            let limits = spectra.strengths.iter().zip(lower.iter().zip(upper));
-            let points = limits.map(|(&eta, (&low, &high))| (eta, low, high)).collect();
-            panel.bands.push(Band { name: String::new(), points, tone });
-            let [mean, ..] = spread.limits_m(poe);
+            let [mean, lower, .., upper] = spread.limits_m(poe);
+            panel.bands.push(source.between(lower, upper, tone));
             panel.series.push(source.over_strengths(risk_in_words(probability, spectra.years), mean, tone));
         }
         panel

@@ -4,7 +4,7 @@ use uplift::sweep::{SweepReport, VariantReport, VariantSpectrum};
 use uplift::text::risk_in_words;
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
-use super::{DISPLACEMENT, STRENGTH};
+use super::{DISPLACEMENT, STRENGTH, remark};
 
 /// Lines that a colour of its own tells apart; more are a ramp.
 const TOLD_APART: usize = 7;
@@ -39,17 +39,10 @@ pub fn sweep_figure(report: &SweepReport) -> Figure {
         Some(risk_in_words(spectrum.poe, variant.years))
     });
     let synthetic = report.variants.iter().any(|variant| variant.synthetic);
-    Figure {
-        id: "comparison".to_owned(),
-        title: format!("Variants of {}", report.title),
-        caption: format!(
-            "Uniform risk spectra of every variant, at its rarest risk ({} in the first).",
-            risk.unwrap_or_default()
-        ),
-        remark: if synthetic { "synthetic records: not for design" } else { "" }.to_owned(),
-        columns: panels.len().min(2),
-        panels,
-    }
+    let title = format!("Variants of {}", report.title);
+    let risk = risk.unwrap_or_default();
+    let caption = format!("Uniform risk spectra of every variant, at its rarest risk ({risk} in the first).");
+    Figure::new("comparison", title, caption, panels).with_remark(remark(synthetic))
 }
 
 /// The spectrum of a variant by a measure at a site for its smallest probability.

@@ -37,17 +37,7 @@ pub(crate) fn together(results: &[(&str, &FigureSource)]) -> Option<Figure> {
         return None;
     }
     share_y(&mut panels);
-    Some(Figure {
-        id: "together".to_owned(),
-        title: format!("Spectra of {} by {}", risk_in_words(poe, years), measure.label()),
-        caption: "The same spectrum of every result.".to_owned(),
-        remark: results
-            .iter()
-            .map(|(_, of)| of.remark)
-            .find(|remark| !remark.is_empty())
-            .unwrap_or_default()
-            .to_owned(),
-        columns: panels.len().min(2),
-        panels,
-    })
+    let title = format!("Spectra of {} by {}", risk_in_words(poe, years), measure.label());
+    let remark = results.iter().map(|(_, of)| of.remark).find(|remark| !remark.is_empty()).unwrap_or_default();
+    Some(Figure::new("together", title, "The same spectrum of every result.", panels).with_remark(remark))
 }

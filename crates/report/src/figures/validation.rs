@@ -1,11 +1,9 @@
 //! Computed peaks beside measured ones: distributions with a band, and motion by motion.
 
 use uplift::validate::{GroupReport, ValidateReport};
-use uplift_plot::{Axis, Band, Figure, Marks, Panel, Series, Tone};
+use uplift_plot::{Axis, Band, Figure, Panel, Series, Tone};
 use uplift_validation::{BandRule, Sample};
 
-/// Panels in a row.
-const COLUMNS: usize = 2;
 /// What a factor of two is called.
 const FACTOR: f64 = 2.0;
 
@@ -16,47 +14,20 @@ pub fn distributions_figure(report: &ValidateReport) -> Figure {
         BandRule::Dkw => "of the whole distribution, by Dvoretzky, Kiefer and Wolfowitz",
         BandRule::Bootstrap => "pointwise over resamples of the motions",
     };
-    figure(
-        report,
-        "validation",
-        "Distributions of computed and measured peaks",
-        format!(
-            "Share of the peaks up to a value, measured with a 95 % band ({rule}) and computed. The share missing \
-             to 1 collapsed, or exceeds the measuring range."
-        ),
-        |group| distributions(report, group),
-    )
+    let caption = format!(
+        "Share of the peaks up to a value, measured with a 95 % band ({rule}) and computed. The share missing to 1 \
+         collapsed, or exceeds the measuring range."
+    );
+    let panels = report.groups.iter().map(|group| distributions(report, group)).collect();
+    Figure::new("validation", "Distributions of computed and measured peaks", caption, panels)
 }
 
 /// Computed over measured peak of each motion (Fig. 6.19), with lines of equality and of factors of two.
 pub fn pairs_figure(report: &ValidateReport) -> Figure {
-    figure(
-        report,
-        "validation-pairs",
-        "Computed over measured peaks",
-        "Computed over measured peak of each motion; lines: equality, and a factor of two either way. \
-         Collapses are counted in the table alone."
-            .to_owned(),
-        |group| pairs(report, group),
-    )
-}
-
-fn figure(
-    report: &ValidateReport,
-    id: &str,
-    title: &str,
-    caption: String,
-    panel: impl Fn(&GroupReport) -> Panel,
-) -> Figure {
-    let panels: Vec<Panel> = report.groups.iter().map(panel).collect();
-    Figure {
-        id: id.to_owned(),
-        title: title.to_owned(),
-        caption,
-        remark: String::new(),
-        columns: panels.len().clamp(1, COLUMNS),
-        panels,
-    }
+    let caption = "Computed over measured peak of each motion; lines: equality, and a factor of two either way. \
+                   Collapses are counted in the table alone.";
+    let panels = report.groups.iter().map(|group| pairs(report, group)).collect();
+    Figure::new("validation-pairs", "Computed over measured peaks", caption, panels)
 }
 
 /// The value with its unit: `u_m` is `u, m`.
@@ -128,7 +99,7 @@ fn pairs(report: &ValidateReport, group: &GroupReport) -> Panel {
             Series::line("equal", line(1.0), Tone::Distinct(2)),
             Series::line("a factor of two", line(FACTOR), Tone::Thin(2)),
             Series::line("", line(1.0 / FACTOR), Tone::Thin(2)),
-            Series { name: "motions".to_owned(), points, tone: Tone::Distinct(0), marks: Marks::Only },
+            Series::dots("motions", points, Tone::Distinct(0)),
         ],
     )
 }
