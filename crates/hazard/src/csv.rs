@@ -359,7 +359,6 @@ fn read_header(
     years: &mut Option<f64>,
     place: &Place,
 ) -> Result<(usize, SecondColumn), HazardError> {
-    let fail = |reason: String| Err(HazardError::Row { place: place.clone(), reason });
     let mut level = None;
     let mut content = None;
     for (index, field) in fields.into_iter().enumerate() {
@@ -388,7 +387,8 @@ fn read_header(
     }
     let (Some(level), Some(content)) = (level, content) else {
         let [a, b] = fields.map(excerpt);
-        return fail(format!("columns {a} and {b}: one must hold levels (iml), the other {HAZARD_NAMES}"));
+        let reason = format!("columns {a} and {b}: one must hold levels (iml), the other {HAZARD_NAMES}");
+        return Err(HazardError::Row { place: place.clone(), reason });
     };
     // a return period is an annual rate, written otherwise
     let holds = if content == SecondColumn::ReturnPeriod { SecondColumn::AnnualRate } else { content };

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::component::ComponentDefinition;
-use crate::error::{HazardError, Place};
+use crate::error::{HazardError, Place, check_positive};
 use crate::unit::{CurveUnit, Dimension, same_unit};
 
 /// One point of a hazard curve.
@@ -133,10 +133,7 @@ impl HazardCurve {
     /// [`HazardError::Argument`] for a factor that is not finite and above 0; the errors of [`HazardCurve::new`] where
     /// rounding makes levels collapse.
     pub fn converted(&self, factor: f64, to: ComponentDefinition) -> Result<Self, HazardError> {
-        if !(factor.is_finite() && factor > 0.0) {
-            let (what, must_be) = ("conversion factor", "a finite number above 0");
-            return Err(HazardError::Argument { what, value: factor, must_be });
-        }
+        check_positive("conversion factor", factor)?;
         let im = self.im.iter().map(|level| level * factor).collect();
         let curve = Self::new(self.measure.clone(), self.unit.clone(), self.source.clone(), im, self.maf.clone())?;
         Ok(curve.with_component(Some(to)))
@@ -217,10 +214,7 @@ impl HazardCurve {
     /// [`HazardError::Conversion`] for unknown units and different dimensions, [`HazardError::Argument`] for a gravity
     /// that is not finite and above 0; the errors of [`HazardCurve::new`] where rounding makes levels collapse.
     pub fn in_unit(&self, unit: &str, gravity_m_s2: f64) -> Result<Self, HazardError> {
-        if !(gravity_m_s2.is_finite() && gravity_m_s2 > 0.0) {
-            let (what, must_be) = ("gravity [m/s2]", "a finite number above 0");
-            return Err(HazardError::Argument { what, value: gravity_m_s2, must_be });
-        }
+        check_positive("gravity [m/s2]", gravity_m_s2)?;
         if same_unit(&self.unit, unit) {
             // No arithmetic, so no rounding.
             return Ok(Self { unit: unit.to_owned(), ..self.clone() });

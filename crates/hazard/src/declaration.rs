@@ -198,12 +198,8 @@ mod tests {
     use super::*;
 
     fn named(measure: Option<&str>, unit: Option<&str>) -> Declaration {
-        Declaration {
-            measure: measure.map(str::to_owned),
-            unit: unit.map(str::to_owned),
-            components: Vec::new(),
-            doubtful: None,
-        }
+        let (measure, unit) = (measure.map(str::to_owned), unit.map(str::to_owned));
+        Declaration { measure, unit, ..Declaration::default() }
     }
 
     #[test]

@@ -32,6 +32,14 @@ impl fmt::Display for Place {
     }
 }
 
+/// Refuses an argument that is not finite and above 0.
+pub(crate) fn check_positive(what: &'static str, value: f64) -> Result<(), HazardError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(HazardError::Argument { what, value, must_be: "a finite number above 0" })
+}
+
 fn list(mistakes: &[HazardError], more: usize) -> String {
     let mut lines: Vec<String> = mistakes.iter().map(ToString::to_string).collect();
     if more > 0 {

@@ -230,9 +230,7 @@ impl ExportedCurves {
             }
         }
     }
-}
 
-impl ExportedCurves {
     /// The next site, whether or not its values make a curve: to go through many sites, of which some have no hazard.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Reading a hazard curve at any level or rate: straight lines between its points in log–log axes.
 
 use crate::curve::{HazardCurve, HazardPoint};
-use crate::error::HazardError;
+use crate::error::{HazardError, check_positive};
 
 /// What to do with a value outside the curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -99,13 +99,6 @@ impl HazardCurve {
         let (measure, unit) = (self.measure().to_owned(), unit.to_owned());
         Err(HazardError::ExtrapolationRange { measure, value, unit })
     }
-}
-
-fn check_positive(what: &'static str, value: f64) -> Result<(), HazardError> {
-    if value.is_finite() && value > 0.0 {
-        return Ok(());
-    }
-    Err(HazardError::Argument { what, value, must_be: "a finite number above 0" })
 }
 
 /// The straight line through two points in log–log axes, at `x`; between the points never outside their ordinates.

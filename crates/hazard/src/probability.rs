@@ -1,13 +1,6 @@
 //! Annual rate and probability of exceedance in a period (Eq. 4.8).
 
-use crate::error::HazardError;
-
-fn check_years(years: f64) -> Result<(), HazardError> {
-    if years.is_finite() && years > 0.0 {
-        return Ok(());
-    }
-    Err(HazardError::Argument { what: "period [yr]", value: years, must_be: "a finite number above 0" })
-}
+use crate::error::{HazardError, check_positive};
 
 /// Annual rate, 1/yr, of an event that has `probability` of occurring within `years`: −ln(1 − P)/T (Eq. 4.8).
 ///
@@ -16,11 +9,16 @@ fn check_years(years: f64) -> Result<(), HazardError> {
 /// # Errors
 /// [`HazardError::Argument`] unless 0 < `probability` < 1 and `years` is finite and above 0.
 pub fn rate_from_probability(probability: f64, years: f64) -> Result<f64, HazardError> {
-    check_years(years)?;
+    check_positive("period [yr]", years)?;
     if probability > 0.0 && probability < 1.0 {
-        return Ok(-(-probability).ln_1p() / years);
+        return Ok(rate_of(probability, years));
     }
     Err(HazardError::Argument { what: "probability of exceedance", value: probability, must_be: "above 0 and below 1" })
+}
+
+/// −ln(1 − P)/T of a probability and a period that are ones.
+pub(crate) fn rate_of(probability: f64, years: f64) -> f64 {
+    -(-probability).ln_1p() / years
 }
 
 /// Return period, years, of an event that has `probability` of occurring within `years`: 1/λ (Eq. 4.8).
@@ -40,7 +38,7 @@ pub fn return_period_from_probability(probability: f64, years: f64) -> Result<f6
 /// # Errors
 /// [`HazardError::Argument`] unless `rate` is finite and not negative and `years` is finite and above 0.
 pub fn probability_from_rate(rate: f64, years: f64) -> Result<f64, HazardError> {
-    check_years(years)?;
+    check_positive("period [yr]", years)?;
     if rate.is_finite() && rate >= 0.0 {
         return Ok(-(-rate * years).exp_m1());
     }

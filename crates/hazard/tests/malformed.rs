@@ -236,7 +236,6 @@ fn read_costly_texts() {
         format!(
             r#"{{"imt":"PGA","data":[{{"longitude":{longitude:.4},"latitude":1,"xvals":[1,2],"yvals":[0.2,0.1]}}]}}"#
         )
-        .replace("xvals", "xvals")
     };
     let blocks = (0..20_000).map(block).collect::<Vec<_>>().join(",");
     let answer = |url: &str, label: &str| {

@@ -2,6 +2,7 @@
 
 use crate::declaration::same_measure;
 use crate::error::{HazardError, Place};
+use crate::probability::rate_of;
 use crate::text::{excerpt, fields, number};
 
 use super::openquake::value;
@@ -24,17 +25,13 @@ pub struct Disaggregation {
 impl Disaggregation {
     /// The rate at which the level is exceeded, 1/yr: −ln(1 − p)/T (Eq. 4.8).
     pub fn rate_per_year(&self) -> f64 {
-        rate_per_year(self.poe, self.years)
+        rate_of(self.poe, self.years)
     }
 
     /// Whether it is of `measure`, however that is spelt.
     pub fn is_of(&self, measure: &str) -> bool {
         same_measure(&self.measure, measure)
     }
-}
-
-fn rate_per_year(poe: f64, years: f64) -> f64 {
-    -(-poe).ln_1p() / years
 }
 
 /// The sums of one measure and probability.
@@ -97,7 +94,7 @@ pub fn read_disaggregation(text: &str, name: &str) -> Result<Vec<Disaggregation>
         let (level, magnitude, distance_km) = (probability(poe)?, number(row[mag], place)?, number(row[dist], place)?);
         let mut rate = 0.0;
         for (column, weight) in &shares {
-            rate += weight * rate_per_year(probability(*column)?, years);
+            rate += weight * rate_of(probability(*column)?, years);
         }
         let known = all.iter().rposition(|sums| sums.measure == row[imt] && sums.poe == level);
         let at = known.unwrap_or_else(|| {
