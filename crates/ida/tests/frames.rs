@@ -2,11 +2,13 @@
 #![allow(clippy::unwrap_used)]
 
 use uplift_frame::{ColumnShape, GroundMotion, Model, Options, RockingFrame, Until, respond};
-use uplift_ida::{IdaError, Peaks, Plan, ShakenFrame, StripeRecord, System, Unwatched, analyse};
+use uplift_ida::{IdaError, Plan, ShakenFrame, StripeRecord, System, Unwatched, analyse};
 use uplift_motion::Accelerogram;
 use uplift_oscillator::problems::shaped_noise;
 use uplift_statics::{Parts, Restrainer, Stopper, TendonPath};
 use uplift_structure::Geometry;
+
+use crate::bits;
 
 const LEVELS: [f64; 4] = [0.05, 0.5, 1.5, 6.0];
 
@@ -38,10 +40,6 @@ fn plan<'a>(pairs: &'a [[Accelerogram; 2]], systems: &'a [System], with_free_pea
     let records = pairs.iter().enumerate().map(of).collect();
     let plan = Plan::stripes(records, systems, &LEVELS, with_free_peak).unwrap();
     plan.across(pairs.iter().map(|[_, second]| second).collect()).unwrap()
-}
-
-fn bits(peaks: &Peaks) -> Vec<u64> {
-    peaks.displacement_m().iter().map(|value| value.to_bits()).collect()
 }
 
 /// Both components take the factor; the planar model feels the first alone.

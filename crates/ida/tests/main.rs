@@ -6,3 +6,10 @@ mod directions;
 mod frames;
 mod real_records;
 mod stripes;
+
+use uplift_ida::Peaks;
+
+/// All that was computed, to the bit.
+fn bits(peaks: &Peaks) -> Vec<(u64, u32)> {
+    peaks.displacement_m().iter().map(|value| value.to_bits()).zip(peaks.impacts().iter().copied()).collect()
+}
