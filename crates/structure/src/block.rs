@@ -40,7 +40,7 @@ pub enum Reference {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointMass {
-    geometry: Geometry,
+    pub(crate) geometry: Geometry,
     mass_kg: f64,
 }
 
@@ -51,10 +51,6 @@ impl PointMass {
     /// The mass must be finite and positive.
     pub fn new(geometry: Geometry, mass_kg: f64) -> Result<Self, StructureError> {
         Ok(Self { geometry, mass_kg: positive("mass_kg", mass_kg, "kg")? })
-    }
-
-    pub(crate) fn geometry(&self) -> &Geometry {
-        &self.geometry
     }
 
     /// Table 3.1, row 1.
@@ -78,7 +74,7 @@ impl PointMass {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Block {
-    geometry: Geometry,
+    pub(crate) geometry: Geometry,
     mass_kg: f64,
 }
 
@@ -89,10 +85,6 @@ impl Block {
     /// The mass must be finite and positive.
     pub fn new(geometry: Geometry, mass_kg: f64) -> Result<Self, StructureError> {
         Ok(Self { geometry, mass_kg: positive("mass_kg", mass_kg, "kg")? })
-    }
-
-    pub(crate) fn geometry(&self) -> &Geometry {
-        &self.geometry
     }
 
     /// Table 3.1, row 2 (centre) or row 4 (top, Eq. 3.6).
@@ -132,10 +124,10 @@ impl Block {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
-    geometry: Geometry,
+    pub(crate) geometry: Geometry,
     mass_kg: f64,
     /// `I_o/(m R²)`.
-    inertia_ratio: f64,
+    pub(crate) inertia_ratio: f64,
 }
 
 impl Body {
@@ -153,15 +145,6 @@ impl Body {
             return Err(StructureError::InertiaBelowPointMass { moment_of_inertia_kg_m2, least_kg_m2 });
         }
         Ok(Self { geometry, mass_kg, inertia_ratio: moment_of_inertia_kg_m2 / least_kg_m2 })
-    }
-
-    pub(crate) fn geometry(&self) -> &Geometry {
-        &self.geometry
-    }
-
-    /// `I_o/(m R²)`.
-    pub(crate) fn inertia_ratio(&self) -> f64 {
-        self.inertia_ratio
     }
 
     /// Table 3.1, row 3.

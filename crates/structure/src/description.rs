@@ -157,7 +157,7 @@ impl Kind {
     }
 
     /// True where the height of the mass centre is given, not that of the body.
-    fn is_by_centre(self) -> bool {
+    pub(crate) fn is_by_centre(self) -> bool {
         matches!(self, Self::PointMass | Self::Body)
     }
 }

@@ -2,7 +2,7 @@
 
 use uplift_oscillator::{Oscillator, OscillatorError, STANDARD_GRAVITY_M_S2};
 
-use crate::error::{StructureError, not_negative, positive};
+use crate::error::{StructureError, not_negative, positive, representable};
 use crate::geometry::{Geometry, SLENDER_TOLERANCE};
 use crate::rule::Capacity;
 use crate::warning::Warning;
@@ -99,15 +99,11 @@ impl EquivalentSystem {
             ("the strength f_up/(m g)", row.uplift_force_n / (row.mass_kg * conditions.gravity_m_s2)),
             ("the displacement capacity without restraint, m", row.free_capacity_m),
         ] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(StructureError::NotRepresentable { what, value });
-            }
+            representable(what, value)?;
         }
         if !row.softening.is_finite() {
-            return Err(StructureError::NotRepresentable {
-                what: "the restraint against gravity",
-                value: row.softening,
-            });
+            let what = "the restraint against gravity";
+            return Err(StructureError::NotRepresentable { what, value: row.softening });
         }
         let mut warnings = Vec::new();
         let linearisation_error = geometry.linearisation_error();
@@ -341,10 +337,7 @@ fn following(uplift_force_n: f64, uplift_displacement_m: f64, zero_m: f64) -> Re
         Ok(PostUpliftForce::Negative { capacity_m: zero_m })
     } else {
         let stiffness_n_m = uplift_force_n / (uplift_displacement_m - zero_m);
-        if stiffness_n_m.is_finite() && stiffness_n_m > 0.0 {
-            Ok(PostUpliftForce::Positive { stiffness_n_m })
-        } else {
-            Err(StructureError::NotRepresentable { what: "the post-uplift stiffness, N/m", value: stiffness_n_m })
-        }
+        let stiffness_n_m = representable("the post-uplift stiffness, N/m", stiffness_n_m)?;
+        Ok(PostUpliftForce::Positive { stiffness_n_m })
     }
 }

@@ -185,6 +185,14 @@ pub fn not_negative(key: &'static str, value: f64, unit: &'static str) -> Result
     require(value >= 0.0 && value.is_finite(), key, value, unit, "finite and not negative")
 }
 
+/// `value` if it is finite and positive, where it was computed from what is.
+///
+/// # Errors
+/// [`StructureError::NotRepresentable`] if it is not.
+pub(crate) fn representable(what: &'static str, value: f64) -> Result<f64, StructureError> {
+    if value.is_finite() && value > 0.0 { Ok(value) } else { Err(StructureError::NotRepresentable { what, value }) }
+}
+
 /// `value` if `holds`.
 ///
 /// # Errors

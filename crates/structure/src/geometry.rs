@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::error::{StructureError, positive, require};
+use crate::error::{StructureError, positive, representable, require};
 
 /// `(tan α − α)/tan α` above which a body is called stocky: 5 %, `α` about 0.38.
 pub const SLENDER_TOLERANCE: f64 = 0.05;
@@ -66,14 +66,10 @@ impl Geometry {
 
     /// The geometry, if products of its lengths can be represented.
     fn usable(half_width_m: f64, half_height_m: f64) -> Result<Self, StructureError> {
-        for (what, value) in
-            [("the half width of the block, m", half_width_m), ("the half height of the block, m", half_height_m)]
-        {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(StructureError::NotRepresentable { what, value });
-            }
-        }
-        Ok(Self { half_width_m, half_height_m })
+        Ok(Self {
+            half_width_m: representable("the half width of the block, m", half_width_m)?,
+            half_height_m: representable("the half height of the block, m", half_height_m)?,
+        })
     }
 
     /// Half width `b`, m.

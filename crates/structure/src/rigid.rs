@@ -48,21 +48,21 @@ impl RotatingBlock {
 impl PointMass {
     /// The block that rotates as this mass on its massless body.
     pub fn rotating_block(&self) -> RotatingBlock {
-        RotatingBlock::from_geometry(self.geometry(), 0.75, 2.0)
+        RotatingBlock::from_geometry(&self.geometry, 0.75, 2.0)
     }
 }
 
 impl Block {
     /// The block itself.
     pub fn rotating_block(&self) -> RotatingBlock {
-        RotatingBlock::from_geometry(self.geometry(), 1.0, 1.5)
+        RotatingBlock::from_geometry(&self.geometry, 1.0, 1.5)
     }
 }
 
 impl Body {
     /// The block that rotates as this body.
     pub fn rotating_block(&self) -> RotatingBlock {
-        RotatingBlock::from_geometry(self.geometry(), 0.75 * self.inertia_ratio(), 2.0 / self.inertia_ratio())
+        RotatingBlock::from_geometry(&self.geometry, 0.75 * self.inertia_ratio, 2.0 / self.inertia_ratio)
     }
 }
 

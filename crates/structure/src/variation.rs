@@ -141,7 +141,7 @@ fn sized(of: &StructureDescription, size_m: f64) -> Result<StructureDescription,
 /// The width `width_m` at the same height.
 fn widened(of: &StructureDescription, width_m: f64) -> Result<StructureDescription, StructureError> {
     let geometry = of.geometry()?;
-    let by_centre = matches!(of.kind, Kind::PointMass | Kind::Body);
+    let by_centre = of.kind.is_by_centre();
     let half_width_m = 0.5 * positive("width_m", width_m, "m")?;
     // the inertia about the corner, by that of the mass at its new distance
     let nearer_m2 = half_width_m * half_width_m - geometry.half_width_m() * geometry.half_width_m();

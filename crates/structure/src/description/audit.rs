@@ -144,13 +144,12 @@ pub(super) fn allowed(key: &str) -> Option<Allowed> {
 /// The mistakes that can be seen in single quantities and in the choice of geometry.
 pub(super) fn mistakes(of: &StructureDescription) -> Vec<StructureError> {
     let kind = of.kind.name();
+    let foreign = |key, value: &str, unit| StructureError::Foreign { key, value: value.to_owned(), unit, kind };
     let mut mistakes = Vec::new();
     for Quantity { key, unit, allowed, value, role } in QUANTITIES {
         match (role(of.kind), value(of)) {
             (Role::Needed, None) => mistakes.push(StructureError::Missing { key, unit, kind }),
-            (Role::Foreign, Some(value)) => {
-                mistakes.push(StructureError::Foreign { key, value: value.to_string(), unit, kind });
-            }
+            (Role::Foreign, Some(value)) => mistakes.push(foreign(key, &value.to_string(), unit)),
             (_, Some(value)) => mistakes.extend(allowed.check(key, value, unit).err()),
             _ => {}
         }
@@ -160,7 +159,7 @@ pub(super) fn mistakes(of: &StructureDescription) -> Vec<StructureError> {
             Reference::Centre => "\"centre\"",
             Reference::Top => "\"top\"",
         };
-        mistakes.push(StructureError::Foreign { key: "displacement_of", value: value.to_owned(), unit: "", kind });
+        mistakes.push(foreign("displacement_of", value, ""));
     }
     match (of.kind == Kind::RestrainedFrame, of.tendon_anchorage) {
         (true, None) => mistakes.push(StructureError::MissingAnchorage),
@@ -169,7 +168,7 @@ pub(super) fn mistakes(of: &StructureDescription) -> Vec<StructureError> {
                 Anchorage::Foundation => "\"foundation\"",
                 Anchorage::Column => "\"column\"",
             };
-            mistakes.push(StructureError::Foreign { key: "tendon_anchorage", value: value.to_owned(), unit: "", kind });
+            mistakes.push(foreign("tendon_anchorage", value, ""));
         }
         _ => {}
     }

@@ -42,7 +42,7 @@ pub(super) fn unlikely(of: &StructureDescription) -> Vec<Unlikely> {
 
 /// Of a body; none of others.
 fn inertia_ratio(of: &StructureDescription) -> Option<f64> {
-    Some(three_digits(of.body().ok().filter(|_| of.kind == Kind::Body)?.inertia_ratio()))
+    Some(three_digits(of.body().ok().filter(|_| of.kind == Kind::Body)?.inertia_ratio))
 }
 
 /// Mass of the deck over that of the columns; none where one of them has no mass.
@@ -62,10 +62,8 @@ fn three_digits(value: f64) -> f64 {
 fn bulk_kg_m3(of: &StructureDescription) -> Option<(&'static str, f64)> {
     let (name, mass_kg) = match of.kind {
         Kind::Block => ("mass_kg over width² × height", of.mass_kg?),
-        Kind::Frame | Kind::RestrainedFrame | Kind::CurvedFrame => {
-            ("column_mass_kg over width² × height", of.column_mass_kg?)
-        }
-        Kind::PointMass | Kind::Body => return None,
+        kind if kind.is_frame() => ("column_mass_kg over width² × height", of.column_mass_kg?),
+        _ => return None,
     };
     let geometry = of.geometry().ok()?;
     let volume_m3 = geometry.width_m().powi(2) * geometry.height_m();
