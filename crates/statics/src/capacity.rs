@@ -25,10 +25,7 @@ impl RestrainedColumns {
     /// The displacement capacity: the first zero of the force before the springs are flat and within four times the
     /// slenderness; none where the force stays above zero.
     pub fn capacity(&self) -> Option<Capacity> {
-        let flat_m = self.restrainer().and_then(|restrainer| restrainer.elongation_at_m(Threshold::SpringsFlat));
-        let flat_rad = flat_m.and_then(|flat_m| self.rotation_at_elongation_rad(flat_m)).unwrap_or(f64::INFINITY);
-        let last_rad = (4.0 * self.geometry().slenderness_rad()).min(flat_rad).min(self.last_rotation_rad());
-        let rotation_rad = self.neutral_rotations_rad(last_rad).into_iter().next()?;
+        let rotation_rad = self.neutral_rotations_rad(self.last_searched_rad()).into_iter().next()?;
         let state = self.at_rotation(rotation_rad).ok()?;
         let secant_n_m =
             self.restrainer().map(|restrainer| (state.tendon_n - restrainer.parts().prestress_n) / state.elongation_m);
@@ -38,6 +35,14 @@ impl RestrainedColumns {
             secant_n_m,
             spring_m: state.spring_m,
         })
+    }
+
+    /// The last rotation at which a displacement capacity is sought: where the springs are flat, at most four times the
+    /// slenderness, rad.
+    pub(crate) fn last_searched_rad(&self) -> f64 {
+        let flat_m = self.restrainer().and_then(|restrainer| restrainer.elongation_at_m(Threshold::SpringsFlat));
+        let flat_rad = flat_m.and_then(|flat_m| self.rotation_at_elongation_rad(flat_m)).unwrap_or(f64::INFINITY);
+        (4.0 * self.geometry().slenderness_rad()).min(flat_rad).min(self.last_rotation_rad())
     }
 
     /// Every rotation up to `last_rad` (rad) at which the force changes its sign, by rising rotation, rad.

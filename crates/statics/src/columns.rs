@@ -222,10 +222,8 @@ impl RestrainedColumns {
     fn state(&self, rotation: f64, displacement_m: f64) -> Result<PushoverState, StaticsError> {
         let geometry = &self.geometry;
         let Elongation { elongation_m, rate_m } = self.elongation(rotation);
-        let restrainer = match self.restrainer() {
-            None => None,
-            Some(restrainer) => Some(restrainer.at(elongation_m).map_err(|error| at(error, displacement_m))?),
-        };
+        let restrainer = self.restrainer().map(|restrainer| restrainer.at(elongation_m)).transpose();
+        let restrainer = restrainer.map_err(|error| at(error, displacement_m))?;
         let tendon_n = restrainer.map_or(0.0, |state| state.force_n);
         let angle = geometry.slenderness_rad() - rotation;
         let gravity_n = self.weight_n() * angle.tan();
@@ -251,16 +249,13 @@ impl RestrainedColumns {
     fn sections(&self, rotation: f64, share_n: f64, tendon_n: f64) -> Sections {
         let (sin, cos) = rotation.sin_cos();
         let b = self.geometry.half_width_m();
-        let (top_load_n, through_base_n) = match self.path {
-            TendonPath::Foundation => (self.top_load_n, tendon_n),
-            TendonPath::Column | TendonPath::Shifted { .. } => (self.top_load_n, 0.0),
-        };
-        let top_axial_n = top_load_n * cos - share_n * sin + tendon_n;
-        let base_axial_n = top_load_n + self.column_weight_n + through_base_n;
+        let through_base_n = if self.path == TendonPath::Foundation { tendon_n } else { 0.0 };
+        let top_axial_n = self.top_load_n * cos - share_n * sin + tendon_n;
+        let base_axial_n = self.top_load_n + self.column_weight_n + through_base_n;
         Sections {
             top_axial_n,
             top_moment_n_m: top_axial_n * b,
-            top_shear_n: share_n * cos + top_load_n * sin,
+            top_shear_n: share_n * cos + self.top_load_n * sin,
             base_axial_n,
             base_moment_n_m: base_axial_n * b,
         }

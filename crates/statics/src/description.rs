@@ -53,7 +53,7 @@ use crate::restrainer::Restrainer;
 use crate::stack::DiscStack;
 
 /// Young's modulus of seven-wire strand, Pa: that of the dissertation's tendons.
-pub const STRAND_YOUNG_MODULUS_PA: f64 = 190e9;
+const STRAND_YOUNG_MODULUS_PA: f64 = 190e9;
 
 /// Kind of restrainer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]

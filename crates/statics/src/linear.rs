@@ -10,7 +10,6 @@
 
 use crate::columns::RestrainedColumns;
 use crate::error::{StaticsError, not_negative};
-use crate::restrainer::Threshold;
 
 /// The linearised columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,9 +70,7 @@ impl RestrainedColumns {
             restrained: f64::from(restrained),
         })
     }
-}
 
-impl RestrainedColumns {
     /// Stiffness of the linear restrainer with which the linearised columns have the displacement capacity of the exact
     /// law, N/m: the one to give to an equivalent oscillator. Stoppers are not counted. Where the exact force does not
     /// vanish before the springs are flat and within four times the slenderness, the two forces agree there; 0 without
@@ -90,10 +87,7 @@ impl RestrainedColumns {
         if let Some(capacity) = bare.capacity() {
             return Ok(law.stiffness_for_capacity_n_m(capacity.displacement_m));
         }
-        let flat_m = bare.restrainer().and_then(|held| held.elongation_at_m(Threshold::SpringsFlat));
-        let flat_rad = flat_m.and_then(|flat_m| bare.rotation_at_elongation_rad(flat_m)).unwrap_or(f64::INFINITY);
-        let last_rad = (4.0 * bare.geometry().slenderness_rad()).min(flat_rad).min(bare.last_rotation_rad());
-        let state = bare.at_rotation(last_rad)?;
+        let state = bare.at_rotation(bare.last_searched_rad())?;
         let share = 1.0 - (1.0 - state.force_n / law.uplift_force_n()) * law.width_m() / state.displacement_m;
         Ok(share.max(0.0) * law.critical_stiffness_n_m())
     }

@@ -48,11 +48,15 @@ impl Stopper {
         self.yield_n.map(|yield_n| self.gap_m + yield_n / self.stiffness_n_m)
     }
 
+    /// Plastic way of its rods once the spring was pressed by `largest_deformation_m` (m) at most, m.
+    pub(crate) fn plastic_m(&self, largest_deformation_m: f64) -> f64 {
+        self.yields_at_m().map_or(0.0, |yields_m| (largest_deformation_m - yields_m).max(0.0))
+    }
+
     /// Energy that it has dissipated once the spring was pressed by `largest_deformation_m` (m) at most, J: its force
     /// times its plastic way.
     pub fn dissipated_j(&self, largest_deformation_m: f64) -> f64 {
-        let plastic_m = self.yields_at_m().map_or(0.0, |yields_m| (largest_deformation_m - yields_m).max(0.0));
-        self.yield_n.unwrap_or(0.0) * plastic_m
+        self.yield_n.unwrap_or(0.0) * self.plastic_m(largest_deformation_m)
     }
 }
 

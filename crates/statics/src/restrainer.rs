@@ -268,8 +268,7 @@ impl Restrainer {
     /// None that the restrainer itself did not have.
     pub fn after_yielding(&self, largest_deformation_m: f64) -> Result<Self, StaticsError> {
         let Some(stopper) = self.parts.stopper else { return Ok(self.clone()) };
-        let plastic_m = stopper.yields_at_m().map_or(0.0, |yields_m| (largest_deformation_m - yields_m).max(0.0));
-        let gap_m = stopper.gap_m + plastic_m;
+        let gap_m = stopper.gap_m + stopper.plastic_m(largest_deformation_m);
         Self::new(Parts { stopper: Some(Stopper { gap_m, ..stopper }), ..self.parts })
     }
 

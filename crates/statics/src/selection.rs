@@ -7,7 +7,7 @@ use uplift_plausible::{DISC_DIAMETER, DISC_HEIGHT};
 
 use crate::columns::RestrainedColumns;
 use crate::disc::{DiscDimensions, DiscSpring};
-use crate::error::{StaticsError, positive, require};
+use crate::error::{StaticsError, not_negative, positive, require};
 use crate::events::EventKind;
 use crate::parts::{Parts, Spring, Stopper, Tendon};
 use crate::path::TendonPath;
@@ -60,7 +60,7 @@ impl CatalogueDisc {
         let ring_kg = 0.25 * std::f64::consts::PI * (outer * outer - inner * inner) * thickness_m * STEEL_DENSITY_KG_M3;
         let mass_kg = positive("mass_kg", mass_kg.unwrap_or(ring_kg), "kg")?;
         if let Some(price) = price {
-            require(price >= 0.0 && price.is_finite(), "price", price, "", "finite and not negative")?;
+            not_negative("price", price, "")?;
         }
         Ok(Self { name, disc, mass_kg, price })
     }
