@@ -1,11 +1,11 @@
 //! The components of a record set as independent motions.
 
-use uplift_fragility::quantile;
 use uplift_ida::{IdaError, Plan, ScaledMotion, System};
 use uplift_motion::{Accelerogram, IntensityMeasure, geometric_mean};
 
 use crate::error::SpectraError;
 use crate::scaling::{ScaledBy, Scaling};
+use crate::statistics::percentile;
 
 /// A record as a set takes it.
 #[derive(Debug, Clone, Copy)]
@@ -97,7 +97,8 @@ impl<'a> MotionSet<'a> {
         if motions.is_empty() {
             return Err(SpectraError::EmptySet { set: name.to_owned() });
         }
-        Ok(Self { name: name.to_owned(), motions, median_pga_g: median(pga_g), median_pgv_cm_s: median(pgv_cm_s) })
+        let [median_pga_g, median_pgv_cm_s] = [pga_g, pgv_cm_s].map(|peaks| percentile(&peaks, 50.0));
+        Ok(Self { name: name.to_owned(), motions, median_pga_g, median_pgv_cm_s })
     }
 
     /// The same with the vertical component of every record, in their order: it takes the factor of each motion.
@@ -172,9 +173,4 @@ impl<'a> MotionSet<'a> {
         let verticals: Vec<&Accelerogram> = self.motions.iter().filter_map(|motion| motion.vertical).collect();
         if verticals.is_empty() { Ok(plan) } else { plan.upwards(verticals) }
     }
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    quantile(&values, 0.5)
 }
