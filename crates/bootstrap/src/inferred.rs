@@ -1,6 +1,6 @@
 //! What a set of records says of the spectrum of all records there could be, and of that of another set.
 
-use uplift_risk::{PooledDemand, RiskError, SiteWeights};
+use uplift_risk::{PooledDemand, RiskError, SiteWeights, check_count, check_target};
 
 use crate::inversion::Inversion;
 use crate::rates::Rates;
@@ -144,7 +144,7 @@ pub fn inferred_mean(
 
 /// The mean of what each record contributes, 1/yr, with the scatter of its units.
 pub(crate) fn mean_of(contributions_per_year: &[f64], units: &[Vec<usize>]) -> Result<SkewedMean, RiskError> {
-    fits("records of the units", units.iter().map(Vec::len).sum(), contributions_per_year.len())?;
+    check_count("records of the units", units.iter().map(Vec::len).sum(), contributions_per_year.len())?;
     let (count, records) = (units.len() as f64, contributions_per_year.len() as f64);
     let mean = contributions_per_year.iter().sum::<f64>() / records;
     // a unit deviates by the linearised ratio of the cluster bootstrap
@@ -154,14 +154,4 @@ pub(crate) fn mean_of(contributions_per_year: &[f64], units: &[Vec<usize>]) -> R
     let deviations: Vec<f64> = units.iter().map(deviation).collect();
     let moment = |power: i32| deviations.iter().map(|own| own.powi(power)).sum::<f64>() / count;
     Ok(SkewedMean::new(mean, [2, 3, 4].map(moment), units.len()))
-}
-
-/// Whether it is a target.
-pub(crate) fn check_target(rate: f64) -> Result<(), RiskError> {
-    if rate.is_finite() && rate > 0.0 { Ok(()) } else { Err(RiskError::Target { rate }) }
-}
-
-/// Whether there are as many as expected.
-pub(crate) fn fits(what: &'static str, found: usize, expected: usize) -> Result<(), RiskError> {
-    if found == expected { Ok(()) } else { Err(RiskError::Count { what, found, expected }) }
 }

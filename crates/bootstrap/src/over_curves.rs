@@ -1,9 +1,9 @@
 //! What a set of records says where it is not known either which hazard curve holds.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
-use uplift_risk::{PooledDemand, RiskError, StripeWeights};
+use uplift_risk::{PooledDemand, RiskError, StripeWeights, check_target};
 
-use crate::inferred::{check_target, mean_of};
+use crate::inferred::mean_of;
 use crate::inversion::Inversion;
 use crate::rates::Rates;
 use crate::skewed_mean::{SampleQuantiles, SkewedMean, StudentQuantiles, of_side};

@@ -1,9 +1,8 @@
 //! The rate at which a displacement is exceeded by the runs of a set, with the scatter of its units.
 
-use uplift_risk::{PooledDemand, RiskError, SiteWeights};
+use uplift_risk::{PooledDemand, RiskError, SiteWeights, check_count};
 
 use crate::SkewedMean;
-use crate::inferred::fits;
 use crate::shared_rates::SharedRates;
 use crate::unit_rates::UnitRates;
 use crate::walk::Run;
@@ -52,12 +51,12 @@ impl Rates {
         units: &[Vec<usize>],
     ) -> Result<Self, RiskError> {
         let records = demand.record_count();
-        fits("records of the units", units.iter().map(Vec::len).sum(), records)?;
-        fits("stripe weights", weights.stripes().level_count(), demand.level_count())?;
+        check_count("records of the units", units.iter().map(Vec::len).sum(), records)?;
+        check_count("stripe weights", weights.stripes().level_count(), demand.level_count())?;
         let of_units = match weights {
             SiteWeights::Alike(_) => OfUnits::of_demand(demand, units),
             SiteWeights::Repaired(weights) => {
-                fits("records with shares", weights.record_count(), records)?;
+                check_count("records with shares", weights.record_count(), records)?;
                 OfUnits::Shared(SharedRates::new(units, weights.shares()).with_effective_units())
             }
         };

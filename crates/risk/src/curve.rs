@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use uplift_fragility::check_threshold;
 
+use crate::error::{check_count, check_target};
 use crate::fixed_point::{MAX_RATE_PER_YEAR, quanta, rate_per_year};
 use crate::grid::interpolate_log_rate;
 use crate::{
@@ -220,9 +221,7 @@ impl<'a> RiskCurve<'a> {
 
     /// A target rate as the largest sum that meets it.
     fn limit(&self, target_per_year: f64) -> Result<u128, RiskError> {
-        if !target_per_year.is_finite() || target_per_year <= 0.0 {
-            return Err(RiskError::Target { rate: target_per_year });
-        }
+        check_target(target_per_year)?;
         // No risk exceeds the largest hazard rate, so a larger target is met all the same.
         Ok(quanta(target_per_year.min(MAX_RATE_PER_YEAR)) * u128::from(self.size))
     }
@@ -315,8 +314,4 @@ const NO_RISK: Ordinate =
 struct Sweep {
     position: usize,
     sum: u128,
-}
-
-fn check_count(what: &'static str, found: usize, expected: usize) -> Result<(), RiskError> {
-    if found == expected { Ok(()) } else { Err(RiskError::Count { what, found, expected }) }
 }

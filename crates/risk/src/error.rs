@@ -125,3 +125,19 @@ pub enum RiskError {
         value: f64,
     },
 }
+
+/// Whether there are as many as expected.
+///
+/// # Errors
+/// [`RiskError::Count`] if there are not.
+pub fn check_count(what: &'static str, found: usize, expected: usize) -> Result<(), RiskError> {
+    if found == expected { Ok(()) } else { Err(RiskError::Count { what, found, expected }) }
+}
+
+/// Whether a rate can be a target, 1/yr.
+///
+/// # Errors
+/// [`RiskError::Target`] if it is not positive and finite.
+pub fn check_target(rate: f64) -> Result<(), RiskError> {
+    if rate.is_finite() && rate > 0.0 { Ok(()) } else { Err(RiskError::Target { rate }) }
+}

@@ -65,7 +65,7 @@ mod weights;
 pub use curve::RiskCurve;
 pub use demand::PooledDemand;
 pub use disaggregation::Disaggregation;
-pub use error::RiskError;
+pub use error::{RiskError, check_count, check_target};
 pub use event_risk::{BOUND_CONFIDENCE, EventRisk, at_most_per_year, share_at_most};
 pub use grid::ThresholdGrid;
 pub use lognormal::{LognormalRisk, lognormal_risk};

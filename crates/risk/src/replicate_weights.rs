@@ -7,6 +7,7 @@
 
 use uplift_instructions::{Instructions, Vectors, Work};
 
+use crate::error::check_count;
 use crate::run_weights::UnitScale;
 use crate::stretches::{LANES, LaneWeights};
 use crate::{PooledDemand, RiskError, StripeWeights};
@@ -73,14 +74,8 @@ impl ReplicateWeights {
     ) -> Result<(), RiskError> {
         let targets = targets_per_year.len();
         assert_eq!(ordinates_m.len(), self.replicates * targets, "one ordinate a replicate and target");
-        for (what, found, expected) in [
-            ("records with shares", self.record_count, demand.record_count()),
-            ("stripe weights", self.scale.level_count(), demand.level_count()),
-        ] {
-            if found != expected {
-                return Err(RiskError::Count { what, found, expected });
-            }
-        }
+        check_count("records with shares", self.record_count, demand.record_count())?;
+        check_count("stripe weights", self.scale.level_count(), demand.level_count())?;
         let limits =
             targets_per_year.iter().map(|&target| self.scale.limit(target)).collect::<Result<Vec<_>, RiskError>>()?;
         let (demands_m, stretches) = (demand.edp_m(), demand.stretches());

@@ -10,6 +10,7 @@ use std::hint::select_unpredictable;
 
 use uplift_instructions::{Instructions, LANES, Vectors, Work, by_halves};
 
+use crate::error::check_target;
 use crate::fixed_point::{QUANTUM_PER_YEAR, rate_per_year};
 use crate::sample::Lanes;
 use crate::{PooledDemand, RecordSample, RiskCurve, RiskError, StripeWeights};
@@ -107,9 +108,7 @@ impl<'a> ResamplingTable<'a> {
             return Ok(());
         }
         samples.iter().try_for_each(|sample| exact(sample).map(drop))?;
-        if let Some(&rate) = targets_per_year.iter().find(|target| !(target.is_finite() && **target > 0.0)) {
-            return Err(RiskError::Target { rate });
-        }
+        targets_per_year.iter().try_for_each(|&target| check_target(target))?;
         let instructions = Instructions::chosen();
         let rows_m = ordinates_m.chunks_exact_mut(samples.len().max(1));
         for (&target_per_year, row_m) in targets_per_year.iter().zip(rows_m) {

@@ -3,7 +3,7 @@
 use uplift_fragility::{LognormalFragility, normal_quantile};
 use uplift_hazard::HazardCurve;
 
-use crate::{LognormalRisk, RiskError, lognormal_risk};
+use crate::{LognormalRisk, RiskError, check_target, lognormal_risk};
 
 /// Standard deviations of ln im beyond the hazard curve at which no risk is left.
 const BEYOND: f64 = 40.0;
@@ -44,9 +44,7 @@ pub fn risk_targeted_level(
         return Err(RiskError::Probability { index: 0, probability });
     }
     let (first, last) = (curve.first(), curve.last());
-    if !(target_per_year > 0.0 && target_per_year.is_finite()) {
-        return Err(RiskError::Target { rate: target_per_year });
-    }
+    check_target(target_per_year)?;
     if target_per_year >= first.maf {
         return Err(RiskError::AboveHazard { target: target_per_year, most: first.maf });
     }

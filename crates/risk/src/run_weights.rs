@@ -1,5 +1,6 @@
 //! A weight for every run: records that do not count alike, and not alike at every level.
 
+use crate::error::{check_count, check_target};
 use crate::fixed_point::{MAX_RATE_PER_YEAR, quanta};
 use crate::{RiskError, StripeWeights};
 
@@ -51,8 +52,7 @@ impl RunWeights {
     /// # Errors
     /// As [`StripeWeights::at_levels`].
     pub fn at_levels(&self, places: &[usize]) -> Result<Self, RiskError> {
-        let rows = self.shares.chunks(self.record_count);
-        let rows: Vec<&[f64]> = rows.collect();
+        let rows: Vec<&[f64]> = self.shares.chunks(self.record_count).collect();
         let shares: Vec<f64> =
             places.iter().filter_map(|&place| rows.get(place)).flat_map(|row| row.to_vec()).collect();
         Self::new(&self.stripes.at_levels(places)?, &shares)
@@ -108,10 +108,7 @@ impl UnitScale {
 
     /// Refuses shares, `[level, record]`, that are none.
     pub(crate) fn check(&self, shares: &[f64], record_count: usize) -> Result<(), RiskError> {
-        let expected = self.stripes.len() * record_count;
-        if shares.len() != expected {
-            return Err(RiskError::Count { what: "shares of records", found: shares.len(), expected });
-        }
+        check_count("shares of records", shares.len(), self.stripes.len() * record_count)?;
         for (level, row) in shares.chunks_exact(record_count).enumerate() {
             let sum: f64 = row.iter().sum();
             let possible = row.iter().all(|&share| share >= 0.0);
@@ -131,9 +128,7 @@ impl UnitScale {
 
     /// The most units that meet a target rate, 1/yr.
     pub(crate) fn limit(&self, target_per_year: f64) -> Result<u64, RiskError> {
-        if !target_per_year.is_finite() || target_per_year <= 0.0 {
-            return Err(RiskError::Target { rate: target_per_year });
-        }
+        check_target(target_per_year)?;
         // larger targets are met by any risk: all units together fit 62 bits
         Ok(u64::try_from(quanta(target_per_year.min(MAX_RATE_PER_YEAR)) >> self.shift).unwrap_or(u64::MAX))
     }

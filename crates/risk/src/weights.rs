@@ -4,7 +4,7 @@ use uplift_fragility::{Stripes, exceedance_probabilities};
 use uplift_hazard::{Extrapolation, HazardCurve};
 
 use crate::fixed_point::{self, MAX_RATE_PER_YEAR, quanta};
-use crate::{Disaggregation, RiskError};
+use crate::{Disaggregation, RiskError, check_count};
 
 /// The weight of each stripe in the risk integral of one site, 1/yr.
 ///
@@ -120,13 +120,7 @@ impl StripeWeights {
     /// A number of probabilities other than the number of levels, or one outside 0 to 1.
     pub fn disaggregate(&self, probabilities: &[f64]) -> Result<Disaggregation, RiskError> {
         let levels = self.level_count();
-        if probabilities.len() != levels {
-            return Err(RiskError::Count {
-                what: "probabilities of exceedance",
-                found: probabilities.len(),
-                expected: levels,
-            });
-        }
+        check_count("probabilities of exceedance", probabilities.len(), levels)?;
         for (index, &probability) in probabilities.iter().enumerate() {
             if !(0.0..=1.0).contains(&probability) {
                 return Err(RiskError::Probability { index, probability });
