@@ -2,15 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
+use uplift::UpliftError;
 use uplift::outputs::{self, provide_folder};
 use uplift::pushover::{ProtocolReport, PushoverReport};
 use uplift::restrainer::RestrainerCurve;
 use uplift::result::write_atomically;
 use uplift::study::Structure;
-use uplift::{JobError, UpliftError};
 
 use crate::figures::{column_figures, protocol_figure, pushover_figure, restrainer_figure};
 use crate::files::{FigureOptions, write_figure_file};
+use crate::plot::none_called;
 use crate::sheet::elevation;
 
 /// Name of the drawing of a structure, .svg.
@@ -58,12 +59,8 @@ pub fn plot_columns(
     let chosen: Vec<_> = figures.iter().filter(|figure| figure.id.contains(wanted)).collect();
     let drawn = ELEVATION.contains(wanted);
     if chosen.is_empty() && !drawn {
-        let names: Vec<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
-        return Err(JobError::Usage(format!(
-            "no figure is called {wanted}: the structure has the figures {}, {ELEVATION}",
-            names.join(", ")
-        ))
-        .into());
+        let names = figures.iter().map(|figure| figure.id.as_str()).chain([ELEVATION]);
+        return Err(none_called(wanted, "structure", names));
     }
     let elevation_file = folder.join(format!("{ELEVATION}.svg"));
     let mut planned = options.outputs(chosen.iter().map(|figure| figure.id.as_str()), folder);

@@ -58,12 +58,7 @@ pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, Up
     let wanted = options.only.as_deref().unwrap_or_default();
     let chosen: Vec<_> = figures.iter().filter(|figure| figure.id.contains(wanted)).collect();
     if chosen.is_empty() {
-        let names: Vec<&str> = figures.iter().map(|figure| figure.id.as_str()).collect();
-        return Err(JobError::Usage(format!(
-            "no figure is called {wanted}: the result has the figures {}",
-            names.join(", ")
-        ))
-        .into());
+        return Err(none_called(wanted, "result", figures.iter().map(|figure| figure.id.as_str())));
     }
     let folder = options.folder.clone().unwrap_or_else(|| beside(&options.result, "figures"));
     let ids = chosen.iter().map(|figure| figure.id.as_str());
@@ -82,6 +77,12 @@ pub fn plot(options: &PlotOptions, events: &dyn Events) -> Result<PlotReport, Up
     // after what was drawn again
     result.tell_made_of_another(events)?;
     Ok(PlotReport { files })
+}
+
+/// That no figure `of` something has a name that contains `wanted`, but those of `names`.
+pub(crate) fn none_called<'a>(wanted: &str, of: &str, names: impl Iterator<Item = &'a str>) -> UpliftError {
+    let names = names.collect::<Vec<_>>().join(", ");
+    JobError::Usage(format!("no figure is called {wanted}: the {of} has the figures {names}")).into()
 }
 
 /// Refuses a `folder` where the figures of [`plot_pulses`] would replace something else, before anything is computed.

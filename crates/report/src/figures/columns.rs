@@ -94,7 +94,11 @@ fn over_weight(report: &PushoverReport, to_m: f64) -> Panel {
         let name = format!("linear, {:.0} kN/m", kilo(curve.stiffness_n_m));
         series.push(Series::line(name, points, Tone::Distinct(index + 1)));
     }
-    Panel::lines("", Axis::linear(DISPLACEMENT), Axis::linear(FORCE_OVER_WEIGHT), series)
+    force_over_weight("", series)
+}
+
+fn force_over_weight(title: &str, series: Vec<Series>) -> Panel {
+    Panel::lines(title, Axis::linear(DISPLACEMENT), Axis::linear(FORCE_OVER_WEIGHT), series)
 }
 
 /// Springs, and springs with their tendon (Figures 5.9 and 6.8).
@@ -184,14 +188,12 @@ fn stiffnesses(columns: &RestrainedColumns) -> Result<Figure, UpliftError> {
             Tone::Distinct(index),
         ));
     }
-    let panel =
-        |title: &str, series| Panel::lines(title, Axis::linear(DISPLACEMENT), Axis::linear(FORCE_OVER_WEIGHT), series);
     Ok(Figure::new(
         "stiffnesses",
         "Force over displacement for linear restrainers",
         "Force over displacement for linear restrainers of several shares of the critical stiffness: linearised as in \
          Fig. 5.4b, and exact.",
-        vec![panel("linearised", linear), panel("exact", exact)],
+        vec![force_over_weight("linearised", linear), force_over_weight("exact", exact)],
     ))
 }
 
@@ -220,14 +222,12 @@ fn anchorages(columns: &RestrainedColumns) -> Result<Figure, UpliftError> {
             exact.push(Series::line(name, line(&columns, to_m, |state| state.force_n / weight_n), tone));
         }
     }
-    let panel =
-        |title: &str, series| Panel::lines(title, Axis::linear(DISPLACEMENT), Axis::linear(FORCE_OVER_WEIGHT), series);
     Ok(Figure::new(
         "anchorages",
         "Force over displacement by anchorage",
         "Force over displacement for the same linear restrainers anchored at the column (bold) and in the foundation \
          (thin, Fig. 6.4a), where each is as stiff as four: linearised, and exact.",
-        vec![panel("linearised", linear), panel("exact", exact)],
+        vec![force_over_weight("linearised", linear), force_over_weight("exact", exact)],
     ))
 }
 

@@ -60,7 +60,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
                      {margin}.",
                     rule.words()
                 ),
-                Some(if check.satisfied { "yes" } else { "no" }),
+                Some(class(check.satisfied)),
             );
         } else if check.overturns {
             say(format!("By {} it overturns.", rule.words()), Some("no"));
@@ -68,18 +68,16 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     }
     let is_of_proxy = report.frame.is_some();
     if let Some(own) = report.own_check.filter(|_| !is_of_proxy) {
-        let class = if own.satisfied { "yes" } else { "no" };
         let words = own.in_words(report.required_safety_factor);
-        say(format!("By {words}: {}.", verdict_word(own.satisfied)), Some(class));
+        say(format!("By {words}: {}.", verdict_word(own.satisfied)), Some(class(own.satisfied)));
     }
     for (whose, words) in report.unsafe_upper_limits() {
         let whose = if is_of_proxy { "The" } else { "Its" }.to_owned() + " " + whose;
         say(format!("{whose} is {words}."), Some("no"));
     }
     for (_, verdict) in report.verdicts_by_other_measures() {
-        let class = if verdict.contains("NOT") { "no" } else { "yes" };
         let (first, rest) = verdict.split_at(1);
-        say(format!("{}{rest}.", first.to_uppercase()), Some(class));
+        say(format!("{}{rest}.", first.to_uppercase()), Some(class(!verdict.contains("NOT"))));
     }
     if let Some(frame) = &report.frame {
         let own = frame.wobbling();
@@ -93,7 +91,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
             let verdict = verdict_word(check.satisfied);
             format!(";{required} {verdict}{differ}")
         });
-        let class = own.check.map(|check| if check.satisfied { "yes" } else { "no" });
+        let class = own.check.map(|check| class(check.satisfied));
         say(format!("The wobbling frame itself has a demand of {demand}{times}{verdict}."), class);
     }
     if let Some(reason) = &report.without_frame {
@@ -113,6 +111,11 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         say(format!("Uncertain properties, {}.", result.in_words()), None);
     }
     sentences
+}
+
+/// How a verdict is marked.
+fn class(satisfied: bool) -> &'static str {
+    if satisfied { "yes" } else { "no" }
 }
 
 /// What rounding makes of the numbers; none where it was not asked.
@@ -274,9 +277,7 @@ fn frame(report: &DesignReport) -> Option<TitledTable> {
         .right("required capacity, m", |of| {
             of.check.map_or_else(dash, |check| metres_or_overturns(check.required_capacity_m))
         })
-        .left("verdict", |of| {
-            of.check.map_or_else(dash, |check| if check.satisfied { "satisfied" } else { "NOT satisfied" }.to_owned())
-        })
+        .left("verdict", |of| of.check.map_or_else(dash, |check| verdict_word(check.satisfied).to_owned()))
         .right("beyond its capacity a year", |of| of.beyond_capacity.as_ref().map_or_else(dash, per_year))
         .right("overturning a year", |of| per_year(&of.overturning));
     let wobbling = match frame.wobbling().restitution {
@@ -313,7 +314,7 @@ fn rules(report: &DesignReport) -> Option<TitledTable> {
             check.required_tendon_stiffness_n_m.map_or_else(|| "–".to_owned(), tendons)
         })
         .right("error of spectrum and rule", error)
-        .right("verdict", |(_, check)| if check.satisfied { "satisfied" } else { "NOT satisfied" });
+        .right("verdict", |(_, check)| verdict_word(check.satisfied));
     let note = format!(
         "Required capacity: {} times the demand of a structure with just that capacity (Eq. 3.15). Error: the rule's \
          demand against the exact one; negative is unsafe.",
