@@ -79,3 +79,18 @@ pub enum OscillatorError {
         value: f64,
     },
 }
+
+/// Refuses `value` unless what is required of it holds.
+pub(crate) fn require(
+    holds: bool,
+    name: &'static str,
+    value: f64,
+    unit: &'static str,
+    requirement: &'static str,
+) -> Result<(), OscillatorError> {
+    if holds { Ok(()) } else { Err(OscillatorError::OutOfRange { name, value, unit, requirement }) }
+}
+
+pub(crate) fn require_positive(name: &'static str, value: f64, unit: &'static str) -> Result<(), OscillatorError> {
+    require(value.is_finite() && value > 0.0, name, value, unit, "finite and positive")
+}

@@ -1,6 +1,6 @@
 //! A ground acceleration history and its scale.
 
-use crate::error::OscillatorError;
+use crate::error::{OscillatorError, require, require_positive};
 
 /// A uniformly sampled ground acceleration, linear between samples, zero after the last one, times a scale factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,14 +16,7 @@ impl<'a> Excitation<'a> {
     /// # Errors
     /// The sampling interval must be finite and positive; at least two samples are needed and each must be finite.
     pub fn new(dt_s: f64, acceleration_m_s2: &'a [f64]) -> Result<Self, OscillatorError> {
-        if !(dt_s.is_finite() && dt_s > 0.0) {
-            return Err(OscillatorError::OutOfRange {
-                name: "dt_s",
-                value: dt_s,
-                unit: "s",
-                requirement: "finite and positive",
-            });
-        }
+        require_positive("dt_s", dt_s, "s")?;
         if acceleration_m_s2.len() < 2 {
             return Err(OscillatorError::TooFewSamples { samples: acceleration_m_s2.len() });
         }
@@ -38,11 +31,8 @@ impl<'a> Excitation<'a> {
     /// # Errors
     /// The scale factor must be finite.
     pub fn scaled(self, scale: f64) -> Result<Self, OscillatorError> {
-        if scale.is_finite() {
-            Ok(Self { scale: self.scale * scale, ..self })
-        } else {
-            Err(OscillatorError::OutOfRange { name: "scale", value: scale, unit: "", requirement: "finite" })
-        }
+        require(scale.is_finite(), "scale", scale, "", "finite")?;
+        Ok(Self { scale: self.scale * scale, ..self })
     }
 
     /// Sampling interval, s.

@@ -1,7 +1,7 @@
 //! Parameters of an uplifting oscillator, checked once.
 
 use crate::branch::Branch;
-use crate::error::OscillatorError;
+use crate::error::{OscillatorError, require, require_positive};
 
 /// Standard acceleration of gravity, m/s².
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
@@ -63,16 +63,6 @@ const STIFFEST_PER_S2: f64 = 1e10;
 /// Steps of a run, at most: some seconds, and a time history of a gigabyte.
 const MOST_STEPS: f64 = 1e7;
 
-fn require(
-    holds: bool,
-    name: &'static str,
-    value: f64,
-    unit: &'static str,
-    requirement: &'static str,
-) -> Result<(), OscillatorError> {
-    if holds { Ok(()) } else { Err(OscillatorError::OutOfRange { name, value, unit, requirement }) }
-}
-
 impl Oscillator {
     /// A ZSBE oscillator of strength `η = f_up/(m g)` with the dissertation's `u_up = 0.5 mm`,
     /// `r_c = 0.95` and standard gravity.
@@ -100,32 +90,21 @@ impl Oscillator {
         restitution: f64,
         post_uplift: PostUplift,
     ) -> Result<Self, OscillatorError> {
-        let positive = |x: f64| x.is_finite() && x > 0.0;
         require(strength.is_finite() && strength >= 0.0, "strength", strength, "", "finite and not negative")?;
-        require(positive(gravity_m_s2), "gravity_m_s2", gravity_m_s2, "m/s²", "finite and positive")?;
-        require(
-            positive(uplift_displacement_m),
-            "uplift_displacement_m",
-            uplift_displacement_m,
-            "m",
-            "finite and positive",
-        )?;
+        require_positive("gravity_m_s2", gravity_m_s2, "m/s²")?;
+        require_positive("uplift_displacement_m", uplift_displacement_m, "m")?;
         require((0.0..=1.0).contains(&restitution), "restitution", restitution, "", "between 0 and 1")?;
         match post_uplift {
             PostUplift::Zero => {}
             PostUplift::Negative { capacity_m } => {
-                require(positive(capacity_m), "capacity_m", capacity_m, "m", "finite and positive")?;
+                require_positive("capacity_m", capacity_m, "m")?;
                 if capacity_m <= uplift_displacement_m {
                     return Err(OscillatorError::CapacityBelowUplift { capacity_m, uplift_displacement_m });
                 }
             }
-            PostUplift::Positive { stiffness_per_s2 } => require(
-                positive(stiffness_per_s2),
-                "post_uplift_stiffness_per_s2",
-                stiffness_per_s2,
-                "1/s²",
-                "finite and positive",
-            )?,
+            PostUplift::Positive { stiffness_per_s2 } => {
+                require_positive("post_uplift_stiffness_per_s2", stiffness_per_s2, "1/s²")?;
+            }
         }
         let oscillator = Self { strength, gravity_m_s2, uplift_displacement_m, restitution, post_uplift };
         for (branch, of) in [("while attached", oscillator.attached()), ("after uplift", oscillator.uplifted())] {
@@ -176,19 +155,14 @@ impl Oscillator {
         }
     }
 
-    /// Angular frequency of the stiffer branch, rad/s; that of the growth where the force falls.
-    pub fn highest_frequency_rad_s(&self) -> f64 {
-        let [attached, uplifted] = [self.attached(), self.uplifted()].map(|branch| branch.stiffness_per_s2.abs());
-        attached.max(uplifted).sqrt()
-    }
-
     /// Refuses a run of more than 1e7 steps: samples `dt_s` (s) apart for `duration_s`, free vibration included, and
-    /// half cycles of the stiffer branch.
+    /// half cycles of the stiffer branch, or times of growth where the force falls.
     ///
     /// # Errors
     /// [`OscillatorError::TooManySteps`].
     pub fn check_run_length(&self, duration_s: f64, dt_s: f64) -> Result<(), OscillatorError> {
-        let half_cycles = self.highest_frequency_rad_s() * duration_s / std::f64::consts::PI;
+        let [attached, uplifted] = [self.attached(), self.uplifted()].map(|branch| branch.stiffness_per_s2.abs());
+        let half_cycles = attached.max(uplifted).sqrt() * duration_s / std::f64::consts::PI;
         let steps = duration_s / dt_s + half_cycles;
         if steps <= MOST_STEPS {
             return Ok(());
