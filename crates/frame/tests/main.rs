@@ -13,7 +13,7 @@ mod shake_table;
 mod symmetry;
 
 use uplift_frame::{ColumnShape, GroundMotion, Pulse, PulseShape, RockingFrame, Shaking};
-use uplift_statics::{Parts, Restrainer, TendonPath};
+use uplift_statics::{DiscDimensions, DiscSpring, DiscStack, Parts, Restrainer, TendonPath};
 use uplift_structure::Geometry;
 
 /// The frame of the shaking table (Section 6.3): four columns of 197 mm × 1450 mm.
@@ -26,6 +26,18 @@ fn table_frame(shape: ColumnShape) -> RockingFrame {
 fn held_frame(shape: ColumnShape, stiffness_n_m: f64) -> RockingFrame {
     let restrainer = Restrainer::new(Parts::linear(stiffness_n_m)).unwrap();
     table_frame(shape).with_restrainer(restrainer, TendonPath::Column).unwrap()
+}
+
+/// Discs of 125 mm, one upon the other in opposite directions.
+fn stack(discs: u32) -> DiscStack {
+    let disc = DiscSpring::new(DiscDimensions {
+        outer_diameter_m: 0.125,
+        inner_diameter_m: 0.061,
+        thickness_m: 0.006,
+        cone_height_m: 0.0036,
+        reduced_thickness_m: None,
+    });
+    DiscStack::new(disc.unwrap(), discs, 1).unwrap()
 }
 
 /// A pulse as a component of the ground's motion.

@@ -4,10 +4,10 @@ use uplift_frame::{
     ColumnShape, FrameState, GroundMotion, Model, Options, PulseShape, RockingFrame, Start, Until, respond,
 };
 use uplift_motion::Accelerogram;
-use uplift_statics::{DiscDimensions, DiscSpring, DiscStack, Parts, Restrainer, Spring, TendonPath, WhenFlat};
+use uplift_statics::{Parts, Restrainer, Spring, TendonPath, WhenFlat};
 use uplift_structure::Geometry;
 
-use crate::{pulse, table_frame, two_pulses};
+use crate::{pulse, stack, table_frame, two_pulses};
 
 fn message(frame: &RockingFrame, ground: &GroundMotion<'_>, model: Model, options: &Options) -> String {
     respond(frame, ground, model, options).unwrap_err().to_string()
@@ -30,15 +30,7 @@ fn ground_that_falls_as_fast_as_gravity() {
 
 #[test]
 fn springs_that_stop_the_columns() {
-    let disc = DiscSpring::new(DiscDimensions {
-        outer_diameter_m: 0.125,
-        inner_diameter_m: 0.061,
-        thickness_m: 0.006,
-        cone_height_m: 0.0036,
-        reduced_thickness_m: None,
-    });
-    let stack = DiscStack::new(disc.unwrap(), 2, 1).unwrap();
-    let parts = Parts { when_flat: WhenFlat::Stop, ..Parts::from_spring(Spring::Discs(stack)) };
+    let parts = Parts { when_flat: WhenFlat::Stop, ..Parts::from_spring(Spring::Discs(stack(2))) };
     let frame = table_frame(ColumnShape::Rectangle)
         .with_restrainer(Restrainer::new(parts).unwrap(), TendonPath::Column)
         .unwrap();

@@ -4,22 +4,9 @@ use uplift_frame::{
     ColumnShape, FrameState, GroundMotion, Model, Options, PulseShape, RockingFrame, Start, Until, respond,
     respond_with_history,
 };
-use uplift_statics::{
-    DiscDimensions, DiscSpring, DiscStack, EventKind, Parts, Restrainer, Spring, Stopper, Tendon, TendonPath,
-};
+use uplift_statics::{EventKind, Parts, Restrainer, Spring, Stopper, Tendon, TendonPath};
 
-use crate::{pulse, table_frame};
-
-fn stack() -> DiscStack {
-    let disc = DiscSpring::new(DiscDimensions {
-        outer_diameter_m: 0.125,
-        inner_diameter_m: 0.061,
-        thickness_m: 0.006,
-        cone_height_m: 0.0036,
-        reduced_thickness_m: None,
-    });
-    DiscStack::new(disc.unwrap(), 10, 1).unwrap()
-}
+use crate::{pulse, stack, table_frame};
 
 fn with(parts: Parts, path: TendonPath) -> RockingFrame {
     table_frame(ColumnShape::Rectangle).with_restrainer(Restrainer::new(parts).unwrap(), path).unwrap()
@@ -34,7 +21,7 @@ const STOPPER: Stopper = Stopper { gap_m: 0.015, stiffness_n_m: 20e6, yield_n: S
 /// What yielded stoppers dissipate is force times plastic part: the energy lost between two states of free motion.
 #[test]
 fn a_yielding_stopper_takes_its_energy_once() {
-    let parts = Parts { stopper: Some(STOPPER), ..Parts::discs(stack(), 13_318e3) };
+    let parts = Parts { stopper: Some(STOPPER), ..Parts::discs(stack(10), 13_318e3) };
     let frame = with(parts, TendonPath::Column);
     let start = FrameState { rotation_rad: 0.17, velocity_rad_s: 0.15, ..FrameState::default() };
     let until = |time| Options {
@@ -94,7 +81,7 @@ fn a_linear_spring_behind_a_tendon() {
 /// The history passes through the law of the restrainer at every row, and events lie at their rotations.
 #[test]
 fn rows_lie_on_the_law() {
-    let parts = Parts { stopper: Some(Stopper { yield_n: None, ..STOPPER }), ..Parts::discs(stack(), 13_318e3) };
+    let parts = Parts { stopper: Some(Stopper { yield_n: None, ..STOPPER }), ..Parts::discs(stack(10), 13_318e3) };
     let path = TendonPath::Shifted { duct_gap_m: 0.0087, tendon_length_m: 2.134 };
     let frame = with(parts, path);
     let (found, history) = respond_with_history(&frame, &strong(), Model::Planar, &Options::default()).unwrap();
