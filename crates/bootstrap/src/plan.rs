@@ -72,9 +72,7 @@ impl ResamplingPlan {
         replicates: usize,
         seed: u64,
     ) -> Result<Self, BootstrapError> {
-        Self::draw_groups((Unit::Event, event_of, EVENTS), sizes, replicates, seed)
-            .transpose()
-            .unwrap_or(Err(BootstrapError::OneEvent))
+        Self::draw_groups((Unit::Event, event_of, EVENTS), BootstrapError::OneEvent, (sizes, replicates), seed)
     }
 
     /// Draws pairs with all their records, as [`draw_events`](Self::draw_events) draws earthquakes.
@@ -84,29 +82,27 @@ impl ResamplingPlan {
     /// # Errors
     /// As [`ResamplingPlan::draw`]; a single pair, of which no other choice can be drawn.
     pub fn draw_pairs(pair_of: &[usize], sizes: &[u32], replicates: usize, seed: u64) -> Result<Self, BootstrapError> {
-        Self::draw_groups((Unit::Pair, pair_of, PAIRS), sizes, replicates, seed)
-            .transpose()
-            .unwrap_or(Err(BootstrapError::OnePair))
+        Self::draw_groups((Unit::Pair, pair_of, PAIRS), BootstrapError::OnePair, (sizes, replicates), seed)
     }
 
-    /// Draws groups of records; none where there is but one.
+    /// Draws groups of records; the error `of_one` where there is but one.
     fn draw_groups(
         (unit, group_of, domain): (Unit, &[usize], &[u8; 24]),
-        sizes: &[u32],
-        replicates: usize,
+        of_one: BootstrapError,
+        (sizes, replicates): (&[u32], usize),
         seed: u64,
-    ) -> Result<Option<Self>, BootstrapError> {
+    ) -> Result<Self, BootstrapError> {
         let records = group_of.len();
         check(records, sizes, replicates)?;
         let groups = units(group_of);
         if groups.len() < 2 {
-            return Ok(None);
+            return Err(of_one);
         }
         let samples = draw(&groups, records, (sizes, replicates), |size, replicate| {
             (Stream::new(domain, seed, size, replicate), units_in_sample(size, groups.len(), records))
         })?;
         let groups = Some((unit, groups));
-        Ok(Some(Self { record_count: records, replicates, sizes: sizes.to_vec(), samples, groups }))
+        Ok(Self { record_count: records, replicates, sizes: sizes.to_vec(), samples, groups })
     }
 
     /// The same with every sample that `is_whole` refuses, given how often it draws each record, drawn again until it
