@@ -1,5 +1,4 @@
 //! Free rocking against what is known of it in closed form.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use uplift_block::{History, HistoryRow, Moment, Overturning, RockingBlock, rock_freely};
 

@@ -1,6 +1,6 @@
 //! The block under noise, with many impacts, against an independent integration: classical Runge-Kutta of fourth order
 //! with a hundred steps a sample, impacts found by bisection of the step.
-#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+#![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 
 use uplift_block::{FreeRocking, RockingBlock, respond};
 use uplift_motion::Accelerogram;

@@ -1,5 +1,4 @@
 //! What holds for every block and every record.
-#![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;

@@ -1,5 +1,4 @@
 //! The block against reference cases computed independently with many digits (Eq. 2.1, 2.3 and 2.10).
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use std::collections::BTreeMap;
 

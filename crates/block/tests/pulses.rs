@@ -1,5 +1,4 @@
 //! Blocks under Ricker wavelets: limits, similarity, convergence, spectra.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use uplift_block::{
     BlockError, FreeRocking, Overturning, PulseSpectrumPlan, RickerPulse, RickerShape, RockingBlock, SizeMeasure,

@@ -1,5 +1,4 @@
 //! The bands for the truth and for another set: against the plain way, and how often they hold what they are of.
-#![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};

@@ -1,5 +1,4 @@
 //! The bootstrap against the plain way: write the drawn records out, count fragilities, integrate, invert, sort.
-#![allow(clippy::unwrap_used)]
 
 use uplift_bootstrap::{Band, BootstrapError, Replicates, ResamplingPlan, left_out, weighted_replicates, without_each};
 use uplift_fragility::Stripes;

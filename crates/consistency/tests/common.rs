@@ -1,5 +1,4 @@
 //! Record sets, curves and stripes of Chapter 4, and the demands of a few oscillators.
-#![allow(clippy::unwrap_used)]
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

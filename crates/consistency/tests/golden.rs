@@ -1,5 +1,4 @@
 //! Rows of numbers of an independent prototype, and how closely they are to be met.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use uplift_consistency::{Agreement, RecordSet, RepairOptions, Repaired, ScaledAnalysis};
 use uplift_hazard::HazardCurve;

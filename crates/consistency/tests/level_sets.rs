@@ -1,5 +1,4 @@
 //! Sets of their own at each stripe: the plain set where they are all alike, and a world whose truth is known.
-#![allow(clippy::unwrap_used)]
 
 use uplift_consistency::{
     ConsistencyError, Fit, KNOTS, LevelSets, RecordSet, RepairOptions, Repaired, ScaledAnalysis, Scratch, Seismology,

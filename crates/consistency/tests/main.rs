@@ -1,5 +1,6 @@
 //! Diagnosis and repair of whole record sets: against numbers of an independent prototype, and against what must hold
 //! of any set.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod common;
 mod expected;

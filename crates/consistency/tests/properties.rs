@@ -1,5 +1,4 @@
 //! What holds of any set.
-#![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
 use uplift_consistency::{

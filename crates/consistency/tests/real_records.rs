@@ -2,7 +2,6 @@
 //! absent.
 // digits as they are printed
 #![allow(clippy::unreadable_literal)]
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;

@@ -1,7 +1,6 @@
 //! The embedded synthetic set at Montreux, against an independent prototype: runs on any machine.
 // digits as they are printed
 #![allow(clippy::unreadable_literal)]
-#![allow(clippy::unwrap_used)]
 
 use uplift_consistency::Warning;
 use uplift_motion::synthetic::{SyntheticSetOptions, generate};

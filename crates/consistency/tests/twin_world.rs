@@ -1,5 +1,4 @@
 //! The example of a world whose truth is known.
-#![allow(clippy::unwrap_used)]
 
 #[path = "../examples/twin_world.rs"]
 #[allow(dead_code, reason = "the example's main")]

@@ -1,5 +1,4 @@
 //! Tables as they come, and what is said about those that cannot be used.
-#![allow(clippy::unwrap_used)]
 
 use std::io::Write;
 use std::path::Path;

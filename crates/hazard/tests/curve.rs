@@ -1,5 +1,4 @@
 //! Construction, interpolation and units of a hazard curve, on cases solved by hand.
-#![allow(clippy::unwrap_used)]
 
 use uplift_hazard::{Extrapolation, HazardCurve, HazardError, HazardPoint};
 

@@ -1,5 +1,4 @@
 //! NRML: what is read and refused.
-#![allow(clippy::unwrap_used)]
 
 use std::fmt::Write;
 use std::io::Cursor;

@@ -1,5 +1,4 @@
 //! `OpenQuake`'s CSV: what is read, selected and refused.
-#![allow(clippy::unwrap_used)]
 
 use std::fmt::Write;
 use std::io::{Cursor, Write as _};

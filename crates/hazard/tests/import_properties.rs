@@ -1,5 +1,4 @@
 //! What holds for every export: written and read again it is the same, and damage never panics.
-#![allow(clippy::unwrap_used)]
 
 use std::fmt::Write;
 use std::io::Cursor;

@@ -1,5 +1,4 @@
 //! The engine's own exports behind the project's curves, and files of old engines.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use std::path::{Path, PathBuf};
 

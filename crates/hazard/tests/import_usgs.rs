@@ -1,5 +1,4 @@
 //! JSON of the USGS hazard services: the four layouts, and what is refused.
-#![allow(clippy::unwrap_used)]
 
 use std::io::Cursor;
 

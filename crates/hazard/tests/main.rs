@@ -1,4 +1,5 @@
 //! Hazard curves, and the readers of tables and exports.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod csv;
 mod curve;

@@ -1,5 +1,4 @@
 //! The curves of the project's `hazard/` folder and the outside reference case.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -1,5 +1,4 @@
 //! What holds for every curve and every text.
-#![allow(clippy::unwrap_used)]
 
 use std::fmt::Write;
 

@@ -1,5 +1,4 @@
 //! Block stripes against single runs, and stopped.
-#![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

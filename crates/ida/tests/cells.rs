@@ -1,5 +1,4 @@
 //! Going on from what is known, and shards of a plan: the bits are those of an undisturbed analysis.
-#![allow(clippy::unwrap_used)]
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};

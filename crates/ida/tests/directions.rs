@@ -1,5 +1,4 @@
 //! Motions seen from several azimuths, and vertical motion, against single runs.
-#![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
 use uplift_block::RockingBlock;

@@ -1,5 +1,4 @@
 //! Stripes of frames against single runs, on other numbers of threads, and by what sets them apart.
-#![allow(clippy::unwrap_used)]
 
 use uplift_frame::{ColumnShape, GroundMotion, Model, Options, RockingFrame, Until, respond};
 use uplift_ida::{IdaError, Plan, ShakenFrame, StripeRecord, System, Unwatched, analyse};

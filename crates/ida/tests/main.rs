@@ -1,4 +1,5 @@
 //! Stripes against single runs, on any number of threads, in shards, and gone on with.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod blocks;
 mod cells;

@@ -1,6 +1,5 @@
 //! The fast solver against the readable one on real records, which may not be distributed: skipped where they are
 //! absent.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use std::path::{Path, PathBuf};
 

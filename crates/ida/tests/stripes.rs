@@ -1,5 +1,4 @@
 //! The stripes against single runs, and against themselves on other numbers of threads.
-#![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

@@ -1,5 +1,4 @@
 //! The solver against reference cases in 50-digit and binary128 arithmetic, each within its own tolerance.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use std::collections::HashMap;
 

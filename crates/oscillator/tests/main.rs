@@ -1,4 +1,5 @@
 //! Both solvers against exact cases, invariants and each other.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod exact_cases;
 mod invariants;

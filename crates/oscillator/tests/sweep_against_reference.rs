@@ -1,5 +1,4 @@
 //! The fast solver against the readable one.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use proptest::prelude::*;
 use uplift_oscillator::problems::{shaped_noise, symmetric_ricker_pulse};

@@ -1,5 +1,4 @@
 //! λ(c) and its ordinates: small cases solved by hand, and invariants against plain definitions.
-#![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
 use uplift_fragility::Stripes;

@@ -3,7 +3,6 @@
 //! The hazard points, the uniform-hazard value, the iterates of the risk-targeted ground motion and their risk ratios
 //! are those of the public test of the USGS risk-targeted ground motion calculator
 //! (github.com/usgs/earthquake-rtgm-calculator).
-#![allow(clippy::unwrap_used)]
 
 use uplift_fragility::LognormalFragility;
 use uplift_hazard::{HazardCurve, rate_from_probability};

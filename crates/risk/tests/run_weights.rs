@@ -1,5 +1,4 @@
 //! Runs that count differently: a case solved by hand, against records that count alike, and many at once.
-#![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
 use uplift_fragility::Stripes;

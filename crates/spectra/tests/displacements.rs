@@ -1,5 +1,4 @@
 //! Displacements, percentiles and designs against the solvers called one by one, and against cases solved by hand.
-#![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

@@ -1,6 +1,5 @@
 //! Where block, negative and zero stiffness must meet. Impacts that take most of the velocity keep the runs from being
 //! chaotic.
-#![allow(clippy::unwrap_used)]
 
 use uplift_block::RockingBlock;
 use uplift_ida::{System, Unwatched, analyse};

@@ -1,5 +1,4 @@
 //! Medians under the FEMA P695 sets, which may not be distributed: skipped where they are absent.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod real;
 

@@ -1,5 +1,4 @@
 //! Loading protocols, columns under them, and measured loops.
-#![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
 

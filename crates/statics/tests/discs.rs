@@ -1,5 +1,4 @@
 //! Disc springs against what is known of the formula by hand.
-#![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
 use uplift_statics::{DiscDimensions, DiscSpring, DiscStack};

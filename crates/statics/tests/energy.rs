@@ -1,5 +1,4 @@
 //! The laws are derivatives of one energy, for any restrainer and any path.
-#![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
 use uplift_statics::{Parts, RestrainedColumns, Restrainer, Spring, Stopper, Tendon, TendonPath, WhenFlat};

@@ -1,5 +1,4 @@
 //! Columns and restrainers whose answer can be written down.
-#![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
 use uplift_statics::{

@@ -1,4 +1,5 @@
 //! What the crate promises.
+#![allow(clippy::unwrap_used)]
 
 mod cyclic;
 mod discs;

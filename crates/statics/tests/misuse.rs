@@ -1,5 +1,4 @@
 //! What cannot be is refused, with the key, the value and what to do.
-#![allow(clippy::unwrap_used)]
 
 use serde_json::{Value, json};
 use uplift_statics::{Parts, RestrainedColumns, Restrainer, RestrainerDescription, TendonPath, WhenFlat};

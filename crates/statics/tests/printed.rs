@@ -1,6 +1,5 @@
 //! Numbers that the dissertation prints for Chapters 5 and 6. A tolerance is half a digit of what is printed, or the
 //! difference that is explained beside it.
-#![allow(clippy::unwrap_used)]
 
 use uplift_statics::{
     DiscDimensions, DiscSpring, DiscStack, EventKind, Parts, RestrainedColumns, Restrainer, Stopper, TendonPath,

@@ -1,5 +1,4 @@
 //! Stacks out of a catalogue, and stoppers.
-#![allow(clippy::unwrap_used)]
 
 use uplift_statics::selection::{select, stopper_yield_force_n};
 use uplift_statics::{

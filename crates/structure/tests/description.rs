@@ -1,5 +1,4 @@
 //! Descriptions as written in TOML: what they resolve to, and every mistake said at once.
-#![allow(clippy::unwrap_used)]
 
 use uplift_structure::{
     Anchorage, Conditions, EquivalentSystem, Frame, Geometry, Kind, RestrainedFrame, StructureDescription,

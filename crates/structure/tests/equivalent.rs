@@ -1,5 +1,4 @@
 //! A block and its equivalent oscillator under the same motion.
-#![allow(clippy::unwrap_used)]
 
 use uplift_block::{FreeRocking, RickerPulse, RickerShape, RockingBlock};
 use uplift_motion::Accelerogram;

@@ -1,4 +1,5 @@
 //! Structures, their equivalent oscillators and the rules of design.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod description;
 mod equivalent;

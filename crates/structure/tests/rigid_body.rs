@@ -1,6 +1,5 @@
 //! The linearised rows against the exact statics of rigid bodies, from potential energies that share no formula with
 //! the crate, and against the oscillator that computes the spectra.
-#![allow(clippy::unwrap_used)]
 
 use uplift_oscillator::{Excitation, FreeVibration, problems, respond};
 use uplift_structure::{

@@ -1,5 +1,4 @@
 //! Structures and the solitary blocks that rotate as they do.
-#![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
 use uplift_structure::{

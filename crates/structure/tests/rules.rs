@@ -1,5 +1,4 @@
 //! Rules and design: algebra by hand, the printed tables of Section 3.4.5, and what must hold for any numbers.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use std::collections::BTreeMap;
 

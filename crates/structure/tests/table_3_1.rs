@@ -1,5 +1,4 @@
 //! Every row of Table 3.1 against numbers worked out by hand, with g = 10 m/s², and the limits between rows.
-#![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
 use uplift_structure::{

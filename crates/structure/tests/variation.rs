@@ -1,7 +1,5 @@
 //! One quantity of a structure changed, and what stays (Table 3.1).
 
-#![allow(clippy::unwrap_used)]
-
 use uplift_structure::{EquivalentSystem, Kind, PostUpliftForce, Quantity, StructureDescription};
 
 fn read(text: &str) -> StructureDescription {
