@@ -174,6 +174,31 @@ fn a_design_has_the_frame_beside_its_proxy() {
     assert_eq!(whole["frame"], design["frame"]);
 }
 
+/// Where a study has many levels, a frame is shaken at some of them: the same ones whatever is asked, so that it has
+/// one rate; and shards serve every site.
+#[test]
+fn a_frame_has_one_rate_by_every_command() {
+    let levels = "levels_cm_s = [\"2:2:80\", \"90:10:200\"]";
+    let study = study(&STUDY.replace("levels_cm_s = [1, 3, 10, 20, 40, 80, 160]", levels));
+    study.write("free.toml", &FRAME.split("[restrainer]").next().unwrap().replace("restrained-frame", "frame"));
+    for part in ["1/2", "2/2"] {
+        study.uplift(&["design", "free.toml", "--urs", "r.h5", "--shard", part, "-q"]).ok();
+    }
+    let files = ["r.h5.design-free.shard-1-of-2", "r.h5.design-free.shard-2-of-2"];
+    let overturning = json(&study, &["overturning", "free.toml"]);
+    let wobbling = overturning["overturning"].as_array().unwrap().iter().find(|of| of["model"] == "wobbling frame");
+    for (place, site) in ["Here", "There"].iter().enumerate() {
+        let design = json(&study, &["design", "free.toml", "--site", site, "--shards", files[0], files[1]]);
+        let frame = &design["frame"];
+        assert!(frame["levels"].as_array().unwrap().len() <= 28, "{frame}");
+        let of_site = &wobbling.unwrap()["sites"][place];
+        assert_eq!(frame["levels"], wobbling.unwrap()["levels"]);
+        let rate = &frame["models"][0]["overturning"]["per_year"];
+        assert!(number(rate) > 0.0);
+        assert_eq!(rate, &of_site["per_year"], "{site}: {of_site}");
+    }
+}
+
 /// A tendon that is taken as elastic pulls a column back from far beyond its capacity. How often it goes there is said
 /// first by every command, and is the same number.
 #[test]

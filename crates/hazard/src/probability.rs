@@ -16,7 +16,7 @@ pub fn rate_from_probability(probability: f64, years: f64) -> Result<f64, Hazard
     Err(HazardError::Argument { what: "probability of exceedance", value: probability, must_be: "above 0 and below 1" })
 }
 
-/// −ln(1 − P)/T of a probability and a period that are ones.
+/// −ln(1 − P)/T of a valid probability and period.
 pub(crate) fn rate_of(probability: f64, years: f64) -> f64 {
     -(-probability).ln_1p() / years
 }

@@ -34,7 +34,7 @@ mod numbers;
 mod probabilities;
 mod structure;
 
-use uplift_job::alarm::Alarm;
+use uplift_job::alarm::{Alarm, Severity};
 use uplift_motion::IntensityMeasure;
 
 pub use curves::curves_alarm;
@@ -104,7 +104,8 @@ pub fn alarms_of_inputs(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, 
     let mut alarms = inputs::result_alarms(file)?;
     let evidence = Evidence::read(file, scope)?;
     alarms.extend(hazard::alarms(&evidence, scope));
-    alarms.extend(consistency::alarms(&evidence, scope));
+    // of what is repaired already a note says how to read the spectrum, which is another question
+    alarms.extend(consistency::alarms(&evidence, scope).filter(|alarm| alarm.severity != Severity::Note));
     Ok(alarms)
 }
 
@@ -135,7 +136,7 @@ pub fn fit_alarms(file: &ResultFile, measure: Option<IntensityMeasure>) -> Resul
 
 #[cfg(test)]
 mod tests {
-    use uplift_job::alarm::{Case, Severity};
+    use uplift_job::alarm::Case;
 
     use super::*;
 

@@ -231,7 +231,8 @@ pub fn design_shard(
     shard: Shard,
     events: &dyn Events,
 ) -> Result<ShardReport, DesignError> {
-    let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
+    let file = at(ResultFile::open(result)?, &options.risk.into())?;
+    let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
     // one shard serves every site
     let site = options.site.as_ref().or(source.sites.first()).map(String::as_str);

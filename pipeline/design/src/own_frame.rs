@@ -1,8 +1,8 @@
 //! The frame of a structure itself, wobbling and in a plane, beside the oscillator that stands for it.
 //!
 //! `uplift risk` shakes a frame at every level of the study. Where it stands beside its oscillator it is shaken at
-//! [`LEVELS`] levels at most, evenly spaced in the logarithm of the intensity, from the last one that lifts it under no
-//! record: the same ones whatever is asked, so that a frame has one rate.
+//! [`LEVELS`] levels at most, evenly spaced in the logarithm of the intensity, from the highest at which the horizontal
+//! components of no record lift it: the same ones whatever is asked, so that a frame has one rate.
 
 use serde::Serialize;
 use uplift_alarms::OwnRisk;

@@ -46,7 +46,7 @@ pub trait Events: Sync {
     }
 
     /// True to stop the job at its next chance; it then ends with
-    /// [`JobError::Interrupted`](crate::JobError::Interrupted) or [`Paused`](crate::JobError::Paused).
+    /// [`JobError::Interrupted`] or [`JobError::Paused`].
     fn cancelled(&self) -> bool {
         false
     }

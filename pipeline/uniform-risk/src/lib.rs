@@ -1,5 +1,6 @@
 //! Spectra of uniform risk in memory: stripes to demands, demands and hazard to spectra, spectra to coefficients; and
-//! the same asked of a result at other risks. Nothing here writes a result.
+//! the same asked of a result at other risks. What a run and a question add alike is written here, consistency and the
+//! spectra of branches; nothing else is.
 //!
 //! | module | what is in it |
 //! |---|---|

@@ -11,6 +11,7 @@ use uplift_engine::analysis::SHARD;
 use uplift_engine::checkpoint::{Finding, RowFile, checkpoint_path};
 use uplift_job::JobError;
 use uplift_job::lock::ResultLock;
+use uplift_job::outputs::SITE_ARRAYS;
 use uplift_questions::bootstrap::{finished_strengths, part_path};
 use uplift_result::earlier::made_of;
 use uplift_result::{Overview, ResultFile, StoredFinding, is_hdf5};
@@ -154,7 +155,8 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
     }
     if input.is_dir() {
         let is_result = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "h5");
-        let first = in_folder(input).map(|(_, path)| path).filter(is_result).min();
+        let of_results = in_folder(input).filter(|(name, _)| !name.ends_with(SITE_ARRAYS));
+        let first = of_results.map(|(_, path)| path).filter(is_result).min();
         let what = first.map_or_else(
             || "it has no results".to_owned(),
             |first| format!("name a result in it, such as {}", first.display()),

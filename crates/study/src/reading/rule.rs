@@ -16,7 +16,7 @@ pub(crate) enum Rule {
     Between(f64, f64, &'static str),
     /// To be finite, no more.
     Finite(&'static str),
-    /// To be finite where it is read; what it describes satisfies the rule of this name.
+    /// Finite when it is read; judged later by the rule of this name.
     Judged(&'static str, fn(&str) -> Rule),
 }
 

@@ -2,7 +2,7 @@
 
 use uplift_motion::IntensityMeasure;
 
-/// Units as keys end in them, after a low line each, longest first.
+/// Units as keys end in them, each after an underscore, longest first.
 const UNITS: [&str; 12] = ["per_s2", "cm_s2", "m_s2", "mm_s", "cm_s", "m_s", "mm", "cm", "in", "m", "g", "s"];
 
 /// "did you mean `…`?" with the one of `known` most like `word`, if any is like it.

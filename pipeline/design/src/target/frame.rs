@@ -30,7 +30,7 @@ pub struct TargetFrame {
     /// The value at which both models are judged: the safe value of the proxy, or the best estimate where that is
     /// beyond the range.
     pub value: f64,
-    /// Levels at which it was shaken, in the unit of the measure.
+    /// Levels at which it was shaken at that value, in the unit of the measure.
     pub levels: Vec<f64>,
     /// Levels of the study.
     #[serde(skip)]

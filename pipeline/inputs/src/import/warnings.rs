@@ -32,7 +32,8 @@ const ODD_DURATION_RATIO: f64 = 1.5;
 /// Peaks beyond which the unit is probably not what it is taken for, g: nobody feels less than 0.001 g, and a file in g
 /// read as cm/s2 is below it up to a true PGA of 1 g; the strongest one recorded has about 4 g.
 const USUAL_PGA_G: [f64; 2] = [1e-3, 3.0];
-/// Velocity beyond which it is probably not what it is taken for, cm/s: some 300 were recorded.
+/// Velocity beyond which unit or baseline are probably not what they are taken for, cm/s: the largest recorded is about
+/// 300.
 const USUAL_PGV_CM_S: f64 = 400.0;
 /// Ratio of the peaks of two components beyond which they are hardly in one unit: it is below some 5 where the ground
 /// moved, and g taken for cm/s2 multiplies one of them by 981.
@@ -46,7 +47,7 @@ pub(crate) fn unusual_peaks(pga_g: &[f64], pgv_cm_s: &[f64]) -> Option<String> {
         return Some(format!("mistake? PGA {strong:.3} g: is its unit right, cm/s2 perhaps?"));
     }
     if let Some(fast) = pgv_cm_s.iter().find(|&&pgv_cm_s| pgv_cm_s > USUAL_PGV_CM_S) {
-        return Some(format!("mistake? PGV {fast:.0} cm/s: is its unit right, m/s2 perhaps?"));
+        return Some(format!("mistake? PGV {fast:.0} cm/s: are its unit (m/s2 perhaps) and its baseline right?"));
     }
     let weakest = pga_g.iter().copied().fold(f64::INFINITY, f64::min);
     let strongest = pga_g.iter().copied().fold(0.0, f64::max);
@@ -228,7 +229,10 @@ mod tests {
         }
         // 50 cm/s and 0.2 g read as g in place of m/s2
         let told = unusual_peaks(&[1.96, 1.5], &[490.0, 380.0]).unwrap();
-        assert!(told.starts_with("mistake? PGV 490 cm/s: is its unit right, m/s2 perhaps?"), "{told}");
+        assert!(
+            told.starts_with("mistake? PGV 490 cm/s: are its unit (m/s2 perhaps) and its baseline right?"),
+            "{told}"
+        );
     }
 
     #[test]
