@@ -113,6 +113,10 @@ fn repaired_spectra_are_exported_where_there_are_some() {
     assert_eq!(of[1], ["Athens &lt; 1", "PGV", "PGA", "inconsistent"]);
     assert_eq!(found.len(), 4);
     assert!(found[0]["least_effective_records"].is_null() && found[1]["least_effective_records"].as_f64() > Some(5.0));
+    let few = some["alarms"].as_array().unwrap().iter().find(|alarm| alarm["kind"] == "few-effective-records");
+    let least = found.iter().filter_map(|row| row["least_effective_records"].as_f64()).fold(f64::INFINITY, f64::min);
+    let least = format!("{least:.1} effective records (20 advised)");
+    assert!(few.is_some_and(|alarm| alarm["what"].as_str().unwrap().ends_with(&least)), "{few:?}, not {least}");
     // the table beside the result says the same
     let table = std::fs::read_to_string(study.path().join("r.consistency.csv")).unwrap();
     let column = |name: &str| table.lines().next().unwrap().split(',').position(|own| own == name).unwrap();

@@ -220,7 +220,7 @@ pub(crate) fn typed() -> Arguments {
     let typed = program().try_get_matches().and_then(|found| Arguments::from_arg_matches(&found));
     typed.unwrap_or_else(|mut error| {
         if let Some(option) = error.get(ContextKind::InvalidArg).map(ToString::to_string)
-            && let Some(command) = std::env::args().nth(1)
+            && let Some(command) = std::env::args().skip(1).find(|word| program().find_subcommand(word).is_some())
             && error.kind() == ErrorKind::UnknownArgument
         {
             let hint = ELSEWHERE.iter().find(|(of, name, _)| *of == command && *name == option);

@@ -215,7 +215,8 @@ fn read(path: &Path, result: &ResultFile) -> Result<Read, UpliftError> {
         Kind::ShakeTable => shake_table::content(result)?,
     };
     let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let alarms = alarms(result)?;
+    let named = |alarm: Alarm| Alarm { what_to_do: alarm.remedy(&file), ..alarm };
+    let alarms: Vec<Alarm> = alarms(result)?.into_iter().map(named).collect();
     let structures = structures::structures(result, &alarms)?;
     Ok(Read { head: result.head()?, alarms, mark: result.name_and_digest()?, file, content, structures })
 }

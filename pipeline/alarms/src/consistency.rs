@@ -75,6 +75,25 @@ pub(super) fn without_repair(evidence: &Evidence, scope: &Scope) -> Option<Alarm
     Alarm::from_cases("no-repair", cases)
 }
 
+/// Repairs whose weights leave few records that count.
+pub(super) fn few_effective(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
+    let (mut cases, advised) = (Vec::new(), evidence.study.consistency.least_effective);
+    for (consistency, least) in evidence.consistency.iter().zip(&evidence.least_effective) {
+        for (site, (name, &least)) in evidence.spectra.sites.iter().zip(least.iter().flatten()).enumerate() {
+            if scope.holds(site, consistency.scaled_to) && consistency.is_repaired(site) && least < advised as f64 {
+                cases.push(Case {
+                    severity: Severity::Caution,
+                    badness: 1.0 / least,
+                    subject: format!("{name} by {}, repaired", consistency.scaled_to.label()),
+                    what: format!("the weights leave {least:.1} effective records ({advised} advised)"),
+                    what_to_do: format!("See where: uplift consistency {RESULT} --details"),
+                });
+            }
+        }
+    }
+    Alarm::from_cases("few-effective-records", cases)
+}
+
 /// Bands of repaired spectra of whose samples many cannot be weighed to the site's hazard.
 pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let stored = evidence.bands.as_ref()?;

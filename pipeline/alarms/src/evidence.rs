@@ -5,6 +5,7 @@ use uplift_job::text::{risk_in_words, risk_name};
 use uplift_motion::IntensityMeasure;
 use uplift_result::{MeasureSpectra, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredSpectra};
 use uplift_study::UniformRiskStudy;
+use uplift_uniform_risk::consistency::least_effective;
 
 use crate::error::AlarmsError;
 
@@ -22,6 +23,8 @@ pub struct Evidence {
     pub(super) poes_of_bands: Vec<Option<usize>>,
     /// By the measure that records are scaled to.
     pub(crate) consistency: Vec<StoredConsistency>,
+    /// [`least_effective`] records of each of these, `[site]`.
+    pub(super) least_effective: Vec<Option<Vec<f64>>>,
 }
 
 /// Which of the spectra are asked about; all where nothing is said.
@@ -95,6 +98,7 @@ impl Evidence {
             None if file.is_asked() => (file.stored_bands()?, stored_poes(file, &spectra)?),
             bands => (bands, all()),
         };
+        let consistency = file.consistency()?;
         Ok(Self {
             study,
             spectra,
@@ -102,7 +106,8 @@ impl Evidence {
             hazard: file.hazard_with_branches(|site| scope.holds_site(site))?,
             bands,
             poes_of_bands,
-            consistency: file.consistency()?,
+            least_effective: consistency.iter().map(|of| least_effective(file, of)).collect::<Result<_, _>>()?,
+            consistency,
         })
     }
 

@@ -63,6 +63,11 @@ impl Alarm {
         let Case { severity, subject, what, what_to_do, .. } = worst;
         Some(Self { severity, kind, subject, also: cases.map(|case| case.subject).collect(), what, what_to_do })
     }
+
+    /// What to do about it, with the name of the result.
+    pub fn remedy(&self, result: &str) -> String {
+        self.what_to_do.replace(Self::RESULT, result)
+    }
 }
 
 impl fmt::Display for Alarm {

@@ -6,7 +6,7 @@ use uplift::structure::{LimitEvent, TargetBand, TargetFrame, TargetReport};
 use uplift::text::{self, Table, per_cent, short, thousands};
 
 use super::alarms::print_warnings;
-use super::structure::{fewer_levels, print_notes, print_structure, rate, risk_cells};
+use super::structure::{fewer_levels, print_notes, print_structure, rate, record_set, risk_cells};
 use super::uncertainty::{kind_in_words, print_quantities};
 use super::{print_more, shown_path};
 use crate::error::CommandError;
@@ -59,6 +59,9 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
             writeln!(out, "Safe {quantity} {safe}; {best}{whose}")?;
         }
     }
+    if let Some(frame) = &report.frame {
+        print_limit(out, report, frame)?;
+    }
     let years = 1.0 / target_per_year;
     writeln!(out, "Target    {event} at most {} per year (once in {years:.0} years)", rate(*target_per_year))?;
     let [per_year, ..] = risk_cells(&report.risk);
@@ -106,7 +109,8 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         .own_value
         .map_or_else(String::new, |own| format!("; the structure's {quantity} is {}", unit(short(own))));
     let frame = report.frame.iter().map(|frame| (frame.levels.len(), frame.levels_of_study, &im[..]));
-    writeln!(out, "At        {site} by {im}; {}{}{own}", report.source.record_set, fewer_levels(frame))?;
+    let records = record_set(&report.source.record_set, report.frame.is_some());
+    writeln!(out, "At        {site} by {im}; {records}{}{own}", fewer_levels(frame))?;
     Ok(())
 }
 
@@ -140,15 +144,23 @@ fn print_frame(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame)
             (true, false) => "met, not safe",
             (false, false) => "MISSED",
         });
-    writeln!(out, "{table}")?;
-    if let (Some(limit), Some(beyond)) = (&frame.limit, &frame.beyond_limit) {
-        let [per_year, ..] = risk_cells(&beyond.risk);
-        // where tendons yield depends on the value that is sought
-        let size_by_it = if limit.event == LimitEvent::Capacity { ": --exceed capacity" } else { "" };
-        let limit = limit.in_words();
-        writeln!(out, "Limit     the wobbling frame passes its limit, {limit}, {per_year} per year{size_by_it}")?;
-    }
-    Ok(())
+    Ok(writeln!(out, "{table}")?)
+}
+
+/// How often the frame passes its limit, where that says more than how often it overturns.
+fn print_limit(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame) -> Result<(), CommandError> {
+    let (Some(limit), Some(beyond)) = (&frame.limit, &frame.beyond_limit) else { return Ok(()) };
+    let [per_year, ..] = risk_cells(&beyond.risk);
+    let at = format!("{} {}", frame.value, report.quantity_unit);
+    let is_more = beyond.risk.per_year > report.target_per_year;
+    let more = if is_more { ", more often than the target" } else { "" };
+    // where tendons yield depends on the value that is sought
+    let size_by_it = if limit.event == LimitEvent::Capacity { ": --exceed capacity" } else { "" };
+    let (limit, at) = (limit.in_words(), at.trim_end());
+    Ok(writeln!(
+        out,
+        "Limit     the wobbling frame passes its limit, {limit}, {per_year} per year at {at}{more}{size_by_it}"
+    )?)
 }
 
 fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {

@@ -61,8 +61,8 @@ impl Export {
             if index == 0 {
                 sheet.heading((line, 0), "Before you use these numbers", false)?;
             }
-            let what_to_do =
-                if alarm.what_to_do.is_empty() { String::new() } else { format!(": {}", alarm.what_to_do) };
+            let remedy = alarm.remedy(&self.file);
+            let what_to_do = if remedy.is_empty() { String::new() } else { format!(": {remedy}") };
             sheet.long_text((line, 1), &format!("{}: {alarm}{what_to_do}", alarm.severity.word()))?;
             line += 1;
         }
