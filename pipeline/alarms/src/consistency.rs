@@ -75,8 +75,13 @@ pub(super) fn without_repair(evidence: &Evidence, scope: &Scope) -> Option<Alarm
     Alarm::from_cases("no-repair", cases)
 }
 
+/// What limits the trust in repaired spectra.
+pub(super) fn of_repair(evidence: &Evidence, scope: &Scope) -> impl Iterator<Item = Alarm> {
+    few_effective(evidence, scope).into_iter().chain(failing_samples(evidence, scope))
+}
+
 /// Repairs whose weights leave few records that count.
-pub(super) fn few_effective(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
+fn few_effective(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let (mut cases, advised) = (Vec::new(), evidence.study.consistency.least_effective);
     for (consistency, least) in evidence.consistency.iter().zip(&evidence.least_effective) {
         for (site, (name, &least)) in evidence.spectra.sites.iter().zip(least.iter().flatten()).enumerate() {
@@ -95,7 +100,7 @@ pub(super) fn few_effective(evidence: &Evidence, scope: &Scope) -> Option<Alarm>
 }
 
 /// Bands of repaired spectra of whose samples many cannot be weighed to the site's hazard.
-pub(super) fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
+fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let stored = evidence.bands.as_ref()?;
     let mut cases = Vec::new();
     for bands in &stored.measures {

@@ -88,8 +88,7 @@ pub fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, Ala
     alarms.extend(hazard::alarms(&evidence, scope));
     alarms.extend(levels::alarms(&evidence, scope)?);
     if scope.repaired {
-        alarms.extend(consistency::few_effective(&evidence, scope));
-        alarms.extend(consistency::failing_samples(&evidence, scope));
+        alarms.extend(consistency::of_repair(&evidence, scope));
     } else {
         alarms.extend(measures::alarms(&evidence, scope));
         alarms.extend(consistency::alarms(&evidence, scope));
@@ -120,8 +119,7 @@ fn spectra_alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, Alar
     alarms.extend(consistency::without_repair(evidence, scope));
     // of the whole result, or of what is asked by repaired spectra: plain ones have nothing to do with weights
     if scope.repaired || *scope == Scope::default() {
-        alarms.extend(consistency::few_effective(evidence, scope));
-        alarms.extend(consistency::failing_samples(evidence, scope));
+        alarms.extend(consistency::of_repair(evidence, scope));
     }
     Ok(alarms)
 }

@@ -12,12 +12,14 @@
 //! | `reweighing` | the same for other samples of the records, each with weights of its own |
 //! | `report` | both as rows and sentences |
 //! | `write` | arrays of the result file, and the table beside it |
+//! | `effective` | how many records count under the weights of a result |
 //! | `asked` | the answer at other risks than those of the study |
 
 mod answer;
 mod asked;
 mod branches;
 mod earthquakes;
+mod effective;
 mod finding;
 mod question;
 mod report;
@@ -27,9 +29,9 @@ mod write;
 
 pub use answer::Answer;
 pub(crate) use asked::consistency_of_asked;
-pub use asked::least_effective;
 pub use branches::BranchFindings;
 pub use earthquakes::{EarthquakeRow, disaggregated, earthquakes};
+pub use effective::least_effective;
 pub use finding::Finding;
 pub use question::Question;
 pub use report::{

@@ -134,8 +134,7 @@ fn warnings(alarms: &[Alarm], result: Option<&Path>, terminal: &Terminal) -> Vec
 
 /// What to type, with the name of the `result`, where it is known.
 fn remedy(alarm: &Alarm, result: Option<&Path>) -> String {
-    let words = sentence(&alarm.what_to_do);
-    result.map_or_else(|| words.clone(), |result| words.replace(Alarm::RESULT, &typed_path(result)))
+    sentence(&result.map_or_else(|| alarm.what_to_do.clone(), |result| alarm.remedy(&typed_path(result))))
 }
 
 fn full_stop(alarm: &Alarm) -> &'static str {

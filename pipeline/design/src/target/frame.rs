@@ -14,7 +14,7 @@ use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::limit::{FrameLimit, LimitRisk};
 use crate::opening::Place;
-use crate::own_frame::{FrameModel, FrameQuestion, FrameReport, OwnFrame};
+use crate::own_frame::{FrameLevels, FrameModel, FrameQuestion, FrameReport, OwnFrame};
 use crate::risk::own_risk;
 
 /// Most values at which a wobbling frame is shaken.
@@ -157,13 +157,14 @@ impl FrameTarget<'_> {
         if let Some(reason) = frame.leaves_the_ground(&trials.records.set, at)? {
             return Ok((None, Some(reason)));
         }
-        let (mut report, models) = self.shaken(trials, (&frame, &first), true)?;
+        let (mut report, models) = self.shaken(trials, (&frame, &first), &levels, true)?;
         let mut tried = vec![(value, models[0].clone())];
         while tried.len() < MOST_VALUES {
             let Some(next) = self.next(&tried, most) else { break };
             let Some(structure) = self.structure_at(next)? else { break };
             frame = OwnFrame::from_structure(&structure, frame.pairs)?;
-            let (own, models) = self.shaken(trials, (&frame, &structure), false)?;
+            let levels = frame.levels(&trials.records.set, self.place.measure);
+            let (own, models) = self.shaken(trials, (&frame, &structure), &levels, false)?;
             report.analyses += own.analyses;
             tried.extend(models.into_iter().map(|model| (next, model)));
             tried.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -201,9 +202,9 @@ impl FrameTarget<'_> {
         &self,
         trials: &mut Trials<'_>,
         (frame, structure): (&OwnFrame, &Structure),
+        levels: &FrameLevels,
         with_planar: bool,
     ) -> Result<(FrameReport, Vec<TargetFrameModel>), DesignError> {
-        let levels = &frame.levels(&trials.records.set, self.place.measure);
         let peaks = trials.shake(frame, levels, with_planar)?;
         let threshold_m = match self.options.event() {
             TargetEvent::Overturning => None,
