@@ -132,7 +132,7 @@ fn designed(section: &mut Section<'_>, of_blocks: bool, structures: Option<&Stru
     let (width_m, height_m) = (width?, height?);
     if width_m >= height_m {
         return section.refuse(
-            "width_m",
+            WIDTH_M.name,
             format!("a column {} wide and {} high does not rock", quantity(width_m, "m"), quantity(height_m, "m")),
             "give a column that is higher than wide: its strength is tan(width/height)",
         );
@@ -141,7 +141,7 @@ fn designed(section: &mut Section<'_>, of_blocks: bool, structures: Option<&Stru
         && width_m <= family.uplift_displacement_m[0]
     {
         return section.refuse(
-            "width_m",
+            WIDTH_M.name,
             format!(
                 "a column of width {}, its capacity, is not above the uplift displacement {}",
                 quantity(width_m, "m"),

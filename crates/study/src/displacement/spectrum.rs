@@ -17,7 +17,7 @@ pub(super) const PERCENT: Rule = Rule::From(0.0, 100.0, "from 0 to 100 (the medi
 
 /// The section as a study file has it.
 pub(super) fn write<S: Serializer>(percentiles: &Grid, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map([("percentiles", percentiles)])
+    serializer.collect_map([(PERCENTILES.name, percentiles)])
 }
 
 /// Reads the section.

@@ -44,7 +44,7 @@ pub(crate) fn read<'a>(
         let file = paths.default_output();
         if file.is_dir() || file.to_str().is_none() {
             section.mistake(
-                "file",
+                FILE.name,
                 format!("the result file cannot be {}", file.display()),
                 "give it a name, e.g. file = \"/data/study.h5\"",
             );

@@ -23,5 +23,5 @@ pub(crate) fn read(mut section: Section<'_>) -> Option<Grid> {
 
 /// A section whose only key is `values`, as a study file has it.
 pub(crate) fn write<S: Serializer>(values: &Grid, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map([("values", values)])
+    serializer.collect_map([(VALUES.name, values)])
 }

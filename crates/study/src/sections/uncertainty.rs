@@ -176,7 +176,7 @@ pub(crate) fn read(
     {
         let message = format!("Sobol' points fill a range evenly only in powers of two, and {samples} is none");
         let (below, above) = (samples.next_power_of_two() / 2, samples.next_power_of_two());
-        section.mistake("samples", message, format!("write {below} or {above}, or sampling = \"latin-hypercube\""));
+        section.mistake(SAMPLES.name, message, format!("write {below} or {above}, or sampling = \"latin-hypercube\""));
     }
     let (mut known, mut mistaken) = (Vec::new(), Vec::new());
     let mut is_whole = true;
@@ -335,21 +335,21 @@ fn read_quantity(
     }
     if by_mean && variation.is_none() {
         let help = "its standard deviation over its mean: 0.1 is 10 %";
-        section.mistake("coefficient_of_variation", "a mean needs a coefficient of variation", help);
+        section.mistake(COEFFICIENT_OF_VARIATION.name, "a mean needs a coefficient of variation", help);
     }
     if by_limits && !(lower.is_some() && upper.is_some()) {
         section.mistake("", "one of its limits is missing", "give both lower and upper");
     }
     if by_mean && mean.is_none() && described == Described::Open {
         let help = format!("give mean, or {} of the structure", quantity.key());
-        section.mistake("mean", "its mean is missing", help);
+        section.mistake(MEAN.name, "its mean is missing", help);
     }
     let bounded = matches!(family, Some(Family::Uniform | Family::Triangular));
     if by_limits && family.is_some() && !bounded {
         section.mistake("", "only a uniform and a triangular distribution have limits", "give its mean or percentiles");
     }
     if mode.is_some() && family == Some(Family::Uniform) {
-        section.mistake("mode", "a uniform distribution has no mode", "leave it out, or write \"triangular\"");
+        section.mistake(MODE.name, "a uniform distribution has no mode", "leave it out, or write \"triangular\"");
     }
     let range = [quantity.range().least, quantity.range().most];
     let distribution = |family: Family| -> Option<Result<Distribution, UncertaintyError>> {

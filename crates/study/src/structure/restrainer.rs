@@ -139,10 +139,10 @@ impl RestrainerFile {
         let mut root = Section::root(&document, &findings);
         let section = root.section("restrainer");
         if !section.is_present() && root.field("restrainer").is_none() {
-            if root.field("tendon_stiffness_n_m").is_some() {
+            if root.field(TENDON_STIFFNESS_N_M.name).is_some() {
                 let help = "to see its line, write [restrainer], kind = \"linear\" and stiffness_n_m in their place";
                 let found = "the file has no table [restrainer]: its tendons are given by `tendon_stiffness_n_m`";
-                root.mistake("tendon_stiffness_n_m", found, help);
+                root.mistake(TENDON_STIFFNESS_N_M.name, found, help);
             } else {
                 let help = "write [restrainer] and its kind: \"linear\", \"tendon\" or \"disc-springs\"";
                 root.mistake("restrainer", "the file has no restrainer", help);

@@ -91,7 +91,7 @@ pub(super) fn read(mut section: Section<'_>) -> Option<Risk> {
     let thresholds_m = section.read(&THRESHOLDS_M);
     if let Some(&first_m) = thresholds_m.as_ref().and_then(|grid| grid.first()).filter(|first_m| **first_m != 0.0) {
         let message = format!("the grid starts at {}", quantity(first_m, "m"));
-        section.mistake("thresholds_m", message, "let it start at 0, where every run that moves is counted");
+        section.mistake(THRESHOLDS_M.name, message, "let it start at 0, where every run that moves is counted");
     }
     let maf_surface = section.read(&MAF_SURFACE);
     let extrapolate = section.read(&EXTRAPOLATE);

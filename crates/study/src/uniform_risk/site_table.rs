@@ -253,7 +253,7 @@ fn export(
     if branches.as_ref().is_some_and(|own| !own.is_empty()) && !studied.is_empty() && !studied.contains(&measure) {
         let what = format!("the study has no spectra by {}", measure.label());
         section.mistake(
-            "branches",
+            curve::BRANCHES.name,
             what,
             format!("leave them out, or add a section [{}]", measures::section_of(measure)),
         );

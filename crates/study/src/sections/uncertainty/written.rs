@@ -50,13 +50,13 @@ struct Correlation {
 impl Serialize for Uncertainty {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("kind", self.kind.key())?;
-        map.serialize_entry("sampling", self.sampling.key())?;
+        map.serialize_entry(super::KIND.name, self.kind.key())?;
+        map.serialize_entry(super::SAMPLING.name, self.sampling.key())?;
         match self.kind {
-            UncertaintyKind::Epistemic => map.serialize_entry("samples", &self.samples)?,
-            UncertaintyKind::Aleatory => map.serialize_entry("draws", &self.draws)?,
+            UncertaintyKind::Epistemic => map.serialize_entry(super::SAMPLES.name, &self.samples)?,
+            UncertaintyKind::Aleatory => map.serialize_entry(super::DRAWS.name, &self.draws)?,
         }
-        map.serialize_entry("seed", &self.seed)?;
+        map.serialize_entry(super::SEED.name, &self.seed)?;
         for (quantity, written) in self.quantities.iter().zip(&self.written) {
             map.serialize_entry(quantity.key(), written)?;
         }
