@@ -5,7 +5,7 @@ use std::io::Read;
 use serde_json::Value;
 use uplift_labelled::LabelledReader;
 
-use crate::common::{SMALL_STUDY, SmallStudy};
+use crate::common::{SMALL_STUDY, SmallStudy, repository};
 
 const EXPORT: [&str; 7] = ["export", "r.h5", "--json", "--csv", "--mat", "--xlsx", "-q"];
 
@@ -198,4 +198,42 @@ fn the_page_gets_stripes_hazard_and_warnings_without_a_path() {
     assert_eq!(sorted(&page["sites"][0]["curves"][0]["alarms"]), sorted(&shown["alarms"]));
     // it is the program's own, and may be written again
     study.uplift(&["export", "r.h5", "--web", "-q"]).ok();
+}
+
+/// Names in backticks in the row of `docs/tables.md` that begins with `` `<result>.KIND.csv` ``.
+fn documented(page: &str, kind: &str) -> Vec<String> {
+    let start = format!("| `<result>.{kind}.csv` | ");
+    let row = page.lines().find_map(|line| line.strip_prefix(&start)).unwrap_or_else(|| panic!("no row of {kind}"));
+    row.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+#[test]
+fn tables_beside_a_result_have_the_columns_that_the_documents_name() {
+    let study = SmallStudy::repaired();
+    for job in [&["bootstrap", "--replicates", "100"][..], &["consistency"], &["influence"], &["measures"]] {
+        study.uplift(&[&job[..1], &["r.h5", "-q"], &job[1..]].concat()).ok();
+    }
+    let page = std::fs::read_to_string(repository().join("docs/tables.md")).unwrap();
+    let columns = |kind: &str| -> Vec<String> {
+        let path = study.path().join(format!("r.{kind}.csv"));
+        let table = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        table.lines().next().unwrap().split(',').map(str::to_owned).collect()
+    };
+    // not compared: what stands in words (covariates, names that begin alike), and bands over weighted hazard curves
+    for (kind, is_whole) in [
+        ("urs", true),
+        ("regression", true),
+        ("consistency", true),
+        ("influence", true),
+        ("bands", false),
+        ("table-4-1", false),
+        ("measures", false),
+    ] {
+        let (documented, written) = (documented(&page, kind), columns(kind));
+        let is_name = |name: &&String| !name.contains('…') && !name.contains("_joint");
+        let missing: Vec<_> = documented.iter().filter(is_name).filter(|name| !written.contains(name)).collect();
+        assert!(missing.is_empty(), "{kind}: {missing:?} are not among {written:?}");
+        let untold: Vec<_> = written.iter().filter(|name| is_whole && !documented.contains(name)).collect();
+        assert!(untold.is_empty(), "{kind}: {untold:?} are not in the documents");
+    }
 }

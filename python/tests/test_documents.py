@@ -3,6 +3,7 @@
 import re
 
 import pytest
+import uplift_urs._result
 from conftest import REPOSITORY
 
 
@@ -18,3 +19,8 @@ def test_document(document):
         assert names["fragility"].shape == (50, 8) and names["maf_per_year"].shape == (50, 3)
         # a spectrum that is somewhere at least neither zero nor censored
         assert (names["spectra"].flag == 0).any()
+
+
+def test_what_adds_a_group_is_told_of_groups_of_the_layout():
+    layout = (REPOSITORY / "docs" / "hdf5-layout.md").read_text()
+    assert [group for group in uplift_urs._result._ADDED_BY if f"`/{group}" not in layout] == []
