@@ -128,7 +128,7 @@ pub(crate) fn bootstrap(
         }
         Ok(bands)
     };
-    for site in sites.of_each(py, &demand, of_both)? {
+    for site in sites.map_each(py, &demand, of_both)? {
         // strengths vary fastest
         bands.extend((0..targets.len() * sizes.len()).flat_map(|place| site.iter().map(move |of| of[place])));
     }

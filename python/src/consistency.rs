@@ -8,7 +8,7 @@ use uplift_consistency::{
 };
 use uplift_motion::IntensityMeasure;
 
-use crate::errors::{of_record, refused};
+use crate::errors::{from_motion, refused};
 use crate::floats::{array, list};
 use crate::hazard::{HazardCurve, extrapolation};
 use crate::risk::targets;
@@ -97,7 +97,7 @@ pub(crate) fn consistency(
     let curve = |of: &Bound<'_, HazardCurve>| of.get().curve.in_field_units(gravity_m_s2).map_err(refused);
     let (hazard, other_hazard) = (curve(hazard)?, curve(other_hazard)?);
     let power = |of: &uplift_hazard::HazardCurve| {
-        PyResult::Ok(f64::from(of.measure().parse::<IntensityMeasure>().map_err(of_record)?.power()))
+        PyResult::Ok(f64::from(of.measure().parse::<IntensityMeasure>().map_err(from_motion)?.power()))
     };
     let powers = Powers { scaled_to: power(&hazard)?, other: power(&other_hazard)? };
     let record = |(pair, ((scaled_to, other), event)): (usize, ((f64, f64), Option<usize>))| SetRecord {

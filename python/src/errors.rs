@@ -18,7 +18,7 @@ pub(crate) fn refused(error: impl Display) -> PyErr {
 }
 
 /// What is wrong with a record or its file.
-pub(crate) fn of_record(error: MotionError) -> PyErr {
+pub(crate) fn from_motion(error: MotionError) -> PyErr {
     match &error {
         MotionError::Unreadable { reason, .. } => io::Error::new(reason.kind(), error.to_string()).into(),
         _ => refused(error),
@@ -26,7 +26,7 @@ pub(crate) fn of_record(error: MotionError) -> PyErr {
 }
 
 /// What is wrong with the hazard curves of the file at `path`.
-pub(crate) fn of_hazard_file(error: HazardError, path: &Path) -> PyErr {
+pub(crate) fn from_hazard_file(error: HazardError, path: &Path) -> PyErr {
     let unreadable = match &error {
         HazardError::File { .. } if path.is_dir() => Some(io::ErrorKind::IsADirectory),
         HazardError::File { .. } => File::open(path).err().map(|reason| reason.kind()),
@@ -36,9 +36,9 @@ pub(crate) fn of_hazard_file(error: HazardError, path: &Path) -> PyErr {
 }
 
 /// What is wrong with a structure: `StudyError` of the package with all mistakes, or `OSError`.
-pub(crate) fn of_study(py: Python<'_>, error: &StudyError) -> PyErr {
+pub(crate) fn from_study(py: Python<'_>, error: &StudyError) -> PyErr {
     let StudyError::Unreadable { reason, .. } = error else {
-        return of_mistakes(py, error).unwrap_or_else(|failure| failure);
+        return from_mistakes(py, error).unwrap_or_else(|failure| failure);
     };
     let kind = match reason {
         Unreadable::System(system) => system.kind(),
@@ -49,7 +49,7 @@ pub(crate) fn of_study(py: Python<'_>, error: &StudyError) -> PyErr {
     io::Error::new(kind, error.to_string()).into()
 }
 
-fn of_mistakes(py: Python<'_>, error: &StudyError) -> PyResult<PyErr> {
+fn from_mistakes(py: Python<'_>, error: &StudyError) -> PyResult<PyErr> {
     let module = PyModule::import(py, "uplift_urs._program")?;
     let mistakes = error.mistakes().iter().map(|mistake| {
         let (line, column) = match &mistake.place {

@@ -6,7 +6,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use uplift_hazard::{SiteSelection, read_export};
 
-use crate::errors::of_hazard_file;
+use crate::errors::from_hazard_file;
 use crate::hazard::HazardCurve;
 
 /// A curve of an engine's export.
@@ -89,7 +89,7 @@ pub(crate) fn read_hazard_export(
         }
         (Some(_), Some(_)) => return Err(PyValueError::new_err("site and near are given: give one of them")),
     };
-    let curves = py.detach(|| read_export(&path, &selection)).map_err(|error| of_hazard_file(error, &path))?;
+    let curves = py.detach(|| read_export(&path, &selection)).map_err(|error| from_hazard_file(error, &path))?;
     let exported = |curve: uplift_hazard::ExportedCurve| {
         Ok(ExportedCurve {
             curve: Py::new(py, HazardCurve { curve: curve.curve })?,

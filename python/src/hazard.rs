@@ -12,7 +12,7 @@ use uplift_hazard::{
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::YEARS;
 
-use crate::errors::{check_plausible, of_hazard_file, refused};
+use crate::errors::{check_plausible, from_hazard_file, refused};
 use crate::floats::{array, floats, list};
 
 /// A site's hazard curve: the mean annual frequency of exceeding each level of an intensity measure.
@@ -115,7 +115,7 @@ impl HazardCurve {
                 return Err(PyValueError::new_err(format!("kind is {other:?}: it must be \"maf\" or \"poe\"")));
             }
         };
-        let failed = |error: HazardError| of_hazard_file(error, &path);
+        let failed = |error: HazardError| from_hazard_file(error, &path);
         let text = table_text(&path).map_err(failed)?;
         let name = path.display().to_string();
         let declared = declared(&text, &name, measure, unit)?;

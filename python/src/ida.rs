@@ -12,7 +12,7 @@ use uplift_motion::{Accelerogram, Combination, IntensityMeasure, RecordPair};
 use uplift_plausible::GRAVITY;
 
 use crate::cores::on_all_cores;
-use crate::errors::{check_plausible, of_record, refused};
+use crate::errors::{check_plausible, from_motion, refused};
 use crate::floats::{array, count, list, room};
 use crate::oscillator::Numbers;
 use crate::record::Record;
@@ -87,13 +87,13 @@ pub(crate) fn ida<'py>(
     intensity: &str,
     gravity_m_s2: f64,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-    let measure: IntensityMeasure = measure.parse().map_err(of_record)?;
+    let measure: IntensityMeasure = measure.parse().map_err(from_motion)?;
     if !measure.can_be_scaled_to() {
         let message = format!("measure {}: no factor changes a duration, so nothing is scaled to it", measure.key());
         return Err(PyValueError::new_err(message));
     }
     check_plausible(&[(GRAVITY, "gravity_m_s2", Some(gravity_m_s2))])?;
-    let intensity: Combination = intensity.parse().map_err(of_record)?;
+    let intensity: Combination = intensity.parse().map_err(from_motion)?;
     let motions = motions(records)?;
     let levels = list("levels", levels)?;
     let system = |strength: f64| {
@@ -147,7 +147,7 @@ impl Motion {
         };
         let (h1, h2) = ((*self.shaking).clone(), (**other).clone());
         let pair = RecordPair { id: self.name.clone(), h1, h2, metadata: std::collections::BTreeMap::new() };
-        measure.of_combined(combination, &pair, gravity_m_s2).map_err(of_record)
+        measure.of_combined(combination, &pair, gravity_m_s2).map_err(from_motion)
     }
 }
 

@@ -106,7 +106,7 @@ pub(crate) fn overturning(
         let upper_share = if per_year > 0.0 { (upper_per_year / per_year).min(1.0) } else { 0.0 };
         Ok(vec![per_year, probability_from_rate(per_year, years).map_err(refused)?, upper_share])
     };
-    let of_each: Vec<Vec<f64>> = sites.of_each(py, &demand, risk)?.into_iter().flatten().collect();
+    let of_each: Vec<Vec<f64>> = sites.map_each(py, &demand, risk)?.into_iter().flatten().collect();
     let shape = sites.shape_with(&demand.shape_with(&[]));
     let of = |place: usize| PyResult::Ok(array(py, &shape, of_each.iter().map(|of| of[place]).collect())?.unbind());
     Ok(Overturning {

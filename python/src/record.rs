@@ -13,7 +13,7 @@ use uplift_motion::{
 };
 use uplift_plausible::{GRAVITY, PEAK_ACCELERATION, TIME_STEP};
 
-use crate::errors::{check_plausible, of_record, refused};
+use crate::errors::{check_plausible, from_motion, refused};
 use crate::floats::{array, list};
 
 /// Samples that a record has at most: hours at 200 Hz.
@@ -79,14 +79,14 @@ impl Record {
         gravity_m_s2: f64,
     ) -> PyResult<Self> {
         check_plausible(&[(TIME_STEP, "dt_s", Some(dt_s)), (GRAVITY, "gravity_m_s2", Some(gravity_m_s2))])?;
-        let unit: AccelerationUnit = unit.parse().map_err(of_record)?;
+        let unit: AccelerationUnit = unit.parse().map_err(from_motion)?;
         let values = list("acceleration", acceleration)?;
         if values.len() > MOST_SAMPLES {
             let count = values.len();
             return Err(PyValueError::new_err(format!("acceleration has {count} samples: at most {MOST_SAMPLES}")));
         }
         let in_m_s2 = values.into_iter().map(|value| unit.to_m_s2(value, gravity_m_s2)).collect();
-        let accelerogram = Accelerogram::new(dt_s, in_m_s2).map_err(of_record)?;
+        let accelerogram = Accelerogram::new(dt_s, in_m_s2).map_err(from_motion)?;
         PEAK_ACCELERATION.check("the largest acceleration", accelerogram.pga_m_s2()).map_err(refused)?;
         let description = RecordingDescription::default();
         Ok(Self { accelerogram: Arc::new(accelerogram), name: name.to_owned(), gravity_m_s2, description })
@@ -162,31 +162,31 @@ impl Record {
     /// Peak ground acceleration, g.
     #[getter]
     fn pga_g(&self) -> f64 {
-        self.of(IntensityMeasure::Pga)
+        self.value(IntensityMeasure::Pga)
     }
 
     /// Peak ground velocity, cm/s.
     #[getter]
     fn pgv_cm_s(&self) -> f64 {
-        self.of(IntensityMeasure::Pgv)
+        self.value(IntensityMeasure::Pgv)
     }
 
     /// Peak ground displacement, cm.
     #[getter]
     fn pgd_cm(&self) -> f64 {
-        self.of(IntensityMeasure::Pgd)
+        self.value(IntensityMeasure::Pgd)
     }
 
     /// Cumulative absolute velocity, cm/s.
     #[getter]
     fn cav_cm_s(&self) -> f64 {
-        self.of(IntensityMeasure::Cav)
+        self.value(IntensityMeasure::Cav)
     }
 
     /// Arias intensity, cm/s.
     #[getter]
     fn arias_cm_s(&self) -> f64 {
-        self.of(IntensityMeasure::Arias)
+        self.value(IntensityMeasure::Arias)
     }
 
     /// An intensity measure of this component.
@@ -206,8 +206,8 @@ impl Record {
     /// ValueError
     ///     For an unknown measure.
     fn measure(&self, py: Python<'_>, measure: &str) -> PyResult<f64> {
-        let measure = measure.parse::<IntensityMeasure>().map_err(of_record)?;
-        Ok(py.detach(|| self.of(measure)))
+        let measure = measure.parse::<IntensityMeasure>().map_err(from_motion)?;
+        Ok(py.detach(|| self.value(measure)))
     }
 
     /// What the file says about the record, as far as it says it: event, event_time, magnitude,
@@ -261,7 +261,7 @@ impl Record {
 }
 
 impl Record {
-    fn of(&self, measure: IntensityMeasure) -> f64 {
+    fn value(&self, measure: IntensityMeasure) -> f64 {
         measure.of_component(&self.accelerogram, self.gravity_m_s2)
     }
 
@@ -313,7 +313,7 @@ pub(crate) fn read_record(
     let options = ReadOptions { channel, ..options(dt_s, unit, format, gravity_m_s2)? };
     let name = path.display().to_string();
     let read = || read_record_file(&path, &options)?.component(&name, channel);
-    let recording = py.detach(read).map_err(of_record)?;
+    let recording = py.detach(read).map_err(from_motion)?;
     Ok(Record::read(recording, name, gravity_m_s2))
 }
 
@@ -346,7 +346,7 @@ pub(crate) fn read_records(
     gravity_m_s2: f64,
 ) -> PyResult<Vec<Record>> {
     let options = options(dt_s, unit, format, gravity_m_s2)?;
-    let recordings = py.detach(|| read_record_file(&path, &options)).map_err(of_record)?.recordings;
+    let recordings = py.detach(|| read_record_file(&path, &options)).map_err(from_motion)?.recordings;
     let is_alone = recordings.len() == 1;
     let name = |number: usize| {
         if is_alone { path.display().to_string() } else { format!("{}#{number}", path.display()) }
@@ -357,7 +357,7 @@ pub(crate) fn read_records(
 
 fn options(dt_s: Option<f64>, unit: Option<&str>, format: Option<&str>, gravity_m_s2: f64) -> PyResult<ReadOptions> {
     check_plausible(&[(TIME_STEP, "dt_s", dt_s), (GRAVITY, "gravity_m_s2", Some(gravity_m_s2))])?;
-    let unit = unit.map(str::parse::<AccelerationUnit>).transpose().map_err(of_record)?;
-    let format = format.map(str::parse::<RecordFormat>).transpose().map_err(of_record)?;
+    let unit = unit.map(str::parse::<AccelerationUnit>).transpose().map_err(from_motion)?;
+    let format = format.map(str::parse::<RecordFormat>).transpose().map_err(from_motion)?;
     Ok(ReadOptions { format, channel: None, dt_s, unit, gravity_m_s2 })
 }

@@ -93,18 +93,18 @@ pub(crate) struct Responses {
 impl Responses {
     pub(crate) fn new(py: Python<'_>, shape: &[usize], runs: &[solver::Response]) -> PyResult<Self> {
         Ok(Self {
-            peak_displacement_m: of_each(py, shape, runs, |run| run.peak_displacement_m)?,
-            time_of_peak_s: of_each(py, shape, runs, |run| run.time_of_peak_s)?,
-            impacts: of_each(py, shape, runs, |run| run.impacts)?,
-            uplifts: of_each(py, shape, runs, |run| run.uplifts)?,
-            overturned: of_each(py, shape, runs, |run| run.overturned)?,
-            end_displacement_m: of_each(py, shape, runs, |run| run.end_displacement_m)?,
-            end_velocity_m_s: of_each(py, shape, runs, |run| run.end_velocity_m_s)?,
+            peak_displacement_m: array_over_runs(py, shape, runs, |run| run.peak_displacement_m)?,
+            time_of_peak_s: array_over_runs(py, shape, runs, |run| run.time_of_peak_s)?,
+            impacts: array_over_runs(py, shape, runs, |run| run.impacts)?,
+            uplifts: array_over_runs(py, shape, runs, |run| run.uplifts)?,
+            overturned: array_over_runs(py, shape, runs, |run| run.overturned)?,
+            end_displacement_m: array_over_runs(py, shape, runs, |run| run.end_displacement_m)?,
+            end_velocity_m_s: array_over_runs(py, shape, runs, |run| run.end_velocity_m_s)?,
         })
     }
 }
 
-fn of_each<T: numpy::Element>(
+fn array_over_runs<T: numpy::Element>(
     py: Python<'_>,
     shape: &[usize],
     runs: &[solver::Response],

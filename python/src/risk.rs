@@ -137,7 +137,7 @@ pub(crate) fn risk_curve<'py>(
         Ok(places.iter().map(|place| of_grid[*place]).collect::<Vec<_>>())
     };
     let mut rates = room(total)?;
-    for site in sites.of_each(py, &demand, row)? {
+    for site in sites.map_each(py, &demand, row)? {
         rates.extend(site.into_iter().flatten());
     }
     array(py, &shape, rates)
@@ -233,7 +233,7 @@ pub(crate) fn urs(
     };
     let shape = sites.shape_with(&demand.shape_after(&of_poe));
     let mut all = room(count(&shape)?)?;
-    for site in sites.of_each(py, &demand, ordinates)? {
+    for site in sites.map_each(py, &demand, ordinates)? {
         // strengths vary fastest in a spectrum
         all.extend((0..targets.len()).flat_map(|target| site.iter().map(move |of_strength| of_strength[target])));
     }

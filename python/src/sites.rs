@@ -49,7 +49,7 @@ impl Sites {
 
     /// What `of_both` makes of each oscillator at each site, `[site][strength]`: each oscillator is sorted once and
     /// serves every site.
-    pub(crate) fn of_each<T: Send>(
+    pub(crate) fn map_each<T: Send>(
         &self,
         py: Python<'_>,
         demand: &Demand,

@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 use uplift_statics::PushoverState;
 use uplift_structure::PostUpliftForce;
 
-use crate::errors::{of_study, refused};
+use crate::errors::{from_study, refused};
 use crate::floats::{array, floats, room};
 
 /// A rocking structure, with the oscillator that it is equivalent to (Table 3.1).
@@ -59,7 +59,7 @@ impl Structure {
     ///     A `ValueError`: for what is no structure, with all its mistakes.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        uplift_study::Structure::load(&path).map(|read| Self { read }).map_err(|error| of_study(py, &error))
+        uplift_study::Structure::load(&path).map(|read| Self { read }).map_err(|error| from_study(py, &error))
     }
 
     /// Parses the text of a structure file.
@@ -78,7 +78,7 @@ impl Structure {
     #[pyo3(signature = (text, *, name = "structure"))]
     fn parse(py: Python<'_>, text: String, name: &str) -> PyResult<Self> {
         let parsed = uplift_study::Structure::parse(Path::new(name), text);
-        parsed.map(|read| Self { read }).map_err(|error| of_study(py, &error))
+        parsed.map(|read| Self { read }).map_err(|error| from_study(py, &error))
     }
 
     #[getter]

@@ -43,7 +43,7 @@ enum Purpose {
 
 impl Analysis {
     /// Of the dropped records, at all strengths and by all measures of `stripes`.
-    pub(crate) fn of_records(stripes: &Stripes, motions: &Motions) -> Answer<Self> {
+    pub(crate) fn from_records(stripes: &Stripes, motions: &Motions) -> Answer<Self> {
         let study = &stripes.study;
         let own = |&strength: &f64| oscillator(study, strength);
         let systems = study.strengths.iter().map(own).collect::<Answer<_>>()?;
@@ -57,7 +57,7 @@ impl Analysis {
 
     /// Of a structure, by the measure of `at`: its equivalent oscillator, and where it is asked for and there is one,
     /// the block that rotates as it does.
-    pub(crate) fn of_structure(
+    pub(crate) fn from_structure(
         stripes: &Stripes,
         motions: &mut Motions,
         (text, with_block, safety_factor): (&str, bool, f64),
@@ -130,12 +130,12 @@ impl Analysis {
                 Ok(stripes.about())
             }
             Purpose::Structure(structure, at, safety_factor) => {
-                self.of_structure_at((structure, *safety_factor), stripes, at)
+                self.answer_structure((structure, *safety_factor), stripes, at)
             }
         }
     }
 
-    fn of_structure_at(
+    fn answer_structure(
         &self,
         (structure, safety_factor): (&Structure, f64),
         stripes: &Stripes,

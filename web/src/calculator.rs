@@ -134,7 +134,7 @@ impl Calculator {
         match question {
             Question::Stripes => {
                 let stripes = Stripes::read(file)?;
-                self.motions = Motions::of(&stripes);
+                self.motions = Motions::from_stripes(&stripes);
                 (self.analysis, self.peaks) = (None, None);
                 let about = stripes.about();
                 self.stripes = Some(stripes);
@@ -175,7 +175,7 @@ impl Calculator {
             }
             Question::AnalyseRecords => {
                 let stripes = self.stripes.as_ref().ok_or(NO_STRIPES)?;
-                let analysis = Analysis::of_records(stripes, &self.motions)?;
+                let analysis = Analysis::from_records(stripes, &self.motions)?;
                 Ok(self.begin(analysis))
             }
             Question::Peaks { text, measure, level, demand_m } => {
@@ -188,7 +188,7 @@ impl Calculator {
                 self.motions.are_those_of(stripes)?;
                 stripes.risk(&at)?;
                 let asked = (&text[..], block, safety_factor);
-                let analysis = Analysis::of_structure(stripes, &mut self.motions, asked, &at)?;
+                let analysis = Analysis::from_structure(stripes, &mut self.motions, asked, &at)?;
                 Ok(self.begin(analysis))
             }
             Question::Step => {

@@ -74,7 +74,7 @@ pub(crate) struct Motions {
 
 impl Motions {
     /// Those that `stripes` were made with, as far as they can be made.
-    pub(crate) fn of(stripes: &Stripes) -> Self {
+    pub(crate) fn from_stripes(stripes: &Stripes) -> Self {
         let of = &stripes.study.records;
         let which = match of.component {
             Component::H1 => Some(Horizontal::H1),

@@ -156,7 +156,7 @@ impl Stripes {
         for curve in curves {
             let measure: IntensityMeasure = curve.measure().parse().map_err(refused)?;
             let curve = curve.in_field_units(self.study.gravity_m_s2).map_err(refused)?;
-            let (curve, note) = self.of_the_records_definition(measure, curve)?;
+            let (curve, note) = self.by_the_records_definition(measure, curve)?;
             notes.extend(note);
             if own.iter().any(|own: &SiteCurve| own.measure == measure) {
                 return Err(format!("two curves of {} for one site: choose one", measure.label()));
@@ -180,7 +180,7 @@ impl Stripes {
     }
 
     /// A curve by the definition that the records are measured by, as the program takes it, and what is assumed for it.
-    fn of_the_records_definition(
+    fn by_the_records_definition(
         &self,
         measure: IntensityMeasure,
         curve: HazardCurve,

@@ -100,7 +100,7 @@ impl<'a> Inversion<'a> {
         let of = |rates: &Rates| {
             let mut per_year = 0.0;
             let exceeds = |&(_, record, level): &(f64, usize, usize)| {
-                per_year += rates.of_run(record, level);
+                per_year += rates.run_per_year(record, level);
                 per_year > target_per_year
             };
             self.demand.falling_runs().find(exceeds).map_or(0.0, |(edp_m, ..)| edp_m)

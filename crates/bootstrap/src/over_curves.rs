@@ -6,7 +6,7 @@ use uplift_risk::{PooledDemand, RiskError, StripeWeights, check_target};
 use crate::inferred::mean_of;
 use crate::inversion::Inversion;
 use crate::rates::Rates;
-use crate::skewed_mean::{SampleQuantiles, SkewedMean, StudentQuantiles, of_side};
+use crate::skewed_mean::{SampleQuantiles, SkewedMean, StudentQuantiles, by_side};
 use crate::weighted_quantile;
 
 /// Limits of the rate at which `threshold_m` is exceeded, 1/yr, by all records there could be and by one of several
@@ -130,7 +130,7 @@ impl Mixture {
                 return f64::from(u8::from(mean.mean <= value));
             }
             let deviate = mean.deviate(value, mean.units);
-            let freedom = of_side(mean.degrees_of_freedom(mean.units), deviate);
+            let freedom = by_side(mean.degrees_of_freedom(mean.units), deviate);
             self.students[freedom.min(self.students.len()) - 1].cdf(-deviate)
         };
         self.weights.iter().zip(means).map(|(weight, mean)| weight * of_curve(mean)).sum()
@@ -183,7 +183,7 @@ mod tests {
     use uplift_random::{Rng, stream};
 
     use super::*;
-    use crate::skewed_mean::tests::of;
+    use crate::skewed_mean::tests::mean_of;
 
     fn mixture(weights: &[f64], units: usize) -> Mixture {
         Mixture::new(weights.iter().copied(), &vec![vec![0]; units], 0.9)
@@ -192,7 +192,7 @@ mod tests {
     // Records that do not scatter: what is left is which curve holds.
     #[test]
     fn without_scatter_it_is_the_quantile_of_the_curves() {
-        let known = |rate: f64| of(&[rate; 4]);
+        let known = |rate: f64| mean_of(&[rate; 4]);
         let means = [known(1.0), known(2.0), known(3.0)];
         assert_eq!(mixture(&[0.25, 0.5, 0.25], 4).interval(&means), [1.0, 3.0]);
         // what 4 % of the weight is left for lies outside
@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn one_curve_given_twice_is_that_curve() {
-        let of_curve = of(&[0.1, 0.2, 0.25, 0.4, 2.0, 0.3]);
+        let of_curve = mean_of(&[0.1, 0.2, 0.25, 0.4, 2.0, 0.3]);
         let twice = mixture(&[0.3, 0.7], 6);
         let interval = of_curve.interval(&StudentQuantiles::new(0.9, 6));
         for (found, expected) in twice.interval(&[of_curve; 2]).into_iter().zip(interval) {
@@ -220,7 +220,7 @@ mod tests {
     fn curves_far_apart_share_the_tails() {
         let unit = [0.316_227_766_016_838; 5].into_iter().chain([-0.316_227_766_016_838; 5]);
         let values: Vec<f64> = unit.map(|of| of * 0.948_683_298_050_514).collect();
-        let at = |mean: f64| of(&values.iter().map(|value| mean + value).collect::<Vec<_>>());
+        let at = |mean: f64| mean_of(&values.iter().map(|value| mean + value).collect::<Vec<_>>());
         let [lower, upper] = mixture(&[1.0, 1.0], 10).interval(&[at(1.0), at(2.0)]);
         assert!((lower - (1.0 - 0.138_302_9)).abs() < 1e-6, "{lower}");
         assert!((upper - (2.0 + 0.138_302_9)).abs() < 1e-6, "{upper}");
@@ -229,8 +229,8 @@ mod tests {
     /// A target may be the truth just where the band of the rate holds it; below the band the means are too large.
     #[test]
     fn the_place_of_a_target_is_that_in_the_band() {
-        let known = |rate: f64| of(&[rate; 4]);
-        let scattered = |rate: f64| of(&[0.6, 0.9, 1.0, 1.1, 1.4].map(|share| rate * share));
+        let known = |rate: f64| mean_of(&[rate; 4]);
+        let scattered = |rate: f64| mean_of(&[0.6, 0.9, 1.0, 1.1, 1.4].map(|share| rate * share));
         for (weights, means) in [
             (vec![1.0, 1.0], vec![scattered(1.0), scattered(3.0)]),
             (vec![0.04, 0.92, 0.04], vec![scattered(0.2), scattered(1.0), scattered(9.0)]),
@@ -262,7 +262,7 @@ mod tests {
             let which = uniform();
             let truth = factors[usize::from(which > 0.25) + usize::from(which > 0.75)];
             let drawn: Vec<f64> = (0..UNITS).map(|_| -(1.0 - uniform()).ln()).collect();
-            let means = factors.map(|factor| of(&drawn.iter().map(|value| factor * value).collect::<Vec<_>>()));
+            let means = factors.map(|factor| mean_of(&drawn.iter().map(|value| factor * value).collect::<Vec<_>>()));
             let [lower, upper] = mixture.interval(&means);
             held += usize::from(lower <= truth && truth <= upper);
             beyond[0] += usize::from(truth < lower);

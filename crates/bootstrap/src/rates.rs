@@ -25,7 +25,7 @@ enum OfUnits {
 
 impl OfUnits {
     /// Of records that count alike, or as the demand says.
-    fn of_demand(demand: &PooledDemand, units: &[Vec<usize>]) -> Self {
+    fn from_demand(demand: &PooledDemand, units: &[Vec<usize>]) -> Self {
         let is_alike = units.windows(2).all(|two| two[0].len() == two[1].len());
         match demand.shares() {
             None if is_alike => Self::Alike(UnitRates::new(units)),
@@ -54,7 +54,7 @@ impl Rates {
         check_count("records of the units", units.iter().map(Vec::len).sum(), records)?;
         check_count("stripe weights", weights.stripes().level_count(), demand.level_count())?;
         let of_units = match weights {
-            SiteWeights::Alike(_) => OfUnits::of_demand(demand, units),
+            SiteWeights::Alike(_) => OfUnits::from_demand(demand, units),
             SiteWeights::Repaired(weights) => {
                 check_count("records with shares", weights.record_count(), records)?;
                 OfUnits::Shared(SharedRates::new(units, weights.shares()).with_effective_units())
@@ -64,7 +64,7 @@ impl Rates {
     }
 
     /// What a run adds to the rate, 1/yr.
-    pub(crate) fn of_run(&self, record: usize, level: usize) -> f64 {
+    pub(crate) fn run_per_year(&self, record: usize, level: usize) -> f64 {
         let share = match &self.of_units {
             OfUnits::Alike(rates) => rates.share(),
             OfUnits::Shared(rates) => rates.share(record, level),

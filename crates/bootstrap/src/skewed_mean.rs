@@ -125,7 +125,7 @@ impl SkewedMean {
         if deviate.abs() <= sample.least {
             return deviate / sample.least;
         }
-        deviate / (of_side(self.quantiles(&sample.of_freedom, sample.units), deviate) * sample.wider)
+        deviate / (by_side(self.quantiles(&sample.of_freedom, sample.units), deviate) * sample.wider)
     }
 
     /// The interval of the mean over all units there could be, at the level of `quantiles`; NaN of a single unit. The
@@ -154,7 +154,7 @@ fn adjusted_excess(n: f64, kurtosis: f64) -> f64 {
 }
 
 /// What holds for a value below the mean, where its deviate is positive, or else above it.
-pub(crate) fn of_side<T>([below, above]: [T; 2], deviate: f64) -> T {
+pub(crate) fn by_side<T>([below, above]: [T; 2], deviate: f64) -> T {
     if deviate < 0.0 { above } else { below }
 }
 
@@ -241,7 +241,7 @@ pub(crate) fn sums<const M: usize, const N: usize>(
 pub(crate) mod tests {
     use super::*;
 
-    pub(crate) fn of(values: &[f64]) -> SkewedMean {
+    pub(crate) fn mean_of(values: &[f64]) -> SkewedMean {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
         let moment = |power: i32| values.iter().map(|value| (value - mean).powi(power)).sum::<f64>() / n;
@@ -251,7 +251,7 @@ pub(crate) mod tests {
     #[test]
     fn without_skewness_it_is_students_interval() {
         // mean 3, s² = 2.5, no skewness: κ = 3 at least, 2 · 5/2 − 1 = 4 degrees of freedom; t = 2.131847
-        let found = of(&[1.0, 2.0, 3.0, 4.0, 5.0]);
+        let found = mean_of(&[1.0, 2.0, 3.0, 4.0, 5.0]);
         let half = 2.131_847 * (2.5_f64 / 5.0).sqrt();
         let [low, high] = found.interval(&StudentQuantiles::new(0.9, 4));
         assert!((low - (3.0 - half)).abs() < 1e-6 && (high - (3.0 + half)).abs() < 1e-6, "{low} {high}");
@@ -262,13 +262,13 @@ pub(crate) mod tests {
     // adjusted 3 + 3/2 · (5 (21/9 − 3) + 6) = 7. Of the value 2: T = −1, a = γ/√4 = 1, g = −1 + 1/3 − 1/27 + 1/6.
     #[test]
     fn a_skewed_mean_by_hand() {
-        let found = of(&[0.0, 0.0, 0.0, 4.0]);
+        let found = mean_of(&[0.0, 0.0, 0.0, 4.0]);
         assert!((found.skewness - 2.0).abs() < 1e-12 && (found.deviation - 2.0).abs() < 1e-12, "{found:?}");
         assert!((found.deviate(2.0, 4) - (-1.0 + 1.0 / 3.0 - 1.0 / 27.0 + 1.0 / 6.0)).abs() < 1e-12);
         // 2 · 4/8 − 1 = 0, 2 · 25/8 − 1 = 5.25
         assert_eq!((found.degrees_of_freedom(4), found.degrees_of_freedom(25)), ([3, 1], [24, 5]));
         // κ = 5/2 is adjusted to 3 + 9/56 · (11 (5/2 − 3) + 6) = 3 + 9/112, and of that 2 · 10/2.08 − 1 = 8.61
-        let even = of(&[-1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0]);
+        let even = mean_of(&[-1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0]);
         assert_eq!(even.degrees_of_freedom(10), [9, 8]);
         // for five effective units it is 3 + 4/6 · (6 (5/2 − 3) + 6) = 5, and 2 · 10/4 − 1 = 4; three show none
         let carried = |effective_units: f64| SkewedMean { effective_units, ..even }.degrees_of_freedom(10);
@@ -279,7 +279,7 @@ pub(crate) mod tests {
     // in a sample of eight 6.90, five
     #[test]
     fn units_that_carry_more_leave_fewer_degrees_of_freedom() {
-        let alike = of(&[1.0, 2.0, 3.0, 4.0]);
+        let alike = mean_of(&[1.0, 2.0, 3.0, 4.0]);
         let carried_by =
             |each: [f64; 4]| alike.carried_by([2, 4].map(|power| each.iter().map(|own| own.powi(power)).sum()));
         assert_eq!(carried_by([0.3; 4]).degrees_of_freedom(4), [3, 3]);
@@ -293,7 +293,7 @@ pub(crate) mod tests {
 
     #[test]
     fn the_interval_is_where_the_deviate_is_within_the_quantiles() {
-        let found = of(&[0.1, 0.2, 0.25, 0.4, 2.0, 0.3]);
+        let found = mean_of(&[0.1, 0.2, 0.25, 0.4, 2.0, 0.3]);
         let quantiles = StudentQuantiles::new(0.9, 5);
         let [low, high] = found.interval(&quantiles);
         let sample = SampleQuantiles::new(6, 1.0, &quantiles);
@@ -306,8 +306,8 @@ pub(crate) mod tests {
     #[test]
     fn units_that_are_alike_or_alone() {
         let quantiles = StudentQuantiles::new(0.9, 9);
-        assert_eq!(of(&[0.3; 4]).interval(&quantiles).map(|limit| (limit - 0.3).abs() < 1e-12), [true; 2]);
-        assert!(of(&[0.3]).interval(&quantiles)[0].is_nan());
-        assert_eq!(of(&[0.0; 4]).deviate(0.1, 4), f64::NEG_INFINITY);
+        assert_eq!(mean_of(&[0.3; 4]).interval(&quantiles).map(|limit| (limit - 0.3).abs() < 1e-12), [true; 2]);
+        assert!(mean_of(&[0.3]).interval(&quantiles)[0].is_nan());
+        assert_eq!(mean_of(&[0.0; 4]).deviate(0.1, 4), f64::NEG_INFINITY);
     }
 }

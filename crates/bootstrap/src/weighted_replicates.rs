@@ -78,9 +78,9 @@ impl Middle {
         let ordinate_m = RiskCurve::new(demand, stripes)?.exact_ordinate(target)?.displacement_m;
         let per_year = stripes.per_year();
         let exceeding = demand.falling_runs().take_while(|(edp_m, ..)| *edp_m > ordinate_m);
-        let of_run =
+        let run_per_year =
             |(_, record, level): (f64, usize, usize)| (level * demand.record_count() + record, per_year[level]);
-        Ok(Self { runs: exceeding.map(of_run).collect() })
+        Ok(Self { runs: exceeding.map(run_per_year).collect() })
     }
 
     /// How often a sample exceeds that ordinate, 1/yr.

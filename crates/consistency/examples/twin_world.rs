@@ -40,7 +40,7 @@ struct Scaled {
 }
 
 impl Scaled {
-    fn of(
+    fn new(
         pairs: &[RecordPair],
         own: IntensityMeasure,
         other: IntensityMeasure,
@@ -117,8 +117,8 @@ pub(crate) fn compare(pairs: &[RecordPair]) -> Result<Vec<Row>, Box<dyn Error>> 
     let (pgv, pga) = (IntensityMeasure::Pgv, IntensityMeasure::Pga);
     let rising =
         |first: f64, ratio: f64, count: i32| (0..count).map(move |i| first * ratio.powi(i)).collect::<Vec<f64>>();
-    let by_pgv = Scaled::of(pairs, pgv, pga, rising(0.1, 1.1, 80))?;
-    let by_pga = Scaled::of(pairs, pga, pgv, rising(0.001, 1.1, 80))?;
+    let by_pgv = Scaled::new(pairs, pgv, pga, rising(0.1, 1.1, 80))?;
+    let by_pga = Scaled::new(pairs, pga, pgv, rising(0.001, 1.1, 80))?;
     // strong seismicity, bending down as curves do
     let levels_cm_s = rising(0.05, 1.2, 50);
     let rate = |level: &f64| 0.5 * (1.0 + level / 2.0).powf(-1.1) * (1.0 + level / 60.0).powf(-1.9);

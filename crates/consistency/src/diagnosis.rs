@@ -76,9 +76,9 @@ impl ScaledAnalysis<'_> {
             own = self.own_shares();
             &own
         };
-        let of_level = |level: usize| &shares[level * self.set().len()..][..self.set().len()];
+        let at_level = |level: usize| &shares[level * self.set().len()..][..self.set().len()];
         let stripes: Vec<StripeStatistics> = (0..self.levels().len())
-            .map(|level| StripeStatistics::from_shares(self.set(), level, of_level(level)))
+            .map(|level| StripeStatistics::from_shares(self.set(), level, at_level(level)))
             .collect();
         let targets = self
             .targets()
@@ -86,7 +86,7 @@ impl ScaledAnalysis<'_> {
             .map(|target| {
                 let implied_level = implied.exact_ordinate(target.rate_per_year)?.displacement_m;
                 let often = |level: f64| implied.mean_annual_frequency(level).map(|rate| rate / target.rate_per_year);
-                let (shares, reached) = (of_level(target.stripe), (target.level, target.stripe));
+                let (shares, reached) = (at_level(target.stripe), (target.level, target.stripe));
                 Ok(TargetDiagnosis {
                     rate_per_year: target.rate_per_year,
                     site_level: target.site_level,

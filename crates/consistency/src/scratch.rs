@@ -50,7 +50,7 @@ impl Scratch {
     }
 
     /// The drawn records of a stripe, and room for a value of each.
-    pub(crate) fn of_level(&mut self, set: &RecordSet, level: usize) -> (&Drawn, &mut Vec<f64>) {
+    pub(crate) fn at_level(&mut self, set: &RecordSet, level: usize) -> (&Drawn, &mut Vec<f64>) {
         (&self.drawn[set.order_of(level)], &mut self.values)
     }
 }

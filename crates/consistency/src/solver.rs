@@ -320,7 +320,7 @@ impl<'a> Solver<'a> {
         shares.fill(0.0);
         for (level, row) in shares.chunks_exact_mut(records).enumerate() {
             self.exponentials(level, exponents, scratch);
-            let (drawn, values) = scratch.of_level(self.analysis.set(), level);
+            let (drawn, values) = scratch.at_level(self.analysis.set(), level);
             let total: f64 = values.iter().sum();
             for (&(_, record, _), value) in drawn.records.iter().zip(values) {
                 row[record] = *value / total;
@@ -332,7 +332,7 @@ impl<'a> Solver<'a> {
     /// `m_j exp(g(ln y_ij))` of the drawn records at a stripe, over the largest exponential.
     fn exponentials(&self, level: usize, exponents: &Exponents, scratch: &mut Scratch) {
         let basis = &self.basis[level * self.analysis.set().len()..];
-        let (drawn, values) = scratch.of_level(self.analysis.set(), level);
+        let (drawn, values) = scratch.at_level(self.analysis.set(), level);
         values.clear();
         let mut largest = f64::NEG_INFINITY;
         for &(rank, ..) in &drawn.records {
@@ -353,7 +353,7 @@ impl<'a> Solver<'a> {
         let mut implied = [0.0; FIT_RATES];
         let mut slopes = [[0.0; KNOTS]; FIT_RATES];
         for (level, (&weight, above)) in self.stripe_weights.iter().zip(&self.above).enumerate() {
-            let (drawn, _) = scratch.of_level(self.analysis.set(), level);
+            let (drawn, _) = scratch.at_level(self.analysis.set(), level);
             let (before, all) = (|n: usize| drawn.before[above[n]], drawn.records.len());
             if care == Care::Least && (0..FIT_RATES).all(|n| before(n) == 0 || before(n) == all) {
                 // all records of the stripe are on the same side of each rate, however they are weighed
@@ -364,7 +364,7 @@ impl<'a> Solver<'a> {
             }
             self.exponentials(level, exponents, scratch);
             let basis = &self.basis[level * records..];
-            let (drawn, values) = scratch.of_level(self.analysis.set(), level);
+            let (drawn, values) = scratch.at_level(self.analysis.set(), level);
             // Σ m e and Σ m e B over the first ranks, kept where each level ends
             let (mut sum, mut moments) = (0.0, [0.0; KNOTS]);
             let (mut sums, mut all_moments) = ([0.0; FIT_RATES], [[0.0; KNOTS]; FIT_RATES]);

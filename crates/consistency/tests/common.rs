@@ -68,7 +68,7 @@ pub(crate) struct Site {
 
 impl Site {
     /// A site of the project.
-    pub(crate) fn of_project(name: &str) -> Self {
+    pub(crate) fn from_project(name: &str) -> Self {
         Self::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../hazard").join(name.to_lowercase()))
     }
 

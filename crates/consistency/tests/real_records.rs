@@ -270,6 +270,6 @@ fn a_set_out_of_reach_is_reported() {
 fn the_curves_of_the_original_zones() {
     let Some(pairs) = pairs() else { return };
     for expected in original_zones() {
-        compare_site(pairs, &Site::of_project(expected.site), &expected);
+        compare_site(pairs, &Site::from_project(expected.site), &expected);
     }
 }

@@ -70,10 +70,10 @@ pub fn complete(
             let scales: Vec<f64> = missing.iter().map(|scale| of_motion.scales[*scale]).collect();
             let grounds: Vec<Ground<'_>> = plan.grounds_of(motion).collect();
             // of every azimuth the peak at every scale
-            let peaks: Vec<Vec<Peak>> = match (shaken, ground_motions.of(motion)) {
-                (System::Oscillator(oscillator), Some(of_azimuths)) => {
+            let peaks: Vec<Vec<Peak>> = match (shaken, ground_motions.shaking(motion)) {
+                (System::Oscillator(oscillator), Some(percentile_peak)) => {
                     let from = |ground| swept(oscillator, ground, plan.with_free_peak(), &scales);
-                    of_azimuths.iter().map(from).collect()
+                    percentile_peak.iter().map(from).collect()
                 }
                 (other, _) => {
                     let run = |ground: &Ground<'_>, scales: &[f64]| {
@@ -97,7 +97,7 @@ pub fn complete(
                     check_number(shaken, (of_motion.id, of_motion.scales[*scale]), peak)?;
                 }
                 let peak = match plan.other_azimuths_of(motion) {
-                    Some((_, percentile)) => of_azimuths(from_all, percentile),
+                    Some((_, percentile)) => percentile_peak(from_all, percentile),
                     None => from_all[0],
                 };
                 displacement_m[*scale] = peak.displacement_m;
@@ -123,7 +123,7 @@ fn scales_together(analyses: usize) -> usize {
 
 /// The smallest of `peaks`, one an azimuth, that `percentile` per cent of them do not exceed; what overturned is the
 /// largest.
-fn of_azimuths(mut peaks: Vec<Peak>, percentile: u8) -> Peak {
+fn percentile_peak(mut peaks: Vec<Peak>, percentile: u8) -> Peak {
     peaks.sort_by(|one, other| one.displacement_m.total_cmp(&other.displacement_m));
     let at_most = (peaks.len() * usize::from(percentile)).div_ceil(100);
     peaks[at_most.saturating_sub(1)]
@@ -146,7 +146,7 @@ struct GroundMotions<'a> {
 }
 
 impl<'a> GroundMotions<'a> {
-    fn of(&self, motion: usize) -> Option<&Vec<GroundMotion<'a>>> {
+    fn shaking(&self, motion: usize) -> Option<&Vec<GroundMotion<'a>>> {
         self.ready[self.place[motion]].as_ref()
     }
 }
@@ -297,7 +297,7 @@ mod tests {
     #[test]
     fn a_percentile_is_a_peak_that_was_computed_and_what_overturns_is_the_largest() {
         let peaks = |values: &[f64]| values.iter().map(|&displacement_m| Peak { displacement_m, impacts: 0 }).collect();
-        let of = |values: &[f64], percentile| of_azimuths(peaks(values), percentile).displacement_m;
+        let of = |values: &[f64], percentile| percentile_peak(peaks(values), percentile).displacement_m;
         let four = [0.3, f64::INFINITY, 0.1, 0.2];
         assert_eq!(
             [0, 25, 26, 50, 75, 76, 100].map(|percentile| of(&four, percentile)),

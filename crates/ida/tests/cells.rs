@@ -43,7 +43,7 @@ impl Case {
     }
 
     /// Oscillators and blocks in one plan.
-    fn of_both_kinds() -> Self {
+    fn with_blocks() -> Self {
         let mut case = Self::new();
         for (place, slenderness) in [(1, 0.2), (3, 0.1)] {
             case.systems[place] = System::Block(RockingBlock::new(1.0, slenderness).unwrap());
@@ -66,7 +66,7 @@ fn kept(row: &AnalysisRow<'_>) -> Kept {
 
 #[test]
 fn known_cells_are_not_computed_again() {
-    for case in [Case::new(), Case::of_both_kinds()] {
+    for case in [Case::new(), Case::with_blocks()] {
         let plan = case.plan();
         let whole = analyse(&plan, &Unwatched).unwrap();
         proptest!(ProptestConfig::with_cases(24), |(known in prop::collection::vec(any::<bool>(), 60))| {
@@ -95,7 +95,7 @@ fn known_cells_are_not_computed_again() {
 /// Any division into shards, each with any rows of its own known from before, on any number of threads.
 #[test]
 fn any_division_and_any_known_rows_give_the_same_bits() {
-    let case = Case::of_both_kinds();
+    let case = Case::with_blocks();
     let plan = case.plan();
     let whole = analyse(&plan, &Unwatched).unwrap();
     assert!(whole.displacement_m().iter().any(|value| value.is_infinite()));
@@ -144,7 +144,7 @@ fn known_cells_keep_their_values() {
 // What has no run is not computed, and does not touch what has: not one after the other, not in shards, not resumed.
 #[test]
 fn a_motion_is_run_where_it_has_a_factor() {
-    let case = Case::of_both_kinds();
+    let case = Case::with_blocks();
     let plan = case.plan();
     let whole = analyse(&plan, &Unwatched).unwrap();
     let mut motions = plan.motions().to_vec();
@@ -186,7 +186,7 @@ fn a_motion_is_run_where_it_has_a_factor() {
 // Systems of its own under every motion: each peak is that of the same motion and system among all of them.
 #[test]
 fn every_motion_shakes_its_own_systems() {
-    let case = Case::of_both_kinds();
+    let case = Case::with_blocks();
     let plan = case.plan();
     let whole = analyse(&plan, &Unwatched).unwrap();
     let of_all = plan.axes();
@@ -243,7 +243,7 @@ fn systems_of_one_identity_are_the_same() {
 
 #[test]
 fn the_time_of_any_plan_can_be_estimated() {
-    let case = Case::of_both_kinds();
+    let case = Case::with_blocks();
     let found = estimate(&case.plan(), std::time::Duration::from_secs(600));
     assert!(found.rows_timed == 12 && found.seconds_one_thread > 0.0, "{found:?}");
     // without a budget a few of the expensive ones will do

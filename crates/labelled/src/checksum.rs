@@ -37,7 +37,7 @@ impl Hashed for String {
 }
 
 /// SHA-256 of values as little-endian bytes, of texts each with a null behind it, as hexadecimal digits.
-pub(super) fn of_values<T: Hashed>(values: &[T]) -> String {
+pub(super) fn sha256<T: Hashed>(values: &[T]) -> String {
     let mut hash = Sha256::new();
     for value in values {
         value.enter(&mut hash);

@@ -112,7 +112,7 @@ impl Sealed {
         let Some(lines) = Lines::read(&mut file)? else { return Ok(Opened::Missing) };
         let sound = match &lines.index {
             Some(index) => index.structure_is_sound(&mut file, lines.content)?,
-            None => of_bytes(&mut file, &[(0, lines.covered)])? == lines.whole,
+            None => sha256_of_extents(&mut file, &[(0, lines.covered)])? == lines.whole,
         };
         if !sound {
             return Ok(Opened::Broken);
@@ -141,7 +141,7 @@ impl Sealed {
         let Some(part) = index.arrays.get(path) else { return Ok(!chunks) };
         let mut looked_at = self.looked_at();
         if !looked_at.sound.contains(path) {
-            if of_bytes(&mut looked_at.file, &part.extents)? != part.sha256 {
+            if sha256_of_extents(&mut looked_at.file, &part.extents)? != part.sha256 {
                 return Ok(false);
             }
             looked_at.sound.insert(path.to_owned());
@@ -157,13 +157,13 @@ impl Sealed {
 /// Looks at every byte of `file`: the seal, and which parts are not as they were written, as far as the file tells.
 pub(super) fn examine(file: &mut File) -> io::Result<(Seal, Vec<String>)> {
     let Some(lines) = Lines::read(file)? else { return Ok((Seal::Missing, Vec::new())) };
-    if of_bytes(file, &[(0, lines.covered)])? == lines.whole {
+    if sha256_of_extents(file, &[(0, lines.covered)])? == lines.whole {
         return Ok((Seal::Whole, Vec::new()));
     }
     let mut damaged = Vec::new();
     if let Some(index) = &lines.index {
         for (path, part) in &index.arrays {
-            if of_bytes(file, &part.extents)? != part.sha256 {
+            if sha256_of_extents(file, &part.extents)? != part.sha256 {
                 damaged.push(format!("{path}: the values have changed"));
             }
         }
@@ -180,12 +180,12 @@ pub(super) fn seal(file: &mut File, arrays: BTreeMap<String, Vec<Extent>>) -> io
     let mut parts = BTreeMap::new();
     for (path, extents) in arrays {
         let extents = joined(extents);
-        parts.insert(path, Part { sha256: of_bytes(file, &extents)?, extents });
+        parts.insert(path, Part { sha256: sha256_of_extents(file, &extents)?, extents });
     }
     let mut index = Index { structure: String::new(), arrays: parts };
     let structure =
         index.structure(content).ok_or_else(|| io::Error::other("two arrays lie in the same bytes of the file"))?;
-    index.structure = of_bytes(file, &structure)?;
+    index.structure = sha256_of_extents(file, &structure)?;
 
     let text = [INDEX, serde_json::to_string(&index)?.as_bytes()].concat();
     let length = format!("{:0LENGTH_DIGITS$}", text.len());
@@ -195,7 +195,7 @@ pub(super) fn seal(file: &mut File, arrays: BTreeMap<String, Vec<Extent>>) -> io
     file.write_all(&text)?;
     file.write_all(&line.concat())?;
     let covered = file.stream_position()?;
-    let whole = of_bytes(file, &[(0, covered)])?;
+    let whole = sha256_of_extents(file, &[(0, covered)])?;
     file.seek(SeekFrom::Start(covered))?;
     file.write_all(&[BEFORE, whole.as_bytes(), b"\n"].concat())
 }
@@ -250,7 +250,7 @@ impl Index {
 
     fn structure_is_sound(&self, file: &mut File, content: u64) -> io::Result<bool> {
         let Some(structure) = self.structure(content) else { return Ok(false) };
-        Ok(of_bytes(file, &structure)? == self.structure)
+        Ok(sha256_of_extents(file, &structure)? == self.structure)
     }
 }
 
@@ -276,7 +276,7 @@ fn bytes_at(file: &mut File, start: u64, length: usize) -> io::Result<Vec<u8>> {
 
 /// SHA-256 of the bytes in `extents`, one after the other, as hexadecimal digits. What is beyond the end of the file
 /// does not enter.
-fn of_bytes(file: &mut File, extents: &[Extent]) -> io::Result<String> {
+fn sha256_of_extents(file: &mut File, extents: &[Extent]) -> io::Result<String> {
     let mut hash = Sha256::new();
     let mut buffer = vec![0; BUFFER];
     for &(start, length) in extents {

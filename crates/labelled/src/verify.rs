@@ -8,7 +8,7 @@ use std::{fs, thread};
 use uplift_atomic_file::{io_error, require_file};
 
 use super::AXES;
-use super::checksum::{CHECKSUM, of_values};
+use super::checksum::{CHECKSUM, sha256};
 use super::copy::Kind;
 use super::error::LabelledError;
 use super::reader::{LabelledReader, unsealed};
@@ -111,13 +111,13 @@ impl LabelledReader {
     pub(super) fn checksum(&self, path: &str) -> Result<String, LabelledError> {
         let dataset = self.dataset(path)?;
         Ok(match self.kind(path)? {
-            Kind::Text => of_values(&self.texts(&dataset, path)?),
-            Kind::F64 => of_values::<f64>(&self.values(&dataset, path)?),
-            Kind::F32 => of_values::<f32>(&self.values(&dataset, path)?),
-            Kind::U32 => of_values::<u32>(&self.values(&dataset, path)?),
-            Kind::U8 => of_values::<u8>(&self.values(&dataset, path)?),
-            Kind::I64 => of_values::<i64>(&self.values(&dataset, path)?),
-            Kind::U64 => of_values::<u64>(&self.values(&dataset, path)?),
+            Kind::Text => sha256(&self.texts(&dataset, path)?),
+            Kind::F64 => sha256::<f64>(&self.values(&dataset, path)?),
+            Kind::F32 => sha256::<f32>(&self.values(&dataset, path)?),
+            Kind::U32 => sha256::<u32>(&self.values(&dataset, path)?),
+            Kind::U8 => sha256::<u8>(&self.values(&dataset, path)?),
+            Kind::I64 => sha256::<i64>(&self.values(&dataset, path)?),
+            Kind::U64 => sha256::<u64>(&self.values(&dataset, path)?),
         })
     }
 

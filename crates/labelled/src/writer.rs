@@ -8,7 +8,7 @@ use hdf5::{Dataset, File, H5Type, Location, LocationType, ObjectReference1};
 use uplift_atomic_file::{AtomicFile, io_error};
 
 use super::attribute::{self, AttributeValue};
-use super::checksum::{CHECKSUM, Hashed, of_values};
+use super::checksum::{CHECKSUM, Hashed, sha256};
 use super::dimension_scale::{self, LONGEST_NAME, RESERVED};
 use super::error::{LabelledError, reason};
 use super::native::ScaleUse;
@@ -290,7 +290,7 @@ impl LabelledWriter {
         let dataset = self.create_dataset::<T>(path, shape, unit, long_name)?;
         let write = || {
             dataset.write_raw::<_, T>(values)?;
-            attribute::write(&dataset, CHECKSUM, &of_values(values).into())?;
+            attribute::write(&dataset, CHECKSUM, &sha256(values).into())?;
             // Closing writes what the library has kept back, and tells nobody when that fails: flush, which does tell.
             dataset.flush()
         };

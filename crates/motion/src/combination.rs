@@ -54,7 +54,7 @@ impl Combination {
     }
 
     /// How the values of all directions make one, for the definitions that look at all directions.
-    pub(crate) fn of_directions(self) -> Option<OfDirections> {
+    pub(crate) fn over_directions(self) -> Option<OfDirections> {
         match self {
             Self::GeometricMean => None,
             Self::RotD50 => Some(median),

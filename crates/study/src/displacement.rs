@@ -128,6 +128,6 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<DisplacementS
         output: output?,
         warnings: Vec::new(),
     };
-    study.warnings = warnings::of(&study);
+    study.warnings = warnings::from_study(&study);
     Some(study)
 }

@@ -289,7 +289,7 @@ pub(crate) fn read(mut root: Section<'_>, paths: &Paths) -> Option<UniformRiskSt
         output: output?,
         warnings: Vec::new(),
     };
-    study.warnings = warnings::of(&study);
+    study.warnings = warnings::from_study(&study);
     study.warnings.extend(doubts);
     Some(study)
 }

@@ -53,13 +53,13 @@ pub fn sobol_indices(
     }
     let Ok(count) = u32::try_from(rows) else { return Ok(None) };
     let all: Vec<usize> = (0..rows).collect();
-    let Some(values) = of_rows(a, b, mixed, &all) else { return Ok(None) };
+    let Some(values) = indices_from_rows(a, b, mixed, &all) else { return Ok(None) };
     let (mut kept, mut sums) = (0.0, vec![[[0.0; 2]; 2]; mixed.len()]);
     for replicate in 0..replicates {
         let mut stream = Stream::new(ROWS, seed, replicate as u64);
         let drawn: Vec<usize> = (0..rows).map(|_| stream.below(count)).collect();
         // rows that are all alike have no shares
-        let Some(of_replicate) = of_rows(a, b, mixed, &drawn) else { continue };
+        let Some(of_replicate) = indices_from_rows(a, b, mixed, &drawn) else { continue };
         kept += 1.0;
         for ((sums, drawn), own) in sums.iter_mut().zip(of_replicate).zip(&values) {
             for which in 0..2 {
@@ -81,7 +81,7 @@ pub fn sobol_indices(
 }
 
 /// First order and total, `[factor]`, from the rows `drawn`; none where the results do not vary, or are not finite.
-fn of_rows(a: &[f64], b: &[f64], mixed: &[Vec<f64>], drawn: &[usize]) -> Option<Vec<[f64; 2]>> {
+fn indices_from_rows(a: &[f64], b: &[f64], mixed: &[Vec<f64>], drawn: &[usize]) -> Option<Vec<[f64; 2]>> {
     let count = drawn.len() as f64;
     let mean = drawn.iter().map(|&row| a[row] + b[row]).sum::<f64>() / (2.0 * count);
     let square = |value: f64| (value - mean) * (value - mean);

@@ -159,7 +159,7 @@ fn number(value: Option<f64>, decimals: usize) -> String {
 }
 
 /// The values of the probabilities, parted by strokes.
-fn of_targets(row: &ConsistencyRow, value: impl Fn(&uplift::consistency::TargetRow) -> String) -> String {
+fn joined(row: &ConsistencyRow, value: impl Fn(&uplift::consistency::TargetRow) -> String) -> String {
     row.targets.iter().map(value).collect::<Vec<_>>().join(" / ")
 }
 
@@ -186,8 +186,8 @@ fn print_levels(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
         .left("site", |row| &row.site)
         .right("scaled to", |row| row.scaled_to)
         .right("shows", |row| row.shows)
-        .right("records over site", |row| of_targets(row, |target| number(target.ratio, 2)))
-        .right("times as often", |row| of_targets(row, |target| number(target.times_as_often, 1)))
+        .right("records over site", |row| joined(row, |target| number(target.ratio, 2)))
+        .right("times as often", |row| joined(row, |target| number(target.times_as_often, 1)))
         .right("bias", |row| number(row.bias, 2))
         .right("max", |row| number(row.max, 2))
         .when(repaired, |table| table.right("effective, least", least))

@@ -70,7 +70,7 @@ struct Answer<'a> {
 
 impl Answer<'_> {
     fn entries(&self, entries: &mut Vec<Entry>) -> Result<(), HazardError> {
-        let Some(name) = self.of_block("imt").and_then(|imt| plain(imt).as_str()) else {
+        let Some(name) = self.in_block("imt").and_then(|imt| plain(imt).as_str()) else {
             return Err(self.fail("a block", "it does not say its measure (imt)"));
         };
         let here = excerpt(name);
@@ -93,7 +93,7 @@ impl Answer<'_> {
                 let reason = format!("{} rates for {} levels; save the answer again", rates.len(), levels.len());
                 return Err(self.fail(&here, &reason));
             }
-            let known = |key: &str| data.get(key).or(self.of_surroundings(key)).map(plain).and_then(finite);
+            let known = |key: &str| data.get(key).or(self.in_surroundings(key)).map(plain).and_then(finite);
             let (Some(longitude), Some(latitude)) = (known("longitude"), known("latitude")) else {
                 return Err(self.fail(&here, "no longitude and latitude; save the whole answer of the service"));
             };
@@ -139,7 +139,7 @@ impl Answer<'_> {
 
     /// Refuses levels and rates that name another unit than the ones known; the label of PGV names g regardless.
     fn check_labels(&self, here: &str, unit: &str) -> Result<(), HazardError> {
-        let label = |key: &str| Some(beginning(self.of_surroundings(key)?.as_str()?, LONGEST_LABEL));
+        let label = |key: &str| Some(beginning(self.in_surroundings(key)?.as_str()?, LONGEST_LABEL));
         let contradiction = |what, found: &str, declared: &str| {
             let place = Place::Level(format!("{}, {here}", self.file));
             Err(HazardError::Contradiction { place, what, found: excerpt(found), declared: declared.to_owned() })
@@ -153,12 +153,12 @@ impl Answer<'_> {
         }
     }
 
-    fn of_block(&self, key: &str) -> Option<&Value> {
+    fn in_block(&self, key: &str) -> Option<&Value> {
         self.block.get(key).or(self.block["metadata"].get(key))
     }
 
-    fn of_surroundings(&self, key: &str) -> Option<&Value> {
-        self.of_block(key).or(self.response["metadata"].get(key)).or(self.root["request"].get(key))
+    fn in_surroundings(&self, key: &str) -> Option<&Value> {
+        self.in_block(key).or(self.response["metadata"].get(key)).or(self.root["request"].get(key))
     }
 
     fn fail(&self, here: &str, reason: &str) -> HazardError {

@@ -42,7 +42,7 @@ impl IntensityMeasure {
         pair: &RecordPair,
         gravity_m_s2: f64,
     ) -> Result<f64, MotionError> {
-        let Some(chosen) = combination.of_directions() else { return Ok(self.of_pair(pair, gravity_m_s2)) };
+        let Some(chosen) = combination.over_directions() else { return Ok(self.of_pair(pair, gravity_m_s2)) };
         let ordinate_m_s2 = |period_s| rotated_spectral_accelerations(pair, period_s).map(chosen);
         Ok(match self {
             Self::Pgv => combination.peaks_of(pair)?.pgv_cm_s(),

@@ -18,7 +18,7 @@ pub fn library_figures(report: &LibraryReport) -> Vec<Figure> {
     let mut figures = Vec::new();
     for kind in ["block", "oscillator"] {
         for measure in Normalised::ALL {
-            let shown = |system: &&SystemReport| system.kind == kind && of(system, measure).is_some();
+            let shown = |system: &&SystemReport| system.kind == kind && measure_report(system, measure).is_some();
             let systems: Vec<&SystemReport> = report.systems.iter().filter(shown).collect();
             if !systems.is_empty() {
                 figures.push(figure(report, &systems, measure));
@@ -28,7 +28,7 @@ pub fn library_figures(report: &LibraryReport) -> Vec<Figure> {
     figures
 }
 
-fn of(system: &SystemReport, measure: Normalised) -> Option<&MeasureReport> {
+fn measure_report(system: &SystemReport, measure: Normalised) -> Option<&MeasureReport> {
     system.measures.iter().find(|of| of.measure == measure)
 }
 
@@ -107,11 +107,11 @@ fn panel((title, systems): &(String, Vec<&SystemReport>), measure: Normalised, e
 }
 
 fn points(system: &SystemReport, measure: Normalised, value: impl Fn(&LevelReport) -> f64) -> Vec<(f64, f64)> {
-    of(system, measure).into_iter().flat_map(|of| &of.levels).map(|own| (own.level, value(own))).collect()
+    measure_report(system, measure).into_iter().flat_map(|of| &of.levels).map(|own| (own.level, value(own))).collect()
 }
 
 fn fit<'a>(system: &'a SystemReport, measure: Normalised, event: &str) -> Option<&'a FitReport> {
-    of(system, measure)?.fits.iter().find(|fit| fit.of == event)
+    measure_report(system, measure)?.fits.iter().find(|fit| fit.of == event)
 }
 
 /// Dots, and the line of the fit.

@@ -94,7 +94,7 @@ fn first(source: &FigureSource, rows: &[Row]) -> Option<TitledTable> {
         spectrum_words(&name, row.repaired)
     };
     let table = Table::of(rows.iter().copied()).left(if is_one { "probability" } else { "site" }, name);
-    Some(of_strengths(source, ("summary", title, &note), table))
+    Some(over_strengths(source, ("summary", title, &note), table))
 }
 
 /// The displacements by every measure and probability, a row a spectrum.
@@ -120,7 +120,7 @@ fn all(source: &FigureSource, rows: &[Row]) -> TitledTable {
 }
 
 /// A table of displacements: a column for each strength shown.
-fn of_strengths(source: &FigureSource, (id, title, note): (&str, String, &str), table: TableOf<&Row>) -> TitledTable {
+fn over_strengths(source: &FigureSource, (id, title, note): (&str, String, &str), table: TableOf<&Row>) -> TitledTable {
     let strengths = shown_strengths(source).into_iter().enumerate();
     let table = table.each(strengths, |table, (place, eta)| {
         table.right(strength(&source.spectra, eta), |row| row.cells[place].clone())

@@ -9,7 +9,7 @@ use super::{DisplacementStudy, Structures};
 use crate::warning::Warning;
 
 /// The warnings of a resolved study; they depend on nothing but its contents.
-pub(super) fn of(study: &DisplacementStudy) -> Vec<Warning> {
+pub(super) fn from_study(study: &DisplacementStudy) -> Vec<Warning> {
     let mut numbers = vec![("gravity_m_s2", study.gravity_m_s2, USUAL_GRAVITY)];
     match &study.structures {
         Structures::Oscillators(family) => {

@@ -2,7 +2,7 @@
 
 use uplift_motion::IntensityMeasure;
 
-use super::suggestion::{MEASURES, did_you_mean, measure_by_its_key, of_other_programs, other_unit};
+use super::suggestion::{MEASURES, did_you_mean, from_other_programs, measure_by_its_key, other_unit};
 use super::{Field, Finding, Findings, Origin, Table, optional};
 use crate::error::MOST_LISTED;
 use crate::keys::{Form, Key, Readable};
@@ -128,13 +128,14 @@ impl<'a> Section<'a> {
             let measures = self.path == MEASURES || self.known.contains(&IntensityMeasure::Pgv.key());
             let help = || {
                 let meant = || did_you_mean_key(&entry.key, &self.known, measures, self.path.is_empty());
-                of_other_programs(&self.path, &entry.key, &self.known).map(str::to_owned).or_else(meant).unwrap_or_else(
-                    || {
+                from_other_programs(&self.path, &entry.key, &self.known)
+                    .map(str::to_owned)
+                    .or_else(meant)
+                    .unwrap_or_else(|| {
                         let place =
                             if self.path.is_empty() { "the file".to_owned() } else { format!("`{}`", self.path) };
                         format!("{place} has {}", self.known.join(", "))
-                    },
-                )
+                    })
             };
             self.findings.add(Finding {
                 key: self.join(&entry.key),

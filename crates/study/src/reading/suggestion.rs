@@ -27,7 +27,7 @@ pub fn did_you_mean(word: &str, known: &[&str]) -> Option<String> {
 }
 
 /// What to do about keys of other programs that no key here stands for: `path` and `known` tell the section.
-pub(crate) fn of_other_programs(path: &str, key: &str, known: &[&str]) -> Option<&'static str> {
+pub(crate) fn from_other_programs(path: &str, key: &str, known: &[&str]) -> Option<&'static str> {
     let key = key.to_lowercase();
     let is_modulus = key.contains("modulus") || key.starts_with("young");
     match &*key {

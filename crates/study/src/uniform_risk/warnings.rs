@@ -11,7 +11,7 @@ use super::UniformRiskStudy;
 use crate::warning::Warning;
 
 /// The warnings of a resolved study; they depend on nothing but its contents.
-pub(super) fn of(study: &UniformRiskStudy) -> Vec<Warning> {
+pub(super) fn from_study(study: &UniformRiskStudy) -> Vec<Warning> {
     let mut warnings: Vec<Warning> =
         numbers(study).into_iter().filter_map(unlikely).map(|found| Warning::unlikely(&found)).collect();
     if study.sites.is_empty() && study.site_table.is_none() {

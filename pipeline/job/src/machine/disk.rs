@@ -25,7 +25,7 @@ pub fn disk(file: &Path) -> Disk {
             Limit::new(bytes, format!("free at {}", folder.display()))
         })
     });
-    let largest = super::process_limits::of(Path::new("/"), "Max file size");
+    let largest = super::process_limits::limit(Path::new("/"), "Max file size");
     let largest_file = largest.map(|bytes| Limit::new(bytes, "the largest file of this process: ulimit -f"));
     Disk { free, largest_file }
 }

@@ -16,8 +16,8 @@ pub struct Memory {
 #[cfg(target_os = "linux")]
 pub fn memory() -> Memory {
     let root = std::path::Path::new("/");
-    let mut memory = of_system(root);
-    memory.most = Limit::least(memory.most.into_iter().chain(of_process(root)));
+    let mut memory = system_memory(root);
+    memory.most = Limit::least(memory.most.into_iter().chain(own_limits(root)));
     memory
 }
 
@@ -29,7 +29,7 @@ pub fn memory() -> Memory {
 
 /// That of the machine whose files are below `root`, and of the control groups that this process is in.
 #[cfg(target_os = "linux")]
-fn of_system(root: &std::path::Path) -> Memory {
+fn system_memory(root: &std::path::Path) -> Memory {
     let text = std::fs::read_to_string(root.join("proc/meminfo")).unwrap_or_default();
     let value = |name: &str| kilobytes(&text, name);
     let swap = value("SwapTotal").unwrap_or(0);
@@ -47,7 +47,7 @@ fn of_system(root: &std::path::Path) -> Memory {
 /// What the limits of this process on its address space and on its data leave for what a job needs, which counts
 /// what is resident already.
 #[cfg(target_os = "linux")]
-fn of_process(root: &std::path::Path) -> Vec<Limit> {
+fn own_limits(root: &std::path::Path) -> Vec<Limit> {
     let status = std::fs::read_to_string(root.join("proc/self/status")).unwrap_or_default();
     let value = |name: &str| kilobytes(&status, name).unwrap_or(0);
     // reserved, not filled: stacks of threads and the program itself
@@ -58,7 +58,7 @@ fn of_process(root: &std::path::Path) -> Vec<Limit> {
     ]
     .into_iter()
     .filter_map(|(resource, reserved, of)| {
-        super::process_limits::of(root, resource).map(|most| Limit::new(most.saturating_sub(beside(reserved)), of))
+        super::process_limits::limit(root, resource).map(|most| Limit::new(most.saturating_sub(beside(reserved)), of))
     })
     .collect()
 }
@@ -90,9 +90,9 @@ mod tests {
         let text =
             "MemTotal:        1000 kB\nMemFree:          10 kB\nMemAvailable:    600 kB\nSwapTotal:       500 kB\n";
         std::fs::write(root.path().join("proc/meminfo"), text).unwrap();
-        let memory = of_system(root.path());
+        let memory = system_memory(root.path());
         assert_eq!(memory.most.unwrap().bytes, 1500 * 1024);
         assert_eq!(memory.available.unwrap().bytes, 600 * 1024);
-        assert_eq!(of_system(&root.path().join("nothing here")), Memory::default());
+        assert_eq!(system_memory(&root.path().join("nothing here")), Memory::default());
     }
 }

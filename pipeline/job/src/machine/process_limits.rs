@@ -4,7 +4,7 @@ use std::path::Path;
 
 /// The limit `name` of this process on the machine whose files are below `root`, bytes; none where there is no limit,
 /// or none is reported: Linux has it in a file.
-pub(super) fn of(root: &Path, name: &str) -> Option<u64> {
+pub(super) fn limit(root: &Path, name: &str) -> Option<u64> {
     let text = std::fs::read_to_string(root.join("proc/self/limits")).unwrap_or_default();
     let soft = text.lines().find_map(|line| line.strip_prefix(name)?.split_whitespace().next())?;
     soft.parse().ok()
@@ -22,8 +22,8 @@ mod tests {
                     Max file size             unlimited            unlimited            bytes\n\
                     Max address space         2000000              4000000              bytes\n";
         std::fs::write(root.path().join("proc/self/limits"), text).unwrap();
-        assert_eq!(of(root.path(), "Max address space"), Some(2_000_000));
-        assert_eq!(of(root.path(), "Max file size"), None);
-        assert_eq!(of(root.path(), "Max data size"), None);
+        assert_eq!(limit(root.path(), "Max address space"), Some(2_000_000));
+        assert_eq!(limit(root.path(), "Max file size"), None);
+        assert_eq!(limit(root.path(), "Max data size"), None);
     }
 }

@@ -99,15 +99,15 @@ impl LibrarySystem {
 pub(super) fn systems(study: &LibraryStudy) -> Result<Vec<LibrarySystem>, LaboratoryError> {
     let mut systems = Vec::new();
     if let Some(blocks) = &study.blocks {
-        of_blocks(blocks, study.gravity_m_s2, &mut systems)?;
+        add_blocks(blocks, study.gravity_m_s2, &mut systems)?;
     }
     if let Some(family) = &study.oscillators {
-        of_oscillators(family, study.gravity_m_s2, &mut systems)?;
+        add_oscillators(family, study.gravity_m_s2, &mut systems)?;
     }
     Ok(systems)
 }
 
-fn of_blocks(grid: &BlockGrid, gravity_m_s2: f64, systems: &mut Vec<LibrarySystem>) -> Result<(), LaboratoryError> {
+fn add_blocks(grid: &BlockGrid, gravity_m_s2: f64, systems: &mut Vec<LibrarySystem>) -> Result<(), LaboratoryError> {
     let restitutions: Vec<Option<f64>> = match &grid.restitution {
         Some(restitutions) => restitutions.iter().copied().map(Some).collect(),
         None => vec![None],
@@ -124,7 +124,7 @@ fn of_blocks(grid: &BlockGrid, gravity_m_s2: f64, systems: &mut Vec<LibrarySyste
     Ok(())
 }
 
-fn of_oscillators(
+fn add_oscillators(
     family: &OscillatorFamily,
     gravity_m_s2: f64,
     systems: &mut Vec<LibrarySystem>,

@@ -61,11 +61,11 @@ fn columns(report: &ValidateReport) -> Vec<Column> {
         })
         .with("log_bias", |group| group.pairs.as_ref().and_then(|pairs| pairs.log_bias))
         .each(QUANTILES, |columns, (at, of)| {
-            columns.with(format!("log_bias_{at}"), |group| of_pairs(group, |bands| bands.log_bias).map(of))
+            columns.with(format!("log_bias_{at}"), |group| pair_band(group, |bands| bands.log_bias).map(of))
         })
         .with("log_dispersion", |group| group.pairs.as_ref().and_then(|pairs| pairs.log_dispersion))
         .each(QUANTILES, |columns, (at, of)| {
-            columns.with(format!("log_dispersion_{at}"), |group| of_pairs(group, |bands| bands.log_dispersion).map(of))
+            columns.with(format!("log_dispersion_{at}"), |group| pair_band(group, |bands| bands.log_dispersion).map(of))
         })
         .with("finite_pairs", |group| group.pairs.as_ref().map(|pairs| pairs.finite as u64))
         .with("pearson", |group| group.pairs.as_ref().and_then(|pairs| pairs.pearson))
@@ -85,7 +85,7 @@ fn columns(report: &ValidateReport) -> Vec<Column> {
         .build()
 }
 
-fn of_pairs(group: &GroupReport, of: fn(&Bands) -> Option<Quantiles>) -> Option<Quantiles> {
+fn pair_band(group: &GroupReport, of: fn(&Bands) -> Option<Quantiles>) -> Option<Quantiles> {
     group.pair_bands.as_ref().and_then(of)
 }
 
