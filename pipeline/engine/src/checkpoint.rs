@@ -20,5 +20,4 @@ pub use error::CheckpointError;
 pub(crate) use error::in_brackets;
 pub use key::{RowKey, RowKeys, oscillator_key};
 pub use open::Checkpoint;
-pub(crate) use open::path_beside;
 pub use row_file::{Finding, FinishedRows, RowFile, RowFileHead, checkpoint_path};

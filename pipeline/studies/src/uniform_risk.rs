@@ -1,5 +1,6 @@
 //! Studies of uniform risk: stripes, spectra and their coefficients, for sites with hazard curves.
 
+mod computed;
 mod csv;
 mod earlier;
 mod levels;
@@ -11,12 +12,13 @@ mod work;
 mod write;
 mod write_hazard;
 
+pub use computed::ComputedStudy;
 pub use csv::{band_columns, quoted_bands_m, spectra_table, tables};
 pub(crate) use csv::{csv_paths, write_csv};
 pub use earlier::{EarlierStripes, is_of_records};
 pub use levels::{LevelCheck, LevelProposal};
 pub use plan::{Plan, needs, plan};
 pub use report::{BranchReport, CoefficientsReport, MeasureReport, RunReport};
-pub use run::{ComputedStudy, run};
+pub use run::run;
 pub use work::{Inputs, run_shard};
 pub(crate) use write::write_result;

@@ -69,7 +69,7 @@ pub fn carry_out_shard<E: From<EngineError>>(
     also: &dyn Fn(&Checkpoint) -> Result<(), E>,
 ) -> Result<ShardReport, E> {
     let [_, rows] = work.share_of(shard, &FinishedRows::default());
-    let checkpoint = Checkpoint::open(path, &work, shard)?;
+    let checkpoint = work.open_checkpoint(path, shard)?;
     events.resumes_from(path);
     work.carry_out(&checkpoint, shard, events, &mut |_, _| Ok(()))?;
     also(&checkpoint)?;

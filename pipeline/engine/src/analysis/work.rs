@@ -1,5 +1,6 @@
 //! Plans with their labels, and the carrying out of them.
 
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -58,7 +59,7 @@ impl<'a> Work<'a> {
     }
 
     /// The head of the file of one shard.
-    pub(crate) fn head(&self, shard: Shard) -> RowFileHead {
+    pub(super) fn head(&self, shard: Shard) -> RowFileHead {
         let mut hash = Sha256::new();
         for key in self.keys.iter().flat_map(RowKeys::as_slice) {
             hash.update(key.0);
@@ -75,7 +76,7 @@ impl<'a> Work<'a> {
     }
 
     /// How many of the rows of one shard are among `rows`, and how many there are.
-    pub(crate) fn share_of(&self, shard: Shard, rows: &FinishedRows) -> [u64; 2] {
+    pub(super) fn share_of(&self, shard: Shard, rows: &FinishedRows) -> [u64; 2] {
         let found = self.keys_of(shard).filter(|key| rows.contains(*key)).count();
         [found as u64, self.keys_of(shard).count() as u64]
     }
@@ -86,7 +87,7 @@ impl<'a> Work<'a> {
     }
 
     /// What carrying it out takes: its peaks and impacts, held and written.
-    pub(crate) fn needs(&self) -> Needs {
+    pub(super) fn needs(&self) -> Needs {
         let cells: u64 = self.plans.iter().map(|labelled| labelled.plan.axes().cells() as u64).sum();
         let held = cells.saturating_mul(13);
         let samples = |labelled: &LabelledPlan<'_>| -> u64 {
@@ -98,12 +99,21 @@ impl<'a> Work<'a> {
         Needs { memory_bytes, disk_bytes: held.saturating_add(1_000_000), disk_least_bytes: held / 13 * 12 }
     }
 
-    pub(crate) fn keys_of(&self, shard: Shard) -> impl Iterator<Item = RowKey> + '_ {
+    fn keys_of(&self, shard: Shard) -> impl Iterator<Item = RowKey> + '_ {
         let of_plan = move |keys: &'_ RowKeys| -> Vec<RowKey> {
             let rows = keys.as_slice().iter().enumerate();
             rows.filter(|(row, _)| shard.contains(*row)).map(|(_, key)| *key).collect()
         };
         self.keys.iter().flat_map(of_plan)
+    }
+
+    /// The checkpoint at `path` of one shard, with the rows that it holds. The caller sees to it that no other job has
+    /// it too.
+    ///
+    /// # Errors
+    /// A file that cannot be written, or that holds something else.
+    pub fn open_checkpoint(&self, path: &Path, shard: Shard) -> Result<Checkpoint, EngineError> {
+        Checkpoint::open(path, &self.head(shard), || self.keys_of(shard).collect())
     }
 
     /// Carries out one shard, plan after plan: finished rows go to the checkpoint, and if the shard is the whole, each

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use thiserror::Error;
 use uplift_atomic_file::reason;
 
-use super::row_file::FORMAT;
+/// What the first line of a file of finished rows says it is.
+pub(super) const FORMAT: &str = "uplift analysis rows 2";
 
 /// The title of a study behind its mention; nothing where it has none.
 pub(crate) fn in_brackets(title: &str) -> String {

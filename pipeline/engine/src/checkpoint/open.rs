@@ -1,17 +1,16 @@
 //! A checkpoint in use: what is known from it, and what is added to it.
 
-use std::path::{Path, PathBuf};
+use std::collections::HashSet;
+use std::path::Path;
 
-use uplift_atomic_file::final_place;
 use uplift_ida::{AnalysisRow, Cells, IdaError, Peaks, Plan, Shard, Watch, complete};
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::lock::ResultLock;
 
 use super::error::CheckpointError;
-use super::key::RowKeys;
-use super::row_file::{FinishedRows, RowFile};
-use crate::analysis::Work;
+use super::key::{RowKey, RowKeys};
+use super::row_file::{FinishedRows, RowFile, RowFileHead};
 use crate::error::EngineError;
 
 /// Finished analysis rows of a job: those known from before, and a file that takes up each further one when it is
@@ -33,31 +32,19 @@ impl Checkpoint {
         Self { file: None, rows: FinishedRows::default(), damaged_bytes: 0, _lock: None }
     }
 
-    /// The file at `path` of one shard of `work`, with the rows that it holds. The caller sees to it that no other job
-    /// has it too.
-    ///
-    /// # Errors
-    /// A file that cannot be written, or that holds something else.
-    pub fn open(path: &Path, work: &Work<'_>, shard: Shard) -> Result<Self, EngineError> {
-        let (file, found) = RowFile::open(path, &work.head(shard), || work.keys_of(shard).collect())?;
+    /// The file at `path`, with the rows that it holds; see [`RowFile::open`].
+    pub(crate) fn open(
+        path: &Path,
+        head: &RowFileHead,
+        own: impl FnOnce() -> HashSet<RowKey>,
+    ) -> Result<Self, EngineError> {
+        let (file, found) = RowFile::open(path, head, own)?;
         Ok(Self { file: Some(file), rows: found.rows, damaged_bytes: found.damaged_bytes, _lock: None })
     }
 
-    /// The checkpoint of a job that was asked of the result at `result`: a file beside it with `name` in its own name,
-    /// that of the command and the structure, say. Where no file can be written there, or another job has it, this one
-    /// goes on without, and says so.
-    pub fn beside(result: &Path, name: &str, work: &Work<'_>, events: &dyn Events) -> Self {
-        let path = path_beside(result, name, "part");
-        let opened = ResultLock::acquire(&path)
-            .map_err(EngineError::from)
-            .and_then(|lock| Ok(Self { _lock: Some(lock), ..Self::open(&path, work, Shard::WHOLE)? }));
-        match opened {
-            Ok(checkpoint) => checkpoint,
-            Err(reason) => {
-                events.note(&format!("no checkpoint can be written ({reason}): an interrupted run starts again"));
-                Self::none()
-            }
-        }
+    /// The same, with the lock that keeps a second job off its file.
+    pub(crate) fn locked(self, lock: ResultLock) -> Self {
+        Self { _lock: Some(lock), ..self }
     }
 
     /// Where it is, if there is a file.
@@ -154,16 +141,6 @@ impl Checkpoint {
             file.remove();
         }
     }
-}
-
-/// `europe.h5`, `design pier` and `part` make `europe.h5.design-pier.part`.
-pub(crate) fn path_beside(result: &Path, name: &str, extension: &str) -> PathBuf {
-    let result = &final_place(result).unwrap_or_else(|_| result.to_owned());
-    let plain: String =
-        name.chars().map(|letter| if letter.is_alphanumeric() || letter == '_' { letter } else { '-' }).collect();
-    let mut file = result.file_name().unwrap_or(result.as_os_str()).to_owned();
-    file.push(format!(".{plain}.{extension}"));
-    result.with_file_name(file)
 }
 
 /// Stops when the user says so, and when nothing more can be appended.

@@ -16,13 +16,11 @@ use serde::{Deserialize, Serialize};
 use uplift_atomic_file::{FileError, final_place, open_file, write_whole};
 use uplift_ida::{AnalysisRow, Cells};
 
-use super::error::CheckpointError;
+use super::error::{CheckpointError, FORMAT};
 use super::key::{RowKey, RowKeys};
 use crate::error::EngineError;
 
-/// What the first line says it is.
-pub(super) const FORMAT: &str = "uplift analysis rows 2";
-/// The same of version 0.1: its rows had other keys and are of no use, but nothing is wrong with such a file.
+/// The format of version 0.1: its rows had other keys and are of no use, but nothing is wrong with such a file.
 const FORMAT_BEFORE: &str = "uplift pieces 1";
 /// How every first line begins.
 const FIRST_WORDS: &[u8] = b"{\"format\":\"uplift ";

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use uplift_alarms::alarms;
-use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
+use uplift_engine::checkpoint::{FinishedRows, checkpoint_path};
 use uplift_ida::Shard;
 use uplift_inputs::RecordSets;
 use uplift_job::JobError;
@@ -47,7 +47,7 @@ pub fn run(
     needs.require(path, events)?;
     let work = sets.work(study)?;
     let total = work.analyses();
-    let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work, Shard::WHOLE)?;
+    let mut checkpoint = work.open_checkpoint(&checkpoint_path(path), Shard::WHOLE)?;
     checkpoint.extend(known);
     checkpoint.path().into_iter().for_each(|path| events.resumes_from(path));
     let begin = Instant::now();

@@ -1,6 +1,7 @@
 //! What a study of uniform risk costs.
 
 use std::collections::BTreeSet;
+use std::error::Error;
 use std::path::Path;
 use std::time::Duration;
 
@@ -10,18 +11,20 @@ use uplift_alarms::{
     study_alarms,
 };
 use uplift_engine::analysis::seconds;
-use uplift_inputs::{OtherHazard, Record, RecordSet, SiteHazard, SiteList, read_other_hazard, read_records};
+use uplift_inputs::{
+    OtherHazard, Record, RecordSet, SiteHazard, SiteList, read_hazard, read_other_hazard, read_records,
+};
 use uplift_job::alarm::Alarm;
-use uplift_job::events::Events;
+use uplift_job::events::{Events, Silent};
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
 use uplift_job::study_run::PlanHead;
+use uplift_job::{JobError, cause};
 use uplift_study::{ExportFiles, MeasurePlan, Repair, UniformRiskStudy};
 use uplift_uniform_risk::consistency::{Answer, ConsistencyReport};
 use uplift_uniform_risk::{plan_own_stripes, systems, systems_under};
 
 use super::levels::{LevelCheck, LevelEnds, check_levels};
 use super::site_table;
-use super::work::hazard_of;
 use crate::error::StudiesError;
 
 /// Time spent on a measure to see how fast this machine is.
@@ -159,6 +162,25 @@ pub(super) fn tell_mistaken_curves(
         events.note(&format!("{} {alarm}: {}", alarm.severity.word(), alarm.what_to_do));
     }
     Ok(())
+}
+
+/// The hazard of a study. Where it cannot be read, mistakes of the records are reported with it, all at once.
+///
+/// # Errors
+/// Hazard curves that cannot be used.
+pub(super) fn hazard_of(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<String>), StudiesError> {
+    read_hazard(study).map_err(|hazard| {
+        let mistakes = |error: &(dyn Error + 'static)| match cause(error) {
+            Some(JobError::Inputs(mistakes)) => mistakes.clone(),
+            _ => Vec::new(),
+        };
+        let of_hazard = mistakes(&hazard);
+        let of_records = read_records(study, &Silent).err().map(|error| mistakes(&error)).unwrap_or_default();
+        if of_hazard.is_empty() || of_records.is_empty() {
+            return hazard.into();
+        }
+        JobError::Inputs([of_hazard, of_records].concat()).into()
+    })
 }
 
 /// What a run of `study` takes.

@@ -3,25 +3,22 @@
 use std::path::{Path, PathBuf};
 
 use uplift_alarms::alarms;
-use uplift_engine::checkpoint::{Checkpoint, FinishedRows, checkpoint_path};
+use uplift_engine::checkpoint::{FinishedRows, checkpoint_path};
 use uplift_ida::Shard;
-use uplift_inputs::{OtherHazard, RecordSet, SiteHazard, input_checksums, read_other_hazard};
+use uplift_inputs::{input_checksums, read_other_hazard};
 use uplift_job::events::Events;
 use uplift_job::study_run::Place;
 use uplift_result::earlier::Earlier;
-use uplift_result::{KeptGroups, Provenance, ResultFile, StoredSpectra};
+use uplift_result::{KeptGroups, Provenance, ResultFile};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::Answer;
-use uplift_uniform_risk::{
-    Coefficients, Precision, Spectra, Stripes, fit_spectra, pooled_demand, precision, stored_spectra,
-    uniform_risk_spectra,
-};
+use uplift_uniform_risk::{Coefficients, Stripes, fit_spectra, pooled_demand, precision, uniform_risk_spectra};
 
+use super::computed::ComputedStudy;
 use super::earlier::is_of_records;
-use super::plan::tell_mistaken_curves;
+use super::plan::{hazard_of, tell_mistaken_curves};
 use super::report::{MeasureReport, RunReport};
 use super::site_table::{self, SiteOutput};
-use super::work::hazard_of;
 use super::{Inputs, csv_paths, needs, write_csv, write_result};
 use crate::complete_result;
 use crate::error::StudiesError;
@@ -53,7 +50,7 @@ pub fn run(
     let earlier: Vec<&Path> = std::iter::once(path).chain(further.map(PathBuf::as_path)).collect();
     let work = inputs.work(study, &earlier)?;
     let total = work.analyses();
-    let mut checkpoint = Checkpoint::open(&checkpoint_path(path), &work, Shard::WHOLE)?;
+    let mut checkpoint = work.open_checkpoint(&checkpoint_path(path), Shard::WHOLE)?;
     checkpoint.extend(known);
     checkpoint.path().into_iter().for_each(|path| events.resumes_from(path));
     let analysed = work.results(&checkpoint, events)?;
@@ -141,45 +138,4 @@ fn valid_additions(outcome: &ComputedStudy<'_>, place: &Place<'_>) -> Result<Opt
         return Ok(None);
     }
     Ok(Some(KeptGroups::valid_for(file, outcome.study)?))
-}
-
-/// All that a study computed, by measure where it depends on it.
-#[derive(Debug)]
-pub struct ComputedStudy<'a> {
-    /// The study.
-    pub study: &'a UniformRiskStudy,
-    /// Its records.
-    pub records: &'a RecordSet,
-    /// Its hazard, `[measure][site]`.
-    pub hazard: &'a [Vec<SiteHazard>],
-    /// Its stripes, `[measure]`.
-    pub stripes: &'a [Stripes],
-    /// Its spectra, `[measure]`.
-    pub spectra: &'a [Spectra],
-    /// Its coefficients, `[measure]`.
-    pub coefficients: &'a [Coefficients],
-    /// How well its records know them; by no measure where nothing can be said.
-    pub precision: &'a [Precision],
-    /// Its hazard in measures that it is not analysed by.
-    pub other_hazard: &'a [OtherHazard],
-    /// Whether the records bring the hazard of other measures.
-    pub(crate) consistency: &'a Answer,
-    /// What was noticed about the inputs; what the numbers themselves give cause for, [`alarms`](uplift_alarms) says.
-    pub warnings: &'a [String],
-    /// Where the numbers come from.
-    pub provenance: &'a Provenance,
-}
-
-impl ComputedStudy<'_> {
-    /// Its spectra and coefficients as the result file has them.
-    pub(super) fn stored_spectra(&self) -> StoredSpectra {
-        let stored = |(spectra, coefficients)| stored_spectra(spectra, coefficients);
-        StoredSpectra {
-            strengths: self.study.strengths.to_vec(),
-            poes: self.study.risk.poe.clone(),
-            years: self.study.risk.years,
-            sites: self.study.sites.iter().map(|site| site.name.clone()).collect(),
-            measures: self.spectra.iter().zip(self.coefficients).map(stored).collect(),
-        }
-    }
 }

@@ -1,18 +1,17 @@
 //! The stripes of a study as work: records x strengths x levels of each measure.
 
-use std::error::Error;
 use std::path::Path;
 
 use uplift_engine::analysis::{LabelledPlan, ShardReport, Work, carry_out_shard};
 use uplift_ida::{Cells, Shard, System};
-use uplift_inputs::{RecordSet, SiteHazard, motion_keys, read_hazard, read_records};
-use uplift_job::events::{Events, Silent};
+use uplift_inputs::{RecordSet, motion_keys, read_records};
+use uplift_job::events::Events;
 use uplift_job::text::{cost_in_words, counted};
-use uplift_job::{JobError, cause};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::{plan_own_stripes, systems_under};
 
-use super::{EarlierStripes, needs};
+use super::EarlierStripes;
+use super::plan::{hazard_of, needs};
 use crate::error::StudiesError;
 
 /// What the stripes of a study are made of.
@@ -77,25 +76,6 @@ impl Inputs {
         }
         Ok(Work::new(&study.title, plans))
     }
-}
-
-/// The hazard of a study. Where it cannot be read, mistakes of the records are reported with it, all at once.
-///
-/// # Errors
-/// Hazard curves that cannot be used.
-pub(super) fn hazard_of(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<String>), StudiesError> {
-    read_hazard(study).map_err(|hazard| {
-        let mistakes = |error: &(dyn Error + 'static)| match cause(error) {
-            Some(JobError::Inputs(mistakes)) => mistakes.clone(),
-            _ => Vec::new(),
-        };
-        let of_hazard = mistakes(&hazard);
-        let of_records = read_records(study, &Silent).err().map(|error| mistakes(&error)).unwrap_or_default();
-        if of_hazard.is_empty() || of_records.is_empty() {
-            return hazard.into();
-        }
-        JobError::Inputs([of_hazard, of_records].concat()).into()
-    })
 }
 
 /// Carries out one shard of the stripes of a study into a file, but for what is known from an `earlier` result.
