@@ -6,7 +6,7 @@ use uplift_job::alarm::{Case, Severity};
 use uplift_job::text::rounded;
 use uplift_study::UniformRiskStudy;
 
-use super::hazard::CurvesAtSite;
+use super::curves_at_site::CurvesAtSite;
 
 /// Alternatives differ by 2 or 3 times, more at low rates alone; told is a gap between them that is as wide throughout.
 const BEYOND_ALTERNATIVES: f64 = 5.0;

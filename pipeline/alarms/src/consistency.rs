@@ -2,11 +2,10 @@
 //! of the site.
 
 use uplift_consistency::Verdict;
-use uplift_job::alarm::{Alarm, Case, Severity};
+use uplift_job::alarm::{Alarm, Case, RESULT, Severity};
 use uplift_result::StoredConsistency;
 use uplift_uniform_risk::MANY_FAILED;
 
-use super::RESULT;
 use super::curves;
 use super::evidence::{Evidence, Scope};
 

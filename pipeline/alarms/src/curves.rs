@@ -8,8 +8,8 @@ use uplift_plausible::USUAL_GRAVITY;
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::ConsistencyReport;
 
+use super::curves_at_site::CurvesAtSite;
 use super::evidence::{Evidence, Scope};
-use super::hazard::CurvesAtSite;
 
 /// PGA over PGV differs by 3 times between rock near by and soft soil far away, of which records bring some.
 const BEYOND_NATURE: f64 = 5.0;

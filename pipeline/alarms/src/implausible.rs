@@ -6,7 +6,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_plausible::USUAL_GRAVITY;
 use uplift_study::UniformRiskStudy;
 
-use super::hazard::CurvesAtSite;
+use super::curves_at_site::CurvesAtSite;
 
 /// What is raised of the curves of a site, where some say what is hardly possible.
 pub(super) fn case(study: &UniformRiskStudy, curves: &CurvesAtSite<'_>) -> Option<Case> {

@@ -7,6 +7,7 @@
 //! | module | what it looks at |
 //! |---|---|
 //! | `inputs` | the study's numbers, the records, what was noticed about the inputs |
+//! | `curves_at_site` | the curves of a site, and which of them is odd |
 //! | `hazard` | hazard curves that are probably mistaken, by the three that follow |
 //! | `probabilities` | those that look like probabilities |
 //! | `implausible` | those by which extreme shaking is frequent, or the faintest rare |
@@ -22,6 +23,7 @@
 mod branches;
 mod consistency;
 mod curves;
+mod curves_at_site;
 mod error;
 mod evidence;
 mod fit;
@@ -38,19 +40,17 @@ use uplift_job::alarm::{Alarm, Severity};
 use uplift_motion::IntensityMeasure;
 
 pub use curves::curves_alarm;
+pub use curves_at_site::CurvesAtSite;
 pub use error::AlarmsError;
 pub use evidence::{Evidence, Scope, spectrum_name};
 pub use fit::{FitReach, reach_of_fit};
-pub use hazard::{CurvesAtSite, hazard_alarms};
+pub use hazard::hazard_alarms;
 pub use inputs::{far_factors_alarm, few, few_earthquakes, study_alarms, synthetic_records};
 pub use levels::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, UpperEnd, below_first_case};
 pub use numbers::number_alarms;
 pub use structure::{OwnRisk, own_risk_alarms, safety_factor_alarm, structure_alarms};
 use uplift_result::{Kind, ResultFile};
 pub use uplift_risk::COMPARED_FROM_M;
-
-/// The result in a command of an alarm.
-const RESULT: &str = Alarm::RESULT;
 
 /// The alarms in the order in which they should be read: the worst first, and what was noticed of the inputs last.
 pub fn ranked(mut alarms: Vec<Alarm>) -> Vec<Alarm> {

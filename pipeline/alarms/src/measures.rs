@@ -4,9 +4,9 @@
 use uplift_motion::IntensityMeasure;
 
 use super::evidence::{Evidence, Scope};
-use super::{RESULT, consistency, curves};
+use super::{consistency, curves};
 use uplift_job::Array;
-use uplift_job::alarm::{Alarm, Case, Severity};
+use uplift_job::alarm::{Alarm, Case, RESULT, Severity};
 use uplift_job::text::{per_cent, rounded, short, two_digits};
 use uplift_result::{MeasureSpectra, StoredBands};
 use uplift_risk::{COMPARED_FROM_M, MEASURES_APART, MEASURES_APART_DECISIVE};

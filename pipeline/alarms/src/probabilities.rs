@@ -5,7 +5,7 @@ use uplift_inputs::{POE, curve_line};
 use uplift_job::alarm::{Case, Severity};
 use uplift_job::text::short;
 
-use super::hazard::CurvesAtSite;
+use super::curves_at_site::CurvesAtSite;
 
 /// A probability saturates at 1, and a rate goes on rising: a curve that begins between this and 1 …
 const NEARLY_CERTAIN: f64 = 0.9;

@@ -4,6 +4,10 @@ use std::fmt;
 
 use serde::Serialize;
 
+/// What stands for the result in a command of [`Alarm::what_to_do`] until a face names it: an alarm is the same wherever
+/// the file lies.
+pub const RESULT: &str = "RESULT";
+
 /// How much depends on it, the worst first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -45,10 +49,6 @@ pub struct Alarm {
 }
 
 impl Alarm {
-    /// What stands for the result in a command of `what_to_do` until a face names it: an alarm is the same wherever the
-    /// file lies.
-    pub const RESULT: &str = "RESULT";
-
     /// The alarm about one `subject`.
     pub fn new(severity: Severity, kind: &'static str, subject: &str, what: String, what_to_do: &str) -> Self {
         let (subject, what_to_do) = (subject.to_owned(), what_to_do.to_owned());
@@ -66,7 +66,7 @@ impl Alarm {
 
     /// What to do about it, with the name of the result.
     pub fn remedy(&self, result: &str) -> String {
-        self.what_to_do.replace(Self::RESULT, result)
+        self.what_to_do.replace(RESULT, result)
     }
 }
 
