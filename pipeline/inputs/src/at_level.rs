@@ -10,12 +10,12 @@ use uplift_atomic_file::read_file;
 use uplift_motion::IntensityMeasure;
 use uplift_study::{MeasurePlan, did_you_mean};
 
-use super::record_set::Record;
+use super::record::Record;
 pub use factors::{far_factors, relative_factors};
 pub use sets::AtLevel;
 use uplift_job::checksum::checksum;
 use uplift_job::table::plain;
-use uplift_job::text::counted;
+use uplift_job::text::{counted, first_names};
 use uplift_job::text_table;
 
 /// The column of record names, as a manifest has it.
@@ -30,8 +30,6 @@ const LARGEST_BYTES: u64 = 64 << 20;
 const SAME_LEVEL: f64 = 1e-6;
 /// By how much a factor may miss level over intensity beside the rounding of its own decimals before it is reported.
 const FACTOR_TOLERANCE: f64 = 1e-3;
-/// Names shown of a long list.
-const SHOWN: usize = 10;
 
 /// A record at a level, as the table has it.
 #[derive(Debug, Clone, PartialEq)]
@@ -153,7 +151,7 @@ fn other_columns(name: &str, columns: &[&str], known: &[&str]) -> Result<Vec<Str
         return Err(mistakes);
     }
     let told = (!others.is_empty())
-        .then(|| format!("{name}: {} not used: {}", counted(others.len(), "column"), list(&others)));
+        .then(|| format!("{name}: {} not used: {}", counted(others.len(), "column"), first_names(&others)));
     Ok(told.into_iter().collect())
 }
 
@@ -201,7 +199,7 @@ impl Table {
                  \"both\", RSN753:h1 and RSN753:h2)",
                 self.name,
                 counted(missing.len(), "record"),
-                list(&missing)
+                first_names(&missing)
             ));
         }
         mistakes.extend(self.other_levels(plan, level_of));
@@ -259,10 +257,10 @@ impl Table {
         let unit = plan.measure.unit();
         let mut parts = Vec::new();
         if !unknown.is_empty() {
-            parts.push(format!("the study has no level of {} {unit}", list(&unknown)));
+            parts.push(format!("the study has no level of {} {unit}", first_names(&unknown)));
         }
         if !empty.is_empty() {
-            parts.push(format!("the table names no record at the study's {} {unit}", list(&empty)));
+            parts.push(format!("the table names no record at the study's {} {unit}", first_names(&empty)));
         }
         let all: Vec<String> = own.iter().map(ToString::to_string).collect();
         let key = uplift_study::levels_key(plan.measure);
@@ -305,13 +303,6 @@ fn shares(weights: &mut [f64], records: usize) -> Option<Vec<f64>> {
         }
     }
     Some(weights.to_vec())
-}
-
-/// The first of some names.
-pub(crate) fn list<S: AsRef<str>>(names: &[S]) -> String {
-    let shown: Vec<&str> = names.iter().take(SHOWN).map(AsRef::as_ref).collect();
-    let more = names.len() - shown.len();
-    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
 }
 
 #[cfg(test)]

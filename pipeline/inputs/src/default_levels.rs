@@ -5,7 +5,7 @@ use std::path::Path;
 use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_study::{AnyStudy, MeasurePlan, Study, StudyError, UniformRiskStudy, usual_top_level};
 
-use super::hazard::{SiteHazard, are_interchanged, curve_of};
+use super::curve_file::{are_interchanged, curve_of};
 use super::other_unit::of_outside;
 
 /// At how many times the first default level a curve may begin: one that begins later is more likely of another unit,
@@ -70,28 +70,4 @@ fn shortened(study: &UniformRiskStudy, plan: &MeasurePlan) -> Option<MeasurePlan
         }
     }
     MeasurePlan::default_within(plan.measure, least, most)
-}
-
-/// That the levels of `plan` are the default ones that the curves of all `sites` cover, and whose curves cut them; none
-/// where they are not.
-pub(super) fn shortened_note(plan: &MeasurePlan, sites: &[SiteHazard]) -> Option<String> {
-    let spans = sites.iter().flat_map(|site| {
-        let branches = site.branches.iter().map(|branch| &branch.input);
-        let curves = std::iter::once(&site.curve).chain(branches).map(|input| &input.curve);
-        curves.map(|curve| (site.site.as_str(), curve.first().im, curve.last().im))
-    });
-    let from = spans.clone().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let to = spans.min_by(|a, b| a.2.total_cmp(&b.2))?;
-    let cut = MeasurePlan::default_within(plan.measure, from.1, to.2);
-    (cut.as_ref() == Some(plan)).then(|| {
-        let (first, last) = (plan.levels.first().copied(), plan.levels.last().copied());
-        let whose = if from.0 == to.0 { from.0.to_owned() } else { format!("{} and {}", from.0, to.0) };
-        format!(
-            "default levels of {} cut to {} to {} {} by the hazard curves of {whose}",
-            plan.measure.label(),
-            first.unwrap_or_default(),
-            last.unwrap_or_default(),
-            plan.measure.unit()
-        )
-    })
 }

@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
+use uplift_job::text::first_names;
 use uplift_motion::Accelerogram;
 use uplift_study::Duplicates;
 
-use super::at_level::list;
 use super::manifest::{ComponentFile, Row};
 use super::pairs::CheckedPair;
 
@@ -47,7 +47,7 @@ impl Places {
             let kept: BTreeMap<usize, usize> = shared.keys().map(|&(first, again)| (again, first)).collect();
             let named: Vec<String> =
                 kept.iter().map(|(again, first)| format!("{} is {}", id(*again), id(*first))).collect();
-            return Ok(Some(format!("records entered twice are kept: {}", list(&named))));
+            return Ok(Some(format!("records entered twice are kept: {}", first_names(&named))));
         }
         let place = |position: usize, component: usize| {
             let file = self.0.get(id(position)).map_or("", |places| places[component].as_str());

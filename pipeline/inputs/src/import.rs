@@ -2,6 +2,7 @@
 //! measured and listed.
 
 mod collect;
+mod component;
 mod group;
 mod measured;
 mod name;
@@ -120,14 +121,13 @@ pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportRepo
     let manifest = options.manifest();
     options.check(&manifest)?;
     let start = Instant::now();
-    let imported = if options.folder.is_dir() {
-        find_pairs(options, events)?
-    } else {
-        let folder = unpack::folder_of(&options.folder, &manifest);
+    let mut folder = options.folder.clone();
+    if !folder.is_dir() {
+        folder = unpack::folder_of(&options.folder, &manifest);
         unpack::unpack(&options.folder, &folder, events)?;
-        find_pairs(&ImportOptions { folder, ..options.clone() }, events)?
-    };
-    let remarks = Remarks::from_import(&imported);
+    }
+    let imported = find_pairs(&folder, options.files, options.pulses, events)?;
+    let remarks = Remarks::from_import(&imported.passed_over, &imported.warnings);
     let remarks_file = (!remarks.is_empty()).then(|| manifest.with_extension("remarks.txt"));
     if let Some(file) = &remarks_file {
         let mut text = format!("# {}: remarks of records import\n", outputs::mark());

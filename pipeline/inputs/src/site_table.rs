@@ -16,37 +16,18 @@ use uplift_motion::IntensityMeasure;
 use uplift_risk::StripeWeights;
 
 pub use self::export::SharedCurve;
-use self::export::{Index, Row, Stream, reason_of};
-use super::hazard::{of_the_records_definition, stripe_weights};
+use self::export::{Index, Read, Row, Stream, reason_of};
+pub use self::places::ListedSite;
+use super::curve_file::{of_the_records_definition, stripe_weights};
 use crate::error::InputsError;
 use uplift_job::JobError;
 use uplift_job::checksum::checksum_of_file;
 use uplift_job::text::thousands;
-use uplift_study::{Branch, MeasurePlan, Repair, SiteTable, UniformRiskStudy};
+use uplift_study::{Branch, Repair, SiteTable, UniformRiskStudy};
 
 const SITES_NAMED: usize = 4;
 /// How the table of sites is called among the inputs of a result.
 const TABLE: &str = "site table";
-
-/// A site of the table.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ListedSite {
-    /// Its name, or its number from 1 if it has none.
-    pub name: Box<str>,
-    /// Longitude as given, degrees.
-    pub longitude_deg: f64,
-    /// Latitude, degrees.
-    pub latitude_deg: f64,
-    /// The cells of further columns, one after the other.
-    carried: Box<str>,
-}
-
-impl ListedSite {
-    /// Its cells in the columns of [`SiteList::carried`].
-    pub fn carried(&self) -> impl Iterator<Item = &str> {
-        self.carried.split(places::BETWEEN_CELLS)
-    }
-}
 
 /// The sites of a study's table, each with its place in the exports.
 #[derive(Debug, Clone)]
@@ -224,24 +205,6 @@ fn name_of_export(measure: IntensityMeasure) -> String {
 
 fn name_of_branch(measure: IntensityMeasure, branch: &Branch) -> String {
     format!("{} {}", name_of_export(measure), branch.name)
-}
-
-/// What an export is read for.
-#[derive(Debug, Clone, Copy)]
-enum Read<'a> {
-    /// The spectra of a measure that the study is analysed by.
-    Analysed(&'a MeasurePlan),
-    /// To be held against what the records bring of a measure.
-    Compared(IntensityMeasure),
-}
-
-impl Read<'_> {
-    fn measure(self) -> IntensityMeasure {
-        match self {
-            Self::Analysed(plan) => plan.measure,
-            Self::Compared(measure) => measure,
-        }
-    }
 }
 
 /// The exports that are wanted: those of measures that the study is analysed by come first.

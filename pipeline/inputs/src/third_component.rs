@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
+use uplift_job::text::first_names;
 use uplift_motion::{Accelerogram, ReadOptions};
 
-use super::at_level::list;
 use super::manifest::{ComponentFile, Row};
 use super::pairs::{CheckedPair, START, read_component};
 
@@ -47,7 +47,7 @@ impl ThirdComponents {
                  file_v of the manifest, or leave the records out",
                 without.len(),
                 pairs.len(),
-                list(&without)
+                first_names(&without)
             ));
         }
         let of_pair = |(pair, _): &CheckedPair| {

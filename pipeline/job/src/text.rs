@@ -182,6 +182,16 @@ pub fn thousands(number: u64) -> String {
     text
 }
 
+/// Names listed in a message before the rest are counted.
+const NAMES_SHOWN: usize = 10;
+
+/// The first of some names, and how many more there are.
+pub fn first_names<S: AsRef<str>>(names: &[S]) -> String {
+    let shown: Vec<&str> = names.iter().take(NAMES_SHOWN).map(AsRef::as_ref).collect();
+    let more = names.len() - shown.len();
+    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,7 @@
 use uplift_study::MeasurePlan;
 
 use super::{far_factors, relative_factors};
-use crate::Record;
+use crate::record::Record;
 
 /// Which record is run at which level, by what factor, and how much it counts there.
 #[derive(Debug, Clone, PartialEq)]

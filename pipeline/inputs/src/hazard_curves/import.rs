@@ -21,8 +21,8 @@ use uplift_job::text::{counted, distinct};
 use uplift_job::typed::number;
 
 use crate::error::InputsError;
-use check::{check_weights, one_site};
-use text::{curve_text, file_stem, study_lines};
+use check::{check_weights, one_site, weight_of};
+use text::{Chosen, curve_text, file_stem, study_lines};
 
 /// Distance of a site from the place asked for that needs no word, km.
 pub(super) const NEAR_KM: f64 = 10.0;
@@ -80,13 +80,6 @@ pub struct WrittenCurve {
     pub weight: Option<f64>,
 }
 
-/// A curve with the file that it is written to.
-struct Chosen {
-    exported: ExportedCurve,
-    file: String,
-    weight: Option<f64>,
-}
-
 /// Takes the curves of one site from the exports of an engine.
 ///
 /// # Errors
@@ -98,7 +91,7 @@ pub fn import(options: &HazardImportOptions, events: &dyn Events) -> Result<Haza
     for export in distinct(&options.exports) {
         curves.extend(read_export(export, &options.site)?);
     }
-    let site = one_site(&curves, options)?;
+    let site = one_site(&curves, &options.site)?;
     if let Some(weights) = &weights {
         check_weights(&curves, weights)?;
     }
@@ -222,14 +215,4 @@ fn text_of(Chosen { exported, file, .. }: &Chosen, options: &HazardImportOptions
     let curve = exported.curve.clone();
     let component = curve.component().or(options.component);
     (options.folder.join(file), curve_text(&curve.with_component(component), exported))
-}
-
-fn weight_of(kind: &Statistic, weights: &BTreeMap<u32, RealizationWeight>) -> Option<f64> {
-    match kind {
-        Statistic::Realization(number) => weights.get(number).map(|weight| weight.weight),
-        Statistic::Branch(path) => {
-            weights.values().find(|weight| weight.branch_path == *path).map(|weight| weight.weight)
-        }
-        _ => None,
-    }
 }

@@ -3,48 +3,21 @@
 //! Every file is read twice: first for what its head says, by which components are paired, then with its partner
 //! to be measured. So memory holds a pair a thread, however large the folder.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use uplift_job::checksum::checksum;
 use uplift_job::events::{Events, each};
-use uplift_motion::{MotionError, RecordFormat, RecordingDescription, read_record, record_bytes};
+use uplift_motion::{MotionError, RecordPair, read_auto, read_record, record_bytes};
 
-use super::measured::{self, PairMeasures};
+use super::component::Component;
+use super::group::{self, Candidate};
+use super::measured::PairMeasures;
 use super::name::RecordName;
 use super::scan::scan;
 use super::search_results::{Entry, SearchResults};
-use super::warnings::Warning;
-use super::{ImportOptions, group};
+use super::warnings::{self, Warning};
+use crate::FileOptions;
 use crate::error::InputsError;
-
-/// One component of a file, without its samples.
-#[derive(Debug, Clone)]
-pub(super) struct Component {
-    /// The file.
-    pub(super) path: PathBuf,
-    /// Its number in a file with several.
-    pub(super) channel: Option<usize>,
-    /// Its layout.
-    pub(super) format: RecordFormat,
-    /// What its head says.
-    pub(super) description: RecordingDescription,
-    /// Time step, s.
-    pub(super) dt_s: f64,
-    /// Samples.
-    pub(super) points: usize,
-    /// SHA-256 of the file.
-    pub(super) file_sha256: String,
-    /// SHA-256 of the samples: the same motion in two files has one.
-    pub(super) samples_sha256: String,
-}
-
-impl Component {
-    /// Its file, with its channel in a file of several.
-    fn place(&self) -> String {
-        let channel = self.channel.map_or_else(String::new, |channel| format!(", channel {channel}"));
-        format!("{}{channel}", self.path.display())
-    }
-}
 
 /// A pair ready for a row of a manifest.
 #[derive(Debug, Clone)]
@@ -70,12 +43,18 @@ pub(super) struct Imported {
     pub(super) components: usize,
 }
 
-/// Finds, reads, pairs and measures the records in the folder and the folders in it.
+/// Finds, reads, pairs and measures the records in `folder` and the folders in it; `pulses` tells whether velocity
+/// pulses are sought.
 ///
 /// # Errors
 /// A folder that cannot be read, and an interruption; what is wrong with single files is among the warnings.
-pub(super) fn find_pairs(options: &ImportOptions, events: &dyn Events) -> Result<Imported, InputsError> {
-    let found = scan(&options.folder)?;
+pub(super) fn find_pairs(
+    folder: &Path,
+    options: FileOptions,
+    pulses: bool,
+    events: &dyn Events,
+) -> Result<Imported, InputsError> {
+    let found = scan(folder)?;
     let mut warnings = Vec::new();
     let search = SearchResults::read(&found.search_results, &mut warnings);
 
@@ -94,9 +73,9 @@ pub(super) fn find_pairs(options: &ImportOptions, events: &dyn Events) -> Result
     let count = components.len();
     let components = without_duplicates(components, &mut warnings);
     let candidates = group::pairs(components, &search, &mut warnings);
-    warnings.extend(search.missing(&candidates));
+    warnings.extend(search.missing(candidates.iter().filter_map(|candidate| candidate.rsn)));
 
-    let measured = each(events, ("measuring", "pairs"), candidates, |candidate| measured::pair(candidate, options))?;
+    let measured = each(events, ("measuring", "pairs"), candidates, |candidate| measured(candidate, options, pulses))?;
     let mut pairs = Vec::new();
     for outcome in measured {
         match outcome {
@@ -111,9 +90,9 @@ pub(super) fn find_pairs(options: &ImportOptions, events: &dyn Events) -> Result
 }
 
 /// The components of a file.
-fn components_of(path: &Path, options: &ImportOptions) -> Result<Vec<Component>, MotionError> {
+fn components_of(path: &Path, options: FileOptions) -> Result<Vec<Component>, MotionError> {
     let bytes = record_bytes(path)?;
-    let file = read_record(&bytes, &path.display().to_string(), &options.files.read_options(None))?;
+    let file = read_record(&bytes, &path.display().to_string(), &options.read_options(None))?;
     let file_sha256 = checksum(&bytes);
     let several = file.recordings.len() > 1;
     let named = RecordName::from_path(path).orientation;
@@ -134,6 +113,35 @@ fn components_of(path: &Path, options: &ImportOptions) -> Result<Vec<Component>,
         }
     });
     Ok(components.collect())
+}
+
+/// Reads and measures both components of a candidate.
+///
+/// # Errors
+/// A file that could be read before and no longer can, or has changed.
+fn measured(candidate: Candidate, options: FileOptions, pulses: bool) -> Result<ImportedPair, String> {
+    let read = |component: &Component| {
+        let bytes = record_bytes(&component.path).map_err(|error| error.to_string())?;
+        if checksum(&bytes) != component.file_sha256 {
+            return Err(format!("{}: changed while it was imported; import again", component.path.display()));
+        }
+        let name = component.path.display().to_string();
+        read_auto(&bytes, &name, &options.read_options(component.channel)).map_err(|error| error.to_string())
+    };
+    let Candidate { id, rsn: _, components, vertical, search } = candidate;
+    let [first, second] = &components;
+    let pair = RecordPair { id, h1: read(first)?, h2: read(second)?, metadata: std::collections::BTreeMap::new() };
+    let mut measures = PairMeasures::from_pair(&pair, options.gravity_m_s2, pulses);
+    if !warnings::are_together([&first.description, &second.description], pair.h1.dt_s()) {
+        // all but the geometric mean would be wrong
+        measures.peaks[1..].fill(None);
+        (measures.pulse, measures.pulse_like) = (None, None);
+    }
+    let mut warnings =
+        warnings::of_pair(&pair, [&first.description, &second.description], &measures, options.gravity_m_s2);
+    let stated_s = search.as_ref().and_then(|entry| entry.d5_95_s);
+    warnings.extend(stated_s.and_then(|stated_s| warnings::of_duration(&pair, measures.durations_s[1], stated_s)));
+    Ok(ImportedPair { id: pair.id, components, vertical, measures, search, warnings })
 }
 
 /// Leaves out what is there already, and says so.

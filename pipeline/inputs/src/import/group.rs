@@ -5,7 +5,7 @@ use std::path::Path;
 
 use uplift_motion::Orientation;
 
-use super::collect::Component;
+use super::component::Component;
 use super::name::RecordName;
 use super::search_results::{Entry, SearchResults};
 use super::warnings::Warning;

@@ -1,14 +1,8 @@
 //! What a pair of components measures.
 
-use uplift_job::checksum::checksum;
 use uplift_motion::{
     Accelerogram, Combination, PulseClassification, RecordPair, classify_pulse, geometric_mean, may_be_pulse_like,
-    read_auto, record_bytes,
 };
-
-use super::collect::{Component, ImportedPair};
-use super::group::Candidate;
-use super::{ImportOptions, warnings};
 
 /// Measures of a pair; of those of single components the geometric mean.
 #[derive(Debug, Clone)]
@@ -53,33 +47,4 @@ impl PairMeasures {
             pulse,
         }
     }
-}
-
-/// Reads and measures both components of a candidate.
-///
-/// # Errors
-/// A file that could be read before and no longer can, or has changed.
-pub(super) fn pair(candidate: Candidate, options: &ImportOptions) -> Result<ImportedPair, String> {
-    let read = |component: &Component| {
-        let bytes = record_bytes(&component.path).map_err(|error| error.to_string())?;
-        if checksum(&bytes) != component.file_sha256 {
-            return Err(format!("{}: changed while it was imported; import again", component.path.display()));
-        }
-        let name = component.path.display().to_string();
-        read_auto(&bytes, &name, &options.files.read_options(component.channel)).map_err(|error| error.to_string())
-    };
-    let Candidate { id, rsn: _, components, vertical, search } = candidate;
-    let [first, second] = &components;
-    let pair = RecordPair { id, h1: read(first)?, h2: read(second)?, metadata: std::collections::BTreeMap::new() };
-    let mut measures = PairMeasures::from_pair(&pair, options.files.gravity_m_s2, options.pulses);
-    if !warnings::are_together([&first.description, &second.description], pair.h1.dt_s()) {
-        // all but the geometric mean would be wrong
-        measures.peaks[1..].fill(None);
-        (measures.pulse, measures.pulse_like) = (None, None);
-    }
-    let mut warnings =
-        warnings::of_pair(&pair, [&first.description, &second.description], &measures, options.files.gravity_m_s2);
-    let stated_s = search.as_ref().and_then(|entry| entry.d5_95_s);
-    warnings.extend(stated_s.and_then(|stated_s| warnings::of_duration(&pair, measures.durations_s[1], stated_s)));
-    Ok(ImportedPair { id: pair.id, components, vertical, measures, search, warnings })
 }

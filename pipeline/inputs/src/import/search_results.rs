@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use uplift_atomic_file::read_file;
 use uplift_job::text_table;
 
-use super::group::Candidate;
 use super::warnings::Warning;
 
 /// What a search result says about a record.
@@ -57,9 +56,9 @@ impl SearchResults {
         self.entries.get(&rsn?)
     }
 
-    /// A warning where records of the search are not among the `candidates`.
-    pub(super) fn missing(&self, candidates: &[Candidate]) -> Option<Warning> {
-        let found: std::collections::BTreeSet<u64> = candidates.iter().filter_map(|candidate| candidate.rsn).collect();
+    /// A warning where records of the search are not among those `found`.
+    pub(super) fn missing(&self, found: impl Iterator<Item = u64>) -> Option<Warning> {
+        let found: std::collections::BTreeSet<u64> = found.collect();
         let missing: Vec<String> =
             self.entries.keys().filter(|rsn| !found.contains(rsn)).map(|rsn| format!("RSN{rsn}")).collect();
         let shown = missing.iter().take(10).cloned().collect::<Vec<_>>().join(", ");

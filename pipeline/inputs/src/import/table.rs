@@ -5,7 +5,8 @@ use std::path::Path;
 use polars::prelude::Column;
 use uplift_motion::{AccelerationUnit, Orientation, RecordingDescription};
 
-use super::collect::{Component, ImportedPair};
+use super::collect::ImportedPair;
+use super::component::Component;
 use crate::FileOptions;
 use crate::manifest::relative;
 

@@ -6,7 +6,6 @@ use serde::Serialize;
 use uplift_job::text::one_line;
 use uplift_motion::{Accelerogram, Orientation, RecordPair, RecordingDescription};
 
-use super::collect::Imported;
 use super::measured::PairMeasures;
 
 /// A remark about a record or a file.
@@ -183,13 +182,13 @@ pub struct Remarks {
 }
 
 impl Remarks {
-    /// Those of an import, files that were not read first, the others in the order in which they came up.
-    pub(super) fn from_import(imported: &Imported) -> Vec<Self> {
+    /// Those of an import: the lines about files that were not read first, the `warnings` in their order.
+    pub(super) fn from_import(not_read: &[String], warnings: &[Warning]) -> Vec<Self> {
         let mut kinds: Vec<Self> = Vec::new();
-        if !imported.passed_over.is_empty() {
-            kinds.push(Self { kind: "not read", texts: imported.passed_over.clone() });
+        if !not_read.is_empty() {
+            kinds.push(Self { kind: "not read", texts: not_read.to_owned() });
         }
-        for warning in &imported.warnings {
+        for warning in warnings {
             match kinds.iter_mut().find(|kind| kind.kind == warning.kind) {
                 Some(kind) => kind.texts.push(warning.text.clone()),
                 None => kinds.push(Self { kind: warning.kind, texts: vec![warning.text.clone()] }),

@@ -12,11 +12,11 @@ use serde::Serialize;
 use uplift_job::JobError;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::{table_text, write_atomically};
-use uplift_job::text::counted;
+use uplift_job::text::{counted, first_names};
 use uplift_job::typed::{Overwriting, number};
 use uplift_motion::{IntensityMeasure, SelectedComponent, SelectedRecord, SelectedSet, SelectionTool, read_selection};
 
-use crate::at_level::{RECORD, check_bytes, level_column, list};
+use crate::at_level::{RECORD, check_bytes, level_column};
 use crate::error::InputsError;
 use crate::manifest;
 use known::KnownRecords;
@@ -217,7 +217,7 @@ impl Rows {
                 several => {
                     mistakes.push(format!(
                         "{name}, {place} {position}: {selected} is {} in the manifest: leave all but one out of it",
-                        list(several)
+                        first_names(several)
                     ));
                     continue;
                 }
@@ -248,7 +248,7 @@ impl Rows {
                 missing.len(),
                 counted(set.records.len(), "record"),
                 options.manifest.display(),
-                list(&missing)
+                first_names(&missing)
             ));
         }
         mistakes

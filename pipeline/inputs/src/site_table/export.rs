@@ -6,11 +6,12 @@ use std::sync::Arc;
 
 use uplift_hazard::{ExportedCurve, ExportedCurves, HazardCurve, HazardError, SitePlace, Statistic};
 use uplift_job::JobError;
-use uplift_study::{UniformRiskStudy, definition_of};
+use uplift_motion::IntensityMeasure;
+use uplift_study::{MeasurePlan, UniformRiskStudy, definition_of};
 
+use super::super::curve_file::{of_the_records_definition, stripe_weights};
 use super::super::hardly_possible::hardly_possible;
-use super::super::hazard::{of_the_records_definition, stripe_weights};
-use super::{ListedSite, Read};
+use super::places::ListedSite;
 use crate::error::InputsError;
 
 const MISTAKES_TOLD: usize = 8;
@@ -18,6 +19,24 @@ const MISTAKES_TOLD: usize = 8;
 const REASONS_KEPT: usize = 1000;
 /// Less than the length of a degree of latitude, km: so a difference in latitude bounds a distance from below.
 const KM_PER_DEGREE: f64 = 111.0;
+
+/// What an export is read for.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Read<'a> {
+    /// The spectra of a measure that the study is analysed by.
+    Analysed(&'a MeasurePlan),
+    /// To be held against what the records bring of a measure.
+    Compared(IntensityMeasure),
+}
+
+impl Read<'_> {
+    pub(super) fn measure(self) -> IntensityMeasure {
+        match self {
+            Self::Analysed(plan) => plan.measure,
+            Self::Compared(measure) => measure,
+        }
+    }
+}
 
 /// Where the sites of an export are, and whether their curves can be used.
 pub(super) struct Index {

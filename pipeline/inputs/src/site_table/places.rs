@@ -7,18 +7,36 @@ use polars::prelude::{DataFrame, StringChunked};
 use uplift_atomic_file::{FileError, read_file};
 use uplift_job::text_table;
 
-use super::ListedSite;
-
 /// Largest table, bytes: some millions of sites.
 const MAX_BYTES: u64 = 256 << 20;
 const MISTAKES_TOLD: usize = 8;
 /// Stands between the cells of further columns.
-pub(super) const BETWEEN_CELLS: char = '\u{1f}';
+const BETWEEN_CELLS: char = '\u{1f}';
 
 /// Column names that are understood, the better ones first.
 const LONGITUDE: [&str; 6] = ["longitude", "longitude_deg", "lon", "lon_deg", "long", "x"];
 const LATITUDE: [&str; 5] = ["latitude", "latitude_deg", "lat", "lat_deg", "y"];
 const NAME: [&str; 7] = ["name", "site", "site_name", "custom_site_id", "site_id", "station", "id"];
+
+/// A site of the table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ListedSite {
+    /// Its name, or its number from 1 if it has none.
+    pub name: Box<str>,
+    /// Longitude as given, degrees.
+    pub longitude_deg: f64,
+    /// Latitude, degrees.
+    pub latitude_deg: f64,
+    /// The cells of further columns, one after the other.
+    pub(super) carried: Box<str>,
+}
+
+impl ListedSite {
+    /// Its cells in the columns of [`SiteList::carried`](super::SiteList::carried).
+    pub fn carried(&self) -> impl Iterator<Item = &str> {
+        self.carried.split(BETWEEN_CELLS)
+    }
+}
 
 /// Sites and the names of the columns that are carried along.
 pub(super) struct Places {

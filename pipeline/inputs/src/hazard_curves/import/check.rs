@@ -2,14 +2,24 @@
 
 use std::collections::BTreeMap;
 
-use uplift_hazard::{ExportedCurve, RealizationWeight, SiteSelection};
+use uplift_hazard::{ExportedCurve, RealizationWeight, SiteSelection, Statistic};
 use uplift_job::JobError;
 
-use super::{HazardImportOptions, weight_of};
 use crate::error::InputsError;
 
 /// How far apart two exports may have the same site, km.
 const ONE_PLACE_KM: f64 = 1.0;
+
+/// The weight of a realization; none of other statistics.
+pub(super) fn weight_of(kind: &Statistic, weights: &BTreeMap<u32, RealizationWeight>) -> Option<f64> {
+    match kind {
+        Statistic::Realization(number) => weights.get(number).map(|weight| weight.weight),
+        Statistic::Branch(path) => {
+            weights.values().find(|weight| weight.branch_path == *path).map(|weight| weight.weight)
+        }
+        _ => None,
+    }
+}
 
 /// Refuses weights of only some realizations of a measure.
 pub(super) fn check_weights(
@@ -35,7 +45,7 @@ pub(super) fn check_weights(
 }
 
 /// The name of the site that all curves belong to.
-pub(super) fn one_site(curves: &[ExportedCurve], options: &HazardImportOptions) -> Result<String, InputsError> {
+pub(super) fn one_site(curves: &[ExportedCurve], selection: &SiteSelection) -> Result<String, InputsError> {
     let Some(first) = curves.first() else {
         return Err(JobError::input("the export has no hazard curve").into());
     };
@@ -46,7 +56,7 @@ pub(super) fn one_site(curves: &[ExportedCurve], options: &HazardImportOptions) 
     sites.sort();
     sites.dedup();
     // several engines write the same place with other digits
-    let chosen = options.site != SiteSelection::All;
+    let chosen = *selection != SiteSelection::All;
     if let (true, Some(other)) = (
         chosen,
         curves

@@ -6,7 +6,12 @@ use std::path::Path;
 use uplift_hazard::{ExportedCurve, HazardCurve, Statistic};
 use uplift_motion::IntensityMeasure;
 
-use super::Chosen;
+/// A curve with the file that it is written to.
+pub(super) struct Chosen {
+    pub(super) exported: ExportedCurve,
+    pub(super) file: String,
+    pub(super) weight: Option<f64>,
+}
 
 /// `pgv`, `pgv-quantile-0.15`, `pga-realization-003`, …
 pub(super) fn file_stem(exported: &ExportedCurve) -> String {
