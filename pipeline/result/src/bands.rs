@@ -6,10 +6,10 @@ use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
 use super::declared::{Names, group, of_measure};
-use super::file::ResultFile;
 use super::layout::attribute::bootstrap as attribute;
 use super::layout::axis::{POE, RECORD, REPLICATE, SAMPLE_SIZE, SITE, STRENGTH};
 use super::layout::limit_names;
+use super::stored_result::StoredResult;
 use crate::error::ResultError;
 
 /// The confidence bands of a result.
@@ -309,23 +309,11 @@ pub fn band_lengths([sites, poes, sizes, strengths]: [usize; 4]) -> [(&'static s
     [(SITE.name, sites), (POE.name, poes), (SAMPLE_SIZE.name, sizes), (STRENGTH.name, strengths)]
 }
 
-impl ResultFile {
-    /// The confidence bands of a result of uniform risk; none before `uplift bootstrap`, and none of risks that it was
-    /// asked for before they are resampled.
+impl StoredResult {
+    /// The confidence bands at the probabilities of the study; none before `uplift bootstrap`.
     ///
     /// # Errors
     /// A file that is damaged, or of another kind.
-    pub fn bands(&self) -> Result<Option<StoredBands>, ResultError> {
-        match &self.asked {
-            Some(asked) => Ok(asked.bands.clone()),
-            None => self.stored_bands(),
-        }
-    }
-
-    /// The same as the file has them, of the probabilities of its study.
-    ///
-    /// # Errors
-    /// As [`bands`](Self::bands).
     pub fn stored_bands(&self) -> Result<Option<StoredBands>, ResultError> {
         let axes = self.stored_axes()?;
         if !self.reader.exists(BANDS.root()) {
@@ -428,7 +416,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn draws(&self) -> Result<Option<StoredDraws>, ResultError> {
-        let records = self.axes()?.records.len();
+        let records = self.stored_axes()?.records.len();
         if !DRAWS.is_in(self, &[]) {
             return Ok(None);
         }

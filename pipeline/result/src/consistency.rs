@@ -6,9 +6,9 @@ use uplift_motion::IntensityMeasure;
 use uplift_risk::Ordinate;
 
 use super::declared::{Group, Quantity, group, of_measure};
-use super::file::ResultFile;
 use super::layout::axis::{KNOT, POE, RATE, RECORD, SITE, STRENGTH, STRIPE_LEVEL};
 use super::spectra::{Fit, Fits, regression};
+use super::stored_result::StoredResult;
 use crate::error::ResultError;
 
 /// The consistency of the records scaled to one measure; NaN at sites that were not looked at.
@@ -158,17 +158,14 @@ impl StoredConsistency {
     }
 }
 
-impl ResultFile {
-    /// The consistency of the records with the hazard of another measure, at the risks asked for: one for each measure
+impl StoredResult {
+    /// The consistency of the records with the hazard of another measure, at the study's risks: one for each measure
     /// that they are scaled to; none where no site has curves of two measures, and in results of versions that did not
     /// ask.
     ///
     /// # Errors
     /// A file that is damaged, or of another kind.
-    pub fn consistency(&self) -> Result<Vec<StoredConsistency>, ResultError> {
-        if let Some(asked) = &self.asked {
-            return Ok(asked.consistency.clone());
-        }
+    pub fn stored_consistency(&self) -> Result<Vec<StoredConsistency>, ResultError> {
         let mut found = Vec::new();
         for scaled_to in self.measures() {
             let arrays = self.reader.children(&CONSISTENCY.of_measure(scaled_to)).unwrap_or_default();

@@ -2,7 +2,6 @@
 //! reading, the tables of `docs/hdf5-layout.md` and the names in exports follow from it. Most are rows of a `group!`.
 //! Add new rows at the end, marked `later`: a group is recognised by its first row that is not.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
 use uplift_job::Array;
@@ -10,19 +9,13 @@ use uplift_labelled::{LabelledError, LabelledWriter, Number};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::OrdinateFlag;
 
-use super::file::ResultFile;
+use super::layout::names::named;
+pub use super::layout::names::{Names, of_measure};
+use super::stored_result::StoredResult;
 use crate::error::ResultError;
 
 /// The flag of an ordinate that does not exist, of records that could not be repaired.
 pub const NO_ORDINATE: u8 = 3;
-
-/// What stands in a result for the names in angle brackets of a declaration: `<im>`, `<site>`.
-pub type Names<'a> = &'a [(&'a str, &'a str)];
-
-/// The names of the arrays of one measure.
-pub fn of_measure(measure: IntensityMeasure) -> [(&'static str, &'static str); 1] {
-    [("<im>", measure.key())]
-}
 
 /// An array of a result, and the field of the plain value `T` that it holds.
 pub struct Quantity<T: 'static> {
@@ -237,7 +230,13 @@ impl<T> Quantity<T> {
         }
     }
 
-    fn read(&self, file: &ResultFile, path: &str, shape: &[(String, usize)], value: &mut T) -> Result<(), ResultError> {
+    fn read(
+        &self,
+        file: &StoredResult,
+        path: &str,
+        shape: &[(String, usize)],
+        value: &mut T,
+    ) -> Result<(), ResultError> {
         fn fill<T, V>(value: &mut T, place: &Place<T, V>, values: impl IntoIterator<Item = V>) {
             for (index, own) in values.into_iter().enumerate() {
                 *(place.get_mut)(value, index) = own;
@@ -325,12 +324,12 @@ impl<T> Group<T> {
     }
 
     /// Whether `file` has that array.
-    pub(super) fn is_in(&self, file: &ResultFile, names: Names<'_>) -> bool {
+    pub(super) fn is_in(&self, file: &StoredResult, names: Names<'_>) -> bool {
         file.reader.exists(&self.first_path(names))
     }
 
     /// The array `name`.
-    fn quantity(&self, file: &ResultFile, name: &str) -> Result<&'static Quantity<T>, ResultError> {
+    fn quantity(&self, file: &StoredResult, name: &str) -> Result<&'static Quantity<T>, ResultError> {
         let named = self.quantities.iter().find(|own| own.name == name);
         named.ok_or_else(|| file.fail(format!("{} has no array {name}", self.path)))
     }
@@ -371,7 +370,7 @@ impl<T> Group<T> {
     pub(super) fn read_array<const N: usize>(
         &self,
         name: &str,
-        file: &ResultFile,
+        file: &StoredResult,
         names: Names<'_>,
         lengths: [(&str, usize); N],
     ) -> Result<Array<N>, ResultError> {
@@ -382,7 +381,7 @@ impl<T> Group<T> {
     pub(super) fn read_floats(
         &self,
         name: &str,
-        file: &ResultFile,
+        file: &StoredResult,
         names: Names<'_>,
         lengths: Lengths<'_>,
     ) -> Result<Vec<f64>, ResultError> {
@@ -394,7 +393,7 @@ impl<T> Group<T> {
     /// Reads every array into `value`, which has a place for every value.
     pub(super) fn read(
         &self,
-        file: &ResultFile,
+        file: &StoredResult,
         names: Names<'_>,
         lengths: Lengths<'_>,
         value: &mut T,
@@ -405,7 +404,7 @@ impl<T> Group<T> {
     }
 
     /// Whether every array holds exactly the values of `rows`, one a row.
-    pub(super) fn holds(&self, file: &ResultFile, names: Names<'_>, rows: &[T]) -> Result<bool, ResultError> {
+    pub(super) fn holds(&self, file: &StoredResult, names: Names<'_>, rows: &[T]) -> Result<bool, ResultError> {
         for quantity in self.quantities {
             let path = self.path(quantity, names);
             let (reader, row) = (&file.reader, rows.iter());
@@ -428,14 +427,6 @@ impl<T> Group<T> {
         }
         Ok(true)
     }
-}
-
-/// A text with `names` for what stands in angle brackets.
-pub(super) fn named<'a>(text: &'a str, names: Names<'_>) -> Cow<'a, str> {
-    if !text.contains('<') {
-        return text.into();
-    }
-    names.iter().fold(text.to_owned(), |text, (sign, name)| text.replace(sign, name)).into()
 }
 
 #[cfg(test)]

@@ -7,10 +7,11 @@ use uplift_spectra::{Noisy, RestrainedExample, SolitaryExample};
 use uplift_structure::Rule;
 use uplift_study::Kind;
 
-use super::declared::{Group, Names, Quantity, group, named};
+use super::declared::{Group, Names, Quantity, group};
 use super::file::ResultFile;
 use super::layout::attribute::{Attribute, design as attribute};
 use super::layout::axis::{BOUND, RECORD_SET, RULE, SCALED_BY, SCALING};
+use super::layout::names::named;
 use crate::error::ResultError;
 
 /// The rules that a restrained bridge is designed by, in the order of the results.

@@ -8,14 +8,11 @@ use uplift_job::checksum::checksum;
 use uplift_job::outputs;
 
 use super::file::ResultFile;
-use super::head::Head;
+use super::head::{Head, UNSAID_NUMERICS};
 use crate::error::ResultError;
 
 /// Letters of a digest that is written into tables and figures: two results of a folder do not share them.
 const LETTERS: usize = 12;
-
-/// The last version of the solver's numbers whose results do not say it: what they are known by stays as it was.
-pub(super) const UNSAID_NUMERICS: u32 = 3;
 
 /// The digest of a study, complete as in a result, of its inputs, name to SHA-256, and of the version of the solver's
 /// numbers. Where its files lie, its title and what is asked of a result later do not count.

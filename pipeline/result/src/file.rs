@@ -1,17 +1,14 @@
 //! A result file: opened once, and read part by part as each is asked for.
 
-use std::path::{Path, PathBuf};
+use std::ops::Deref;
+use std::path::Path;
 
-use uplift_job::outputs::{SITE_ARRAYS, SITE_SPECTRA, SITES_KIND, beside};
-use uplift_job::{Array, JobError};
-use uplift_labelled::{LabelledArray, LabelledReader};
-use uplift_study::Kind;
+use uplift_job::outputs::{SITE_ARRAYS, SITE_SPECTRA, beside};
 
-use super::asked_spectra::AskedSpectra;
-use super::head::kind_of;
-use super::layout::attribute::root;
-use super::layout::{LAYOUT, axis};
-use super::other_file::no_result;
+use super::bands::StoredBands;
+use super::consistency::StoredConsistency;
+use super::spectra::StoredSpectra;
+use super::stored_result::{RiskAxes, StoredResult};
 use crate::error::ResultError;
 
 /// The result of a study of any kind, open for reading.
@@ -40,8 +37,8 @@ use crate::error::ResultError;
 /// | [`records`](Self::records) | what is known of the records |
 /// | [`hazard`](Self::hazard) | the hazard curves as used |
 /// | [`spectra`](Self::spectra) | the spectra and their coefficients, as the study read them |
-/// | [`peaks`](Self::peaks) | peak displacements of all runs |
-/// | [`bands`](Self::bands), [`draws`](Self::draws) | confidence bands and their draws |
+/// | [`peaks`](StoredResult::peaks) | peak displacements of all runs |
+/// | [`bands`](Self::bands), [`draws`](StoredResult::draws) | confidence bands and their draws |
 /// | [`influence`](Self::influence) | what each record and intensity does to the spectra |
 /// | [`findings`](Self::findings) | what structures were asked, and the answers |
 /// | [`stored_study`](Self::stored_study) | the study itself |
@@ -52,79 +49,36 @@ use crate::error::ResultError;
 /// | **of a shaking table** | |
 /// | [`shake_table`](Self::shake_table) | every test |
 pub struct ResultFile {
-    pub(super) path: PathBuf,
-    pub(super) reader: LabelledReader,
-    kind: Kind,
+    stored: StoredResult,
     /// What it was asked for in place of the risks of its study.
-    pub(super) asked: Option<AskedSpectra>,
+    asked: Option<AskedSpectra>,
 }
 
-/// The axes of a result of uniform risk.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RiskAxes {
-    /// Names of the records.
-    pub records: Vec<String>,
-    /// Uplift strengths.
-    pub strengths: Vec<f64>,
-    /// Probabilities of exceedance.
-    pub poes: Vec<f64>,
-    /// Years that they refer to.
-    pub years: f64,
-    /// Names of the sites; none in a study that ends with the stripes.
-    pub sites: Vec<String>,
+/// What a result says of the risks that it was asked for.
+struct AskedSpectra {
+    /// The spectra.
+    spectra: StoredSpectra,
+    /// Whether the records have the hazard of the other measure.
+    consistency: Vec<StoredConsistency>,
+    /// Bands; none until they are made.
+    bands: Option<StoredBands>,
+}
+
+impl Deref for ResultFile {
+    type Target = StoredResult;
+
+    fn deref(&self) -> &StoredResult {
+        &self.stored
+    }
 }
 
 impl ResultFile {
-    /// Open the result at `path`.
+    /// Opens the result at `path`.
     ///
     /// # Errors
     /// A file that is missing, damaged, not a result, or of another layout.
     pub fn open(path: &Path) -> Result<Self, ResultError> {
-        let reader = LabelledReader::open(path).map_err(|error| no_result(path, error))?;
-        let program = root::PROGRAM.read(&reader, &[]).unwrap_or_default();
-        if program != "uplift" {
-            let is_sites = root::KIND.read(&reader, &[]).is_ok_and(|kind| kind == SITES_KIND);
-            let what = if is_sites { "the sites of a result as arrays" } else { "an HDF5 file" };
-            return Err(JobError::input(format!(
-                "{}: is {what}, but not a result of uplift: give the file that `uplift run` wrote",
-                path.display()
-            ))
-            .into());
-        }
-        let layout = root::LAYOUT.read(&reader, &[])?;
-        if layout != LAYOUT {
-            return Err(JobError::input(format!(
-                "{}: has layout {layout}, this version of uplift ({}) reads layout {LAYOUT}: run the study again",
-                path.display(),
-                uplift_job::VERSION
-            ))
-            .into());
-        }
-        let kind = kind_of(&reader);
-        Ok(Self { path: path.to_owned(), reader, kind, asked: None })
-    }
-
-    /// The file.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// Checksum of the file.
-    pub(super) fn identity(&self) -> &str {
-        self.reader.identity()
-    }
-
-    /// Seed of the study.
-    ///
-    /// # Errors
-    /// A file that is damaged.
-    pub fn seed(&self) -> Result<u64, ResultError> {
-        Ok(root::SEED.read(&self.reader, &[])?)
-    }
-
-    /// What its study is of.
-    pub fn kind(&self) -> Kind {
-        self.kind
+        Ok(Self { stored: StoredResult::open(path)?, asked: None })
     }
 
     /// The axes of a result of uniform risk, with the probabilities that it was asked for, if it was.
@@ -136,36 +90,6 @@ impl ResultFile {
         if let Some(asked) = &self.asked {
             axes.poes.clone_from(&asked.spectra.poes);
             axes.years = asked.spectra.years;
-        }
-        Ok(axes)
-    }
-
-    /// The axes as the file has them.
-    ///
-    /// # Errors
-    /// A file that is damaged, or of another kind.
-    pub fn stored_axes(&self) -> Result<RiskAxes, ResultError> {
-        self.require(Kind::UniformRisk)?;
-        let reader = &self.reader;
-        let axes = RiskAxes {
-            records: reader.axis::<String>(axis::RECORD.name)?,
-            strengths: reader.axis::<f64>(axis::STRENGTH.name)?,
-            poes: reader.axis::<f64>(axis::POE.name)?,
-            years: root::POE_YEARS.read(reader, &[])?,
-            sites: if reader.exists(&axis::path(axis::SITE.name)) {
-                reader.axis::<String>(axis::SITE.name)?
-            } else {
-                Vec::new()
-            },
-        };
-        for (name, length) in [
-            (axis::RECORD.name, axes.records.len()),
-            (axis::STRENGTH.name, axes.strengths.len()),
-            (axis::POE.name, axes.poes.len()),
-        ] {
-            if length == 0 {
-                return Err(self.damaged(format!("{} is empty", axis::path(name))));
-            }
         }
         Ok(axes)
     }
@@ -192,75 +116,59 @@ impl ResultFile {
         self.fail("the study has no sites, so the result has no spectra: add [[sites]] and run it again")
     }
 
-    /// Refuses a result of another kind than `wanted`.
+    /// The spectra and coefficients of a result of uniform risk; of the risks that it was asked for, if it was
+    /// ([`with_spectra`](Self::with_spectra)).
     ///
     /// # Errors
     /// A file that is damaged, or of another kind.
-    pub fn require(&self, wanted: Kind) -> Result<(), ResultError> {
-        if self.kind == wanted {
-            return Ok(());
+    pub fn spectra(&self) -> Result<StoredSpectra, ResultError> {
+        self.asked.as_ref().map_or_else(|| self.stored_spectra(), |asked| Ok(asked.spectra.clone()))
+    }
+
+    /// The consistency of the records with the hazard of another measure, at the risks asked for.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn consistency(&self) -> Result<Vec<StoredConsistency>, ResultError> {
+        self.asked.as_ref().map_or_else(|| self.stored_consistency(), |asked| Ok(asked.consistency.clone()))
+    }
+
+    /// The confidence bands of a result of uniform risk; none before `uplift bootstrap`, and none of risks that it was
+    /// asked for before they are resampled.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn bands(&self) -> Result<Option<StoredBands>, ResultError> {
+        self.asked.as_ref().map_or_else(|| self.stored_bands(), |asked| Ok(asked.bands.clone()))
+    }
+
+    /// The same result with other spectra: axes, spectra and coefficients are from now on of these.
+    #[must_use]
+    pub fn with_spectra(mut self, spectra: StoredSpectra) -> Self {
+        self.asked = Some(AskedSpectra { spectra, consistency: Vec::new(), bands: None });
+        self
+    }
+
+    /// The same with what consistency says at the risks that it was asked for.
+    #[must_use]
+    pub fn with_consistency(mut self, consistency: Vec<StoredConsistency>) -> Self {
+        if let Some(asked) = &mut self.asked {
+            asked.consistency = consistency;
         }
-        Err(self.fail(match self.kind {
-            Kind::Displacement => {
-                "holds displacement spectra of record sets, not uniform risk spectra: use `uplift table`, `plot`, \
-                 `report`, `status` or `verify`, or the CSV tables beside it (other programs: docs/exports.md)"
-            }
-            Kind::ShakeTable => {
-                "holds the tests of a shaking table: use `uplift table`, `plot`, `report`, `validate`, `status` or \
-                 `verify`, or the CSV table beside it"
-            }
-            Kind::UniformRisk if wanted == Kind::ShakeTable => {
-                "holds uniform risk spectra, not tests of a shaking table"
-            }
-            Kind::UniformRisk => "holds uniform risk spectra, not displacement spectra of record sets",
-        }))
+        self
     }
 
-    /// An array over `axes`, each its name and length.
-    pub(super) fn array<const N: usize>(&self, path: &str, axes: [(&str, usize); N]) -> Result<Array<N>, ResultError> {
-        self.over(path, self.reader.array::<f64>(path)?, axes)
-    }
-
-    /// `array`, read from `path`, if it runs over `axes`, each its name and length.
-    pub(super) fn over<const N: usize, T>(
-        &self,
-        path: &str,
-        array: LabelledArray<T>,
-        axes: [(&str, usize); N],
-    ) -> Result<Array<N, T>, ResultError> {
-        let values = self.checked(path, array, &axes)?;
-        Array::new(axes.map(|(_, length)| length), values).map_err(|error| self.damaged(format!("{path}: {error}")))
-    }
-
-    /// The values of `array`, read from `path`, if it runs over `axes`, each its name and length.
-    pub(super) fn checked<T>(
-        &self,
-        path: &str,
-        array: LabelledArray<T>,
-        axes: &[(impl AsRef<str>, usize)],
-    ) -> Result<Vec<T>, ResultError> {
-        let names: Vec<&str> = axes.iter().map(|(name, _)| name.as_ref()).collect();
-        let shape: Vec<usize> = axes.iter().map(|(_, length)| *length).collect();
-        if array.dims != names {
-            return Err(self.damaged(format!(
-                "{path} runs over {}, not over {}",
-                array.dims.join(", "),
-                names.join(", ")
-            )));
+    /// The same with `bands` at the risks that it was asked for.
+    #[must_use]
+    pub fn with_bands(mut self, bands: StoredBands) -> Self {
+        if let Some(asked) = &mut self.asked {
+            asked.bands = Some(bands);
         }
-        if array.shape != shape {
-            return Err(self.damaged(format!("{path} has the shape {:?}, not {shape:?} as its axes", array.shape)));
-        }
-        Ok(array.values)
+        self
     }
 
-    /// What is wrong with this file.
-    pub fn fail(&self, reason: impl std::fmt::Display) -> ResultError {
-        JobError::input(format!("{}: {reason}", self.path.display())).into()
-    }
-
-    /// A contradiction within this file.
-    pub fn damaged(&self, what: impl std::fmt::Display) -> ResultError {
-        self.fail(format!("{what}: the file is damaged"))
+    /// Whether it was asked for other risks than those of its study.
+    pub fn is_asked(&self) -> bool {
+        self.asked.is_some()
     }
 }

@@ -3,11 +3,10 @@
 use uplift_hazard::HazardCurve;
 use uplift_motion::IntensityMeasure;
 
-use super::declared::{group, of_measure};
+use super::declared::group;
 use super::file::ResultFile;
 use super::layout::attribute::curve::{NAME, WEIGHT};
 use super::layout::axis;
-use super::peaks::PEAKS;
 use crate::error::ResultError;
 
 /// The hazard of one measure.
@@ -83,20 +82,6 @@ impl ResultFile {
             Ok(StoredHazard { measure, sites })
         };
         self.measures().into_iter().map(of_measure).collect()
-    }
-
-    /// The measures with stripes, PGV first.
-    pub fn measures(&self) -> Vec<IntensityMeasure> {
-        let is_there = |measure: &IntensityMeasure| PEAKS.is_in(self, &of_measure(*measure));
-        self.measures_in(PEAKS.root()).into_iter().filter(is_there).collect()
-    }
-
-    /// The measures with a group of their own in `group`, PGV first; none where there is no such group.
-    pub(super) fn measures_in(&self, group: &str) -> Vec<IntensityMeasure> {
-        let children = self.reader.children(group).unwrap_or_default();
-        let mut measures: Vec<IntensityMeasure> = children.iter().filter_map(|name| name.parse().ok()).collect();
-        measures.sort_unstable();
-        measures
     }
 
     /// The curve of a site by any measure, whether the study is analysed by it or not; none where it has none.

@@ -3,17 +3,18 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use uplift_labelled::LabelledReader;
 use uplift_study::Kind;
 
 use super::declared::of_measure;
-use super::digest::UNSAID_NUMERICS;
 use super::file::ResultFile;
 use super::kept_groups::added;
 use super::layout::attribute::{self, Attribute, root};
 use super::layout::axis;
 use super::{MOTIONS, PEAKS, RESTRAINED_DESIGN};
 use crate::error::ResultError;
+
+/// The last version of the solver's numbers whose results do not say it: what they are known by stays as it was.
+pub(super) const UNSAID_NUMERICS: u32 = 3;
 
 /// Where the numbers of a result come from: what results of every kind say at their root.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,12 +86,6 @@ pub enum Overview {
         /// Excitations.
         excitations: usize,
     },
-}
-
-/// What the result in `reader` is of; uniform risk where it does not say.
-pub(super) fn kind_of(reader: &LabelledReader) -> Kind {
-    let is = |kind: &Kind| root::KIND.read(reader, &[]).is_ok_and(|word| word == kind.key());
-    Kind::ALL.into_iter().find(is).unwrap_or(Kind::UniformRisk)
 }
 
 impl ResultFile {

@@ -2,6 +2,7 @@
 
 pub mod attribute;
 pub mod axis;
+pub mod names;
 
 use std::collections::BTreeSet;
 

@@ -3,7 +3,6 @@
 //! [`ResultFile`] opens a result and reads it part by part; arrays are [`declared`] beside the values that they hold,
 //! and [`layout`] has axes and attributes.
 
-mod asked_spectra;
 mod band_kind;
 mod bands;
 mod consistency;
@@ -29,10 +28,10 @@ mod records;
 mod shake_table;
 mod spectra;
 mod spread;
+mod stored_result;
 mod study;
 mod target;
 
-pub use asked_spectra::AskedSpectra;
 pub use band_kind::{BandKind, BandsOfKind, before_unit};
 pub use bands::{
     BANDS, DRAWS, FAILED_PAIRS, FAILED_SAMPLES, INFERRED_BANDS, JOINT_BANDS, REPAIRED_BANDS, SIMULTANEOUS_BANDS,
@@ -55,7 +54,7 @@ pub use efficiency::{EFFICIENCY, EFFICIENCY_OF_STRIPES, TRENDS};
 pub use efficiency::{StoredEfficiency, StoredTrend};
 pub use error::ResultError;
 pub use extend::{LockedResult, sign};
-pub use file::{ResultFile, RiskAxes};
+pub use file::ResultFile;
 pub use findings::{FINDINGS, Finding, FindingRow, Inquiry, StoredFinding};
 pub use hazard::{HAZARD_CURVE, branch_curve_name, curve_name};
 pub use hazard::{StoredBranch, StoredCurves, StoredHazard};
@@ -75,6 +74,7 @@ pub use spread::{
     UNCERTAINTY_SPECTRA,
 };
 pub use spread::{FRACTILES, Spread, SpreadOver, StoredSpread};
+pub use stored_result::{RiskAxes, StoredResult};
 pub use target::{check_place, replaces_another};
 pub use target::{check_target, is_hdf5};
 pub use uplift_study::Kind;

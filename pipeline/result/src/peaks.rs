@@ -3,10 +3,9 @@
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
-use super::RiskAxes;
 use super::declared::{group, of_measure};
-use super::file::ResultFile;
 use super::layout::axis::{RECORD, SITE, STRENGTH, STRIPE_LEVEL, THRESHOLD};
+use super::stored_result::{RiskAxes, StoredResult};
 use crate::error::ResultError;
 
 group! {
@@ -64,7 +63,13 @@ pub struct SetsOfLevels {
     pub shares: Option<Vec<f64>>,
 }
 
-impl ResultFile {
+impl StoredResult {
+    /// The measures with stripes, PGV first.
+    pub fn measures(&self) -> Vec<IntensityMeasure> {
+        let is_there = |measure: &IntensityMeasure| PEAKS.is_in(self, &of_measure(*measure));
+        self.measures_in(PEAKS.root()).into_iter().filter(is_there).collect()
+    }
+
     /// The peak displacements by `measure`, over `axes`.
     ///
     /// # Errors

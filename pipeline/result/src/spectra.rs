@@ -8,9 +8,9 @@ use uplift_regression::{Exponential, ExponentialFit};
 use uplift_risk::OrdinateFlag;
 
 use super::declared::{Group, Quantity, of_measure, quantity};
-use super::file::ResultFile;
 use super::layout::attribute::{Attribute, precision as attribute};
 use super::layout::axis;
+use super::stored_result::{RiskAxes, StoredResult};
 use crate::error::ResultError;
 
 /// The spectra of a result, read as its study says (`risk.contour`), with their coefficients.
@@ -250,7 +250,7 @@ impl MeasureSpectra {
     }
 }
 
-impl ResultFile {
+impl StoredResult {
     /// How well the records know the spectra, a sentence a measure; none in older results, and where nothing can be
     /// said.
     pub fn precision(&self) -> Vec<String> {
@@ -266,16 +266,12 @@ impl ResultFile {
         Some([width(&attribute::HALF_WIDTH)?, width(&attribute::HALF_WIDTH_BY_EVENT)?])
     }
 
-    /// The spectra and coefficients of a result of uniform risk; of the risks that it was asked for, if it was
-    /// ([`with_spectra`](Self::with_spectra)).
+    /// The spectra and coefficients of a result of uniform risk, at the study's risks.
     ///
     /// # Errors
     /// A file that is damaged, or of another kind.
-    pub fn spectra(&self) -> Result<StoredSpectra, ResultError> {
-        if let Some(asked) = &self.asked {
-            return Ok(asked.spectra.clone());
-        }
-        let axes = self.axes()?;
+    pub fn stored_spectra(&self) -> Result<StoredSpectra, ResultError> {
+        let axes = self.stored_axes()?;
         let shape = [axes.sites.len(), axes.poes.len(), axes.strengths.len()];
         let mut measures = Vec::new();
         for measure in self.measures_in(urs::GROUP.root()) {
@@ -285,7 +281,7 @@ impl ResultFile {
             urs::GROUP.read(self, &of_measure(measure), &lengths, &mut spectra)?;
             measures.push(spectra);
         }
-        let super::RiskAxes { strengths, poes, years, sites, .. } = axes;
+        let RiskAxes { strengths, poes, years, sites, .. } = axes;
         Ok(StoredSpectra { strengths, poes, years, sites, measures })
     }
 }

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use uplift_labelled::{AttributeValue, LabelledError, LabelledReader, LabelledWriter, Value};
 
-use crate::declared::{Names, named};
+use super::names::{Names, named};
 
 /// An attribute of the type `V`. What stands in angle brackets in the path of its group is replaced by [`Names`].
 pub struct Attribute<V> {

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use uplift_labelled::{LabelledError, LabelledWriter, Number};
 use uplift_motion::IntensityMeasure;
 
+use super::names::{Names, named, of_measure};
 use super::{axis_part, unique_axis};
-use crate::declared::{Names, named, of_measure};
 
 /// An axis of a result. What stands in angle brackets is replaced by [`Names`].
 #[derive(Debug, Clone, Copy)]
