@@ -12,7 +12,7 @@ use uplift_result::ResultFile;
 use uplift_study::{AnyStudy, Structure, UniformRiskStudy};
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult};
 
-use super::own_frame::Pairs;
+use super::pairs::Pairs;
 use crate::error::DesignError;
 
 /// The site of a result at which a structure is examined, and the measure by which it is.

@@ -2,19 +2,17 @@
 //! (Section 2.4.3).
 
 mod analysis;
+mod options;
 mod report;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use clap::Args;
 use uplift_alarms::{OwnRisk, Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
 use uplift_engine::analysis::{Analysed, ShardReport};
 use uplift_fragility::Stripes as Stripe;
 use uplift_ida::{Shard, System};
 use uplift_inputs::RecordSet;
 use uplift_job::events::Events;
-use uplift_job::typed::number;
-use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
 use uplift_risk::{PooledDemand, RunWeights};
 use uplift_spectra::NUDGES;
@@ -36,37 +34,9 @@ use super::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
 use crate::error::DesignError;
 use analysis::{OSCILLATOR, factors};
 pub(crate) use analysis::{OverturningAnalysis, peaks_m};
+pub use options::OverturningOptions;
 pub use report::{CollapseReport, ModelReport, OverturningReport, SiteRisk};
 use report::{Collapses, FrameCollapses, reports};
-
-/// What is asked of the overturning of a structure.
-#[derive(Debug, Clone, Default, PartialEq, Args)]
-pub struct OverturningOptions {
-    /// Manifest of the records, where it is no longer where the study says.
-    #[arg(skip)]
-    pub manifest: Option<PathBuf>,
-    /// Site [default: all]
-    #[arg(long)]
-    pub site: Option<String>,
-    /// Intensity measure [default: all]
-    #[arg(long)]
-    pub measure: Option<IntensityMeasure>,
-    /// Coefficient of restitution of both models
-    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
-    pub restitution: Option<f64>,
-    /// Count the proxy alone, without the wobbling frame
-    #[arg(long)]
-    pub proxy: bool,
-    /// CSV file of the collapse fragility to write; the risk goes to one that ends in .risk.csv beside it.
-    #[arg(skip)]
-    pub table: Option<PathBuf>,
-    /// Every shard of the analyses, as [`overturning_shard`] wrote them; none to compute them here.
-    #[arg(skip)]
-    pub shards: Vec<PathBuf>,
-    /// Whether existing files are overwritten.
-    #[arg(skip)]
-    pub force: bool,
-}
 
 /// How often `structure` overturns under the records and the hazard of the result at `result`.
 ///

@@ -4,8 +4,8 @@ use serde::Serialize;
 use uplift_spectra::Noisy;
 use uplift_structure::{Rule, relative_error};
 
-use super::demand::Shaken;
 use super::risk::OVERTURNING_M;
+use super::shaken::Shaken;
 use super::sweep::{Neighbours, OF_STUDY, OWN, ZERO_STIFFNESS};
 use crate::error::DesignError;
 

@@ -11,10 +11,8 @@ use super::certainty::Bands;
 use super::overturning::{CollapseReport, OverturningReport, SiteRisk};
 use super::uncertain::{UncertainFinding, UncertaintyReport};
 use crate::error::DesignError;
+use uncertain::add_limits;
 use uplift_job::outputs;
-
-/// Names of the percentiles of what is not known exactly, in their order.
-pub(super) const PERCENTILES: [&str; 5] = ["p05", "p16", "p50", "p84", "p95"];
 
 /// The table of risks beside that of the fragility.
 pub(super) fn risk_path(fragility: &Path) -> PathBuf {
@@ -96,17 +94,6 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
         columns.extend(uncertain::columns(uncertainty, &found));
     }
     columns
-}
-
-/// Adds the limits of a band of frequencies; no columns of one that is never told.
-fn add_limits(columns: &mut Vec<Column>, name: &str, limits: &[Option<[f64; 2]>]) {
-    if limits.iter().all(Option::is_none) {
-        return;
-    }
-    for (place, end) in ["lower", "upper"].into_iter().enumerate() {
-        let values: Vec<Option<f64>> = limits.iter().map(|limits| Some((*limits)?[place])).collect();
-        columns.push(Column::new(format!("{name}_{end}_per_year").into(), values));
-    }
 }
 
 /// What `report` finds in a row of the risks; none for the block, which takes no account of what is not known.

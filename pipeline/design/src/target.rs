@@ -26,9 +26,10 @@ use uplift_study::Structure;
 
 pub use band::{TargetBand, TargetUncertainty};
 pub use frame::{TargetFrame, TargetFrameModel, TriedFrame};
-pub use report::{FoundSystem, GenericTarget, LevelShare, TargetByMeasure, TargetReport, TriedValue};
+pub use report::{FoundSystem, GenericTarget, TargetByMeasure, TargetReport, TriedValue};
 pub use request::{Exceeded, TargetEvent, TargetOptions};
 pub use search::Crossing;
+pub use trial::LevelShare;
 
 use super::certainty::Scatter;
 use super::hazard::Hazard;

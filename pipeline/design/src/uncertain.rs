@@ -4,24 +4,24 @@
 mod around;
 mod branches;
 mod draws;
+mod question;
 mod report;
 mod words;
 
-use uplift_bootstrap::{BootstrapError, ResamplingPlan};
 use uplift_ida::System;
 use uplift_structure::{EquivalentSystem, Realization};
 use uplift_study::{MeasurePlan, Structure, Uncertainty, UncertaintyKind, UniformRiskStudy};
 
 pub(super) use around::Around;
+pub(super) use question::{Event, SiteQuestions};
+pub(super) use report::PERCENTILES;
 pub use report::{
     AleatoryResult, EpistemicResult, QuantityReport, Spread, UncertainFinding, UncertainResult, UncertaintyReport,
     VarianceShare,
 };
 
 use super::certainty::Scatter;
-use super::hazard::Hazard;
 use super::opening::ShakenRecords;
-use super::risk::{OVERTURNING_M, capacity_m};
 use crate::error::DesignError;
 use branches::Branches;
 use uplift_engine::analysis::LabelledPlan;
@@ -40,60 +40,6 @@ pub(super) struct Uncertain<'a> {
     systems: Vec<System>,
     /// Which of them are branches; none where each record has its own.
     branches: Option<Branches>,
-}
-
-/// What is asked of the structures.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Event {
-    /// How often they overturn, 1/yr.
-    Overturning,
-    /// How often they exceed the capacity that each of them has, 1/yr.
-    BeyondCapacity,
-    /// The demand of this rate, 1/yr, on the structure, m.
-    Demand(f64),
-}
-
-impl Event {
-    fn words(self) -> &'static str {
-        match self {
-            Self::Overturning => "overturning",
-            Self::BeyondCapacity => "exceeding the capacity",
-            Self::Demand(_) => "demand",
-        }
-    }
-
-    fn unit(self) -> &'static str {
-        match self {
-            Self::Overturning | Self::BeyondCapacity => "1/yr",
-            Self::Demand(_) => "m",
-        }
-    }
-
-    /// Whether a `system` may do it at all, so that runs which do not show it are no proof of never.
-    fn may_happen(self, system: &System) -> bool {
-        match self {
-            Self::Overturning => system.can_overturn(),
-            Self::BeyondCapacity => capacity_m(system).is_some(),
-            Self::Demand(_) => false,
-        }
-    }
-
-    /// What is exceeded, m of the oscillator; none of a demand, and where there is no capacity.
-    fn threshold_m(self, system: &System) -> Option<f64> {
-        match self {
-            Self::Overturning => Some(OVERTURNING_M),
-            Self::BeyondCapacity => capacity_m(system),
-            Self::Demand(_) => None,
-        }
-    }
-}
-
-#[derive(Debug)]
-pub(super) struct SiteQuestions<'a> {
-    pub(super) name: &'a str,
-    pub(super) hazard: &'a Hazard<'a>,
-    /// Each with its answer for the structure as described.
-    pub(super) asked: Vec<(Event, f64)>,
 }
 
 impl<'a> Uncertain<'a> {
@@ -148,9 +94,10 @@ impl<'a> Uncertain<'a> {
         sites: &[SiteQuestions<'_>],
         scatter: &Scatter,
     ) -> Result<Vec<UncertainResult>, DesignError> {
+        let shaken = (&self.systems[..], self.participation);
         let findings = match &self.branches {
-            Some(branches) => branches.findings(self, stripes, sites, scatter)?,
-            None => draws::findings(self, stripes, sites, scatter)?,
+            Some(branches) => branches.findings(shaken, self.of.seed, (stripes, sites), scatter)?,
+            None => draws::findings(shaken, stripes, sites, scatter)?,
         };
         let asked = sites.iter().flat_map(|site| site.asked.iter().map(move |asked| (site, asked)));
         let result =
@@ -182,24 +129,6 @@ impl<'a> Uncertain<'a> {
             quantities: QuantityReport::all(self.of),
             results,
         }
-    }
-}
-
-/// Draws of the records, one a row of both samples: earthquakes with all their records where they are known, else
-/// pairs; none of a single one.
-fn resampling(scatter: &Scatter, rows: usize, seed: u64) -> Result<Option<ResamplingPlan>, DesignError> {
-    let units = scatter.coarsest();
-    let records = units.iter().map(Vec::len).sum();
-    let mut unit_of = vec![0; records];
-    for (unit, of_unit) in units.iter().enumerate() {
-        for &record in of_unit {
-            unit_of[record] = unit;
-        }
-    }
-    let size = u32::try_from(records).unwrap_or(u32::MAX);
-    match ResamplingPlan::draw_events(&unit_of, &[size], rows, seed) {
-        Err(BootstrapError::OneEvent) => Ok(None),
-        plan => Ok(Some(plan?)),
     }
 }
 

@@ -10,13 +10,15 @@ use uplift_risk::SiteWeights;
 use uplift_study::Structure;
 use uplift_uniform_risk::{SpectraOfResult, Stripes, StudyOfResult, plan_stripes};
 
-use super::DesignOptions;
+use super::options::DesignOptions;
 use crate::certainty::Scatter;
-use crate::demand::{ExactDemand, Shaken, exact_demand};
+use crate::demand::{ExactDemand, exact_demand};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::{Place, ShakenRecords, job_name, restitution};
-use crate::own_frame::{FrameLevels, FrameQuestion, FrameReport, OwnFrame, Pairs};
+use crate::own_frame::{FrameLevels, FrameQuestion, FrameReport, OwnFrame};
+use crate::pairs::Pairs;
+use crate::shaken::Shaken;
 use crate::sweep::Sweep;
 use crate::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
 

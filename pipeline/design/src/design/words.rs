@@ -6,7 +6,7 @@ use uplift_oscillator::PostUplift;
 use uplift_study::Structure;
 use uplift_uniform_risk::StudyOfResult;
 
-use super::DesignOptions;
+use super::options::DesignOptions;
 use crate::error::DesignError;
 use crate::opening::Place;
 use crate::spectrum::SpectrumDemand;

@@ -11,7 +11,8 @@ use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_stripes, shaken_upwards, stripes_of};
 
 use super::super::opening::{ShakenRecords, required};
-use super::super::own_frame::{self, Pairs, in_the_plane_of_records};
+use super::super::own_frame::{self, in_the_plane_of_records};
+use super::super::pairs::Pairs;
 use super::super::sweep::{OF_STUDY, OWN, Sweep};
 use crate::error::DesignError;
 

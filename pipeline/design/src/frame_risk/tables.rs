@@ -9,8 +9,8 @@ use uplift_inputs::RecordSet;
 use uplift_job::outputs;
 use uplift_job::table::{ColumnsOf, write_table};
 
-use super::FrameRiskReport;
 use super::analysis::Demands;
+use super::report::FrameRiskReport;
 use crate::error::DesignError;
 
 /// A column that only the table of peaks has.

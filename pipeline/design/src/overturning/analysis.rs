@@ -9,7 +9,7 @@ use uplift_structure::UncertainQuantity;
 use uplift_study::{Structure, Uncertainty, UniformRiskStudy};
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_stripes};
 
-use super::OverturningOptions;
+use super::options::OverturningOptions;
 use crate::error::DesignError;
 use crate::models::models;
 use crate::opening::{ShakenRecords, choose_measure, records_and_pairs, required};

@@ -2,9 +2,10 @@
 
 use polars::prelude::Column;
 
-use super::{PERCENTILES, add_limits};
 use crate::certainty::Bands;
-use crate::uncertain::{AleatoryResult, EpistemicResult, Spread, UncertainFinding, UncertaintyReport, VarianceShare};
+use crate::uncertain::{
+    AleatoryResult, EpistemicResult, PERCENTILES, Spread, UncertainFinding, UncertaintyReport, VarianceShare,
+};
 
 /// What columns are made of.
 type OfBranches = fn(&EpistemicResult) -> Spread;
@@ -66,6 +67,17 @@ fn factors<'a>(found: &[Option<&'a UncertainFinding>]) -> Vec<&'a str> {
 /// A factor as a part of the name of a column: `strength_and_capacity`, `records_by_earthquake`.
 fn in_name(factor: &str) -> String {
     factor.replace(',', "").replace(' ', "_")
+}
+
+/// Adds the limits of a band of frequencies; no columns of one that is never told.
+pub(super) fn add_limits(columns: &mut Vec<Column>, name: &str, limits: &[Option<[f64; 2]>]) {
+    if limits.iter().all(Option::is_none) {
+        return;
+    }
+    for (place, end) in ["lower", "upper"].into_iter().enumerate() {
+        let values: Vec<Option<f64>> = limits.iter().map(|limits| Some((*limits)?[place])).collect();
+        columns.push(Column::new(format!("{name}_{end}_per_year").into(), values));
+    }
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use super::band::{TargetBand, TargetUncertainty};
 use super::candidate::Attempt;
 use super::frame::TargetFrame;
 use super::search::Crossing;
+use super::trial::LevelShare;
 use crate::report::{ReportSource, StructureReport};
 use crate::uncertain::Spread;
 
@@ -132,23 +133,6 @@ impl FoundSystem {
             post_uplift_stiffness_n_m: system.post_uplift_stiffness_n_m(),
         }
     }
-}
-
-/// How often it happens given the level of a return period.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct LevelShare {
-    /// The return period, years.
-    pub return_period_years: f64,
-    /// Its level by the site's hazard curve, in the unit of the measure.
-    pub level: f64,
-    /// Records, each scaled to the level.
-    pub records: usize,
-    /// Runs: every record with every structure that it may shake.
-    pub runs: usize,
-    /// Those of them in which it happens.
-    pub count: usize,
-    /// Their share, 0 to 1.
-    pub probability: f64,
 }
 
 /// The level to design for by a generic lognormal fragility (Luco et al. 2007): risk-targeted, beside that of a return

@@ -6,7 +6,7 @@ use uplift_job::table::{ColumnsOf, write_table};
 
 use super::TargetReport;
 use crate::error::DesignError;
-use crate::tables::PERCENTILES;
+use crate::uncertain::PERCENTILES;
 use uplift_job::outputs;
 
 /// The column by which a table of this program is known.

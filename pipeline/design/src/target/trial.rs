@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
+use serde::Serialize;
 use uplift_engine::analysis::{Analysed, LabelledPlan, Work};
 use uplift_engine::checkpoint::Checkpoint;
 use uplift_hazard::HazardCurve;
@@ -16,14 +17,32 @@ use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_levels};
 
 use super::candidate::{Attempt, Candidate, StructureRisk, threshold_m};
-use super::{LevelShare, TargetEvent, TargetOptions};
+use super::{TargetEvent, TargetOptions};
 use crate::certainty::Scatter;
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::{Place, ShakenRecords, job_name, records_and_pairs, required, restitution};
-use crate::own_frame::{FrameLevels, FramePeaks, OwnFrame, Pairs};
+use crate::own_frame::{FrameLevels, FramePeaks, OwnFrame};
+use crate::pairs::Pairs;
 use crate::risk::{HAPPENS, OVERTURNING_M, bounded, happenings, risk_of_exceeding};
 use crate::uncertain::{Around, Spread};
+
+/// How often it happens given the level of a return period.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LevelShare {
+    /// The return period, years.
+    pub return_period_years: f64,
+    /// Its level by the site's hazard curve, in the unit of the measure.
+    pub level: f64,
+    /// Records, each scaled to the level.
+    pub records: usize,
+    /// Runs: every record with every structure that it may shake.
+    pub runs: usize,
+    /// Those of them in which it happens.
+    pub count: usize,
+    /// Their share, 0 to 1.
+    pub probability: f64,
+}
 
 /// What values are tried on. The rows of every round stay in the checkpoint until the answer is given.
 pub(super) struct Trials<'a> {

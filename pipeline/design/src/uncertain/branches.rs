@@ -4,14 +4,15 @@
 use std::collections::HashMap;
 
 use rayon::prelude::*;
+use uplift_bootstrap::{BootstrapError, ResamplingPlan};
 use uplift_ida::System;
 use uplift_risk::{PooledDemand, RecordSample, RiskCurve};
 use uplift_study::Uncertainty;
 use uplift_uncertainty::{SobolIndices, sobol_indices, unit_cube};
 use uplift_uniform_risk::{Stripes, pooled_demand};
 
+use super::question::{Event, SiteQuestions};
 use super::report::{EpistemicResult, Spread, UncertainFinding, VarianceShare};
-use super::{Event, SiteQuestions, Uncertain, resampling};
 use crate::certainty::Scatter;
 use crate::error::DesignError;
 
@@ -92,19 +93,19 @@ impl Branches {
         Ok((systems, Self { systems: samples, hazard, groups: groups.iter().map(name).collect() }))
     }
 
-    /// Bands and shares, `[site, asked]`.
+    /// Bands and shares, `[site, asked]`, of oscillators with the factor from them to the structure.
     pub(super) fn findings(
         &self,
-        uncertain: &Uncertain<'_>,
-        stripes: &Stripes,
-        sites: &[SiteQuestions<'_>],
+        (systems, participation): (&[System], f64),
+        seed: u64,
+        (stripes, sites): (&Stripes, &[SiteQuestions<'_>]),
         scatter: &Scatter,
     ) -> Result<Vec<UncertainFinding>, DesignError> {
         let rows = self.hazard[0].len();
-        let plan = resampling(scatter, 2 * rows, uncertain.of.seed)?;
+        let plan = resampling(scatter, 2 * rows, seed)?;
         let samples = plan.as_ref().map_or(&[][..], |plan| plan.samples());
         let columns = self.columns(!samples.is_empty());
-        let answers = Answers { uncertain, stripes, sites, samples };
+        let answers = Answers { systems, participation, stripes, sites, samples };
         let values = answers.of(&columns)?;
         let asked: Vec<(&SiteQuestions<'_>, Event)> =
             sites.iter().flat_map(|site| site.asked.iter().map(move |(event, _)| (site, *event))).collect();
@@ -122,7 +123,7 @@ impl Branches {
             }
             let (a, b) = (column(2), column(3));
             let mixed: Vec<Vec<f64>> = factors.iter().map(|(_, place)| column(*place)).collect();
-            let indices = sobol_indices(&a, &b, &mixed, (REPLICATES, uncertain.of.seed))?;
+            let indices = sobol_indices(&a, &b, &mixed, (REPLICATES, seed))?;
             let no_shares = indices.is_none().then(|| no_shares(*event, (&a, &b), &mixed));
             Ok(UncertainFinding::Epistemic(EpistemicResult {
                 by_structure: Spread::from_values([column(0), column(1)].concat()),
@@ -156,7 +157,8 @@ impl Branches {
 }
 
 struct Answers<'a> {
-    uncertain: &'a Uncertain<'a>,
+    systems: &'a [System],
+    participation: f64,
     stripes: &'a Stripes,
     sites: &'a [SiteQuestions<'a>],
     samples: &'a [RecordSample],
@@ -166,7 +168,7 @@ impl Answers<'_> {
     /// The answers of all cells, `[column][row][site, asked]`. Each system is sorted once, and the answers do not
     /// depend on the order in which they are computed.
     fn of(&self, columns: &[Vec<Cell>]) -> Result<Vec<Vec<Vec<f64>>>, DesignError> {
-        let systems = self.uncertain.systems.len();
+        let systems = self.systems.len();
         let mut of_system: Vec<Vec<(usize, usize)>> = vec![Vec::new(); systems];
         for (column, cells) in columns.iter().enumerate() {
             for (row, cell) in cells.iter().enumerate() {
@@ -197,9 +199,9 @@ impl Answers<'_> {
                 None => RiskCurve::new(demand, weights)?,
             };
             for (event, _) in &site.asked {
-                answers.push(match (event, event.threshold_m(&self.uncertain.systems[cell.system])) {
+                answers.push(match (event, event.threshold_m(&self.systems[cell.system])) {
                     (Event::Demand(target_per_year), _) => {
-                        self.uncertain.participation * curve.exact_ordinate(*target_per_year)?.displacement_m
+                        self.participation * curve.exact_ordinate(*target_per_year)?.displacement_m
                     }
                     (_, Some(threshold_m)) => curve.mean_annual_frequency(threshold_m)?,
                     // what has no capacity does not exceed it
@@ -208,6 +210,24 @@ impl Answers<'_> {
             }
         }
         Ok(answers)
+    }
+}
+
+/// Draws of the records, one a row of both samples: earthquakes with all their records where they are known, else
+/// pairs; none of a single one.
+fn resampling(scatter: &Scatter, rows: usize, seed: u64) -> Result<Option<ResamplingPlan>, DesignError> {
+    let units = scatter.coarsest();
+    let records = units.iter().map(Vec::len).sum();
+    let mut unit_of = vec![0; records];
+    for (unit, of_unit) in units.iter().enumerate() {
+        for &record in of_unit {
+            unit_of[record] = unit;
+        }
+    }
+    let size = u32::try_from(records).unwrap_or(u32::MAX);
+    match ResamplingPlan::draw_events(&unit_of, &[size], rows, seed) {
+        Err(BootstrapError::OneEvent) => Ok(None),
+        plan => Ok(Some(plan?)),
     }
 }
 

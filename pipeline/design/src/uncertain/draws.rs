@@ -3,14 +3,15 @@
 use std::path::Path;
 
 use uplift_fragility::Stripes as Stripe;
+use uplift_ida::System;
 use uplift_job::JobError;
 use uplift_risk::{PooledDemand, RiskCurve};
 use uplift_study::Uncertainty;
 use uplift_uncertainty::unit_cube;
 use uplift_uniform_risk::Stripes;
 
+use super::question::{Event, SiteQuestions};
 use super::report::{AleatoryResult, UncertainFinding};
-use super::{Event, SiteQuestions, Uncertain};
 use crate::certainty::{Bands, Scatter, demand_bands, rate_bands};
 use crate::error::DesignError;
 use crate::risk::{HAPPENS, OVERTURNING_M, happenings};
@@ -35,9 +36,10 @@ pub(super) fn points(of: &Uncertainty, records: usize, file: &Path) -> Result<Ve
     Ok(points.chunks_exact(dimensions).map(<[f64]>::to_vec).collect())
 }
 
-/// The answers, `[site, asked]`: every draw of a record counts as a record does.
+/// The answers, `[site, asked]`, of oscillators with the factor from them to the structure: every draw of a record
+/// counts as a record does.
 pub(super) fn findings(
-    uncertain: &Uncertain<'_>,
+    (systems, participation): (&[System], f64),
     stripes: &Stripes,
     sites: &[SiteQuestions<'_>],
     scatter: &Scatter,
@@ -48,7 +50,7 @@ pub(super) fn findings(
     let demands_m = stripes.peaks.displacement_m();
     let demand = PooledDemand::new(&Stripe::new(&stripes.levels, demands_m)?)?;
     let capacity_m = |system| Event::BeyondCapacity.threshold_m(system).unwrap_or(f64::INFINITY);
-    let runs = demands_m.chunks_exact(stripes.levels.len()).zip(uncertain.systems.iter().map(capacity_m));
+    let runs = demands_m.chunks_exact(stripes.levels.len()).zip(systems.iter().map(capacity_m));
     let beyond = happenings(&stripes.levels, runs)?;
     let result = |value: f64, bands: Option<Bands>| AleatoryResult {
         value,
@@ -65,10 +67,9 @@ pub(super) fn findings(
         Event::Overturning => rate(site, &demand, OVERTURNING_M),
         Event::BeyondCapacity => rate(site, &beyond, HAPPENS),
         Event::Demand(target_per_year) => {
-            let factor = uncertain.participation;
             let ordinate = RiskCurve::new(&demand, site.hazard.mean)?.exact_ordinate(target_per_year)?;
-            let bands = demand_bands(&demand, (site.hazard, None), &scatter, (target_per_year, factor, None))?;
-            Ok(result(factor * ordinate.displacement_m, bands.map(|bands| bands.demand_m)))
+            let bands = demand_bands(&demand, (site.hazard, None), &scatter, (target_per_year, participation, None))?;
+            Ok(result(participation * ordinate.displacement_m, bands.map(|bands| bands.demand_m)))
         }
     };
     let asked = sites.iter().flat_map(|site| site.asked.iter().map(move |(event, _)| (site, *event)));

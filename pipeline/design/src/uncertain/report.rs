@@ -151,6 +151,9 @@ pub struct EpistemicResult {
     pub no_shares: Option<String>,
 }
 
+/// Names of the percentiles of what is not known exactly, in their order.
+pub(crate) const PERCENTILES: [&str; 5] = ["p05", "p16", "p50", "p84", "p95"];
+
 /// Mean and percentiles of answers; infinite where structures overturn more often than a demand allows.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spread {

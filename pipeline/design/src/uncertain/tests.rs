@@ -9,6 +9,7 @@ use uplift_uncertainty::{Distribution, Family};
 use uplift_uniform_risk::pooled_demand;
 
 use super::*;
+use crate::hazard::Hazard;
 
 const RECORDS: usize = 40;
 const LEVELS: [f64; 8] = [0.05, 0.1, 0.2, 0.4, 0.8, 1.2, 1.6, 2.0];
