@@ -15,8 +15,9 @@ use uplift_study::Repair;
 use uplift_uniform_risk::{StoredMeasure, StoredStripes, at, measure_index, site_index, strength_index};
 
 use crate::error::ExportsError;
-use crate::export::{ExportOptions, ExportReport};
 use crate::fragility::measures::pelicun;
+use crate::options::ExportOptions;
+use crate::report::ExportReport;
 
 /// The first demand, by whose column the table is known: a displacement (`DEC`, Peak Deck Displacement) of system 1 in
 /// direction 1, in which components of the [fragility table](crate::fragility) are.

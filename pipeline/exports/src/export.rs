@@ -14,8 +14,6 @@ mod workbook;
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
-
 use shake_table::TestsExport;
 pub use source::Export;
 use uplift_job::JobError;
@@ -28,8 +26,9 @@ use uplift_studies::shake_table::TESTS_COLUMN;
 use uplift_uniform_risk::{AskedRisk, at};
 pub use web::calculator;
 
-pub use crate::fragility::FragilityFormat;
+pub use crate::fragility::measures::FragilityFormat;
 pub use crate::options::{AssessmentOptions, ExportOptions};
+pub use crate::report::ExportReport;
 
 use crate::demand::demand;
 use crate::error::ExportsError;
@@ -76,15 +75,6 @@ impl ExportFormat {
 
 /// How the table ends of what structures were asked.
 const FINDINGS: &str = "structures.csv";
-
-/// What was exported.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct ExportReport {
-    /// The files, in the order of the formats; last the table of answers about structures, where CSV was asked for.
-    pub files: Vec<PathBuf>,
-    /// What the demands refer to, and what a format of fragilities leaves out.
-    pub notes: Vec<String>,
-}
 
 /// Writes the spectra, bands and coefficients of a result for other programs; or fragilities or demands of its
 /// oscillators, or of a structure under its records.
@@ -182,4 +172,17 @@ fn write_each(
         files.push(file);
     }
     Ok(ExportReport { files, notes: Vec::new() })
+}
+
+impl ExportOptions {
+    fn formats(&self) -> Vec<ExportFormat> {
+        let wanted = [
+            (self.csv, ExportFormat::Csv),
+            (self.json, ExportFormat::Json),
+            (self.mat, ExportFormat::Matlab),
+            (self.xlsx, ExportFormat::Workbook),
+            (self.web, ExportFormat::Web),
+        ];
+        wanted.into_iter().filter_map(|(wanted, format)| wanted.then_some(format)).collect()
+    }
 }

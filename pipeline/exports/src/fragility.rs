@@ -6,7 +6,6 @@ mod table;
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
 use uplift_design::{independent_records, limit_stripes};
 use uplift_fragility::{FragilityFunction, PELICUN_COLUMN, Stripes as Stripe, nrml_model, pelicun_table};
 use uplift_job::events::Events;
@@ -18,21 +17,10 @@ use uplift_result::ResultFile;
 use uplift_uniform_risk::{StoredStripes, measure_index, strength_index};
 
 use crate::error::ExportsError;
-use crate::export::{ExportOptions, ExportReport};
+use crate::options::ExportOptions;
+use crate::report::ExportReport;
 use curves::{Fragility, displacement_limits};
-
-/// Formats of fragilities.
-#[expect(clippy::doc_markdown, reason = "what completions show has no backticks")]
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FragilityFormat {
-    /// A fragility model of OpenQuake (NRML 0.5): counted shares, and lognormal functions of them.
-    #[value(name = "openquake")]
-    OpenQuake,
-    /// A fragility table of pelicun 3: counted shares, and lognormal functions of them.
-    Pelicun,
-    /// A tidy table, a row each level, and another of the fits.
-    Csv,
-}
+use measures::FragilityFormat;
 
 impl FragilityFormat {
     /// How the files end that are named after a result.

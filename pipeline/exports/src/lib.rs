@@ -5,6 +5,7 @@ mod error;
 pub mod export;
 mod fragility;
 mod options;
+mod report;
 pub mod table;
 
 pub use error::ExportsError;

@@ -10,8 +10,7 @@ use uplift_study::Structure;
 use uplift_uniform_risk::AskedRisk;
 
 use crate::error::ExportsError;
-use crate::export::ExportFormat;
-use crate::fragility::FragilityFormat;
+use crate::fragility::measures::FragilityFormat;
 
 /// What is exported, and where it goes.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -84,17 +83,6 @@ pub struct AssessmentOptions {
 }
 
 impl ExportOptions {
-    pub(crate) fn formats(&self) -> Vec<ExportFormat> {
-        let wanted = [
-            (self.csv, ExportFormat::Csv),
-            (self.json, ExportFormat::Json),
-            (self.mat, ExportFormat::Matlab),
-            (self.xlsx, ExportFormat::Workbook),
-            (self.web, ExportFormat::Web),
-        ];
-        wanted.into_iter().filter_map(|(wanted, format)| wanted.then_some(format)).collect()
-    }
-
     /// Files that are read.
     pub(crate) fn inputs(&self) -> Vec<&Path> {
         let AssessmentOptions { structure, manifest, .. } = &self.assessment;

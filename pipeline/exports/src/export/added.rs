@@ -6,8 +6,6 @@ use uplift_questions::influence::{RecordInfluence, level_of_share, rank_records}
 use uplift_result::{ResultFile, StoredEfficiency, StoredInfluence};
 use uplift_uniform_risk::StoredStripes;
 
-use super::Export;
-use super::source::Row;
 use crate::error::ExportsError;
 
 /// Shares of the risk whose levels are reported: below them lie 5 %, half and 95 % of it.
@@ -69,12 +67,5 @@ impl Influence {
     /// ordinate.
     pub(super) fn level(&self, [site, poe]: [usize; 2], strength: usize, share: f64) -> f64 {
         level_of_share(&self.levels, self.stored.shares.block([site, poe, strength]), share)
-    }
-}
-
-impl Export {
-    /// The influence on a spectrum, where there is some.
-    pub(super) fn influence_on(&self, row: &Row<'_>) -> Option<&Influence> {
-        self.added.influence_by(row.spectrum.measure)
     }
 }

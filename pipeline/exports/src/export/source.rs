@@ -14,7 +14,7 @@ use uplift_studies::uniform_risk::quoted_bands_m;
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::least_effective;
 
-use super::added::Added;
+use super::added::{Added, Influence};
 use crate::error::ExportsError;
 
 /// The spectra, bands and coefficients of a result, and where they come from.
@@ -101,6 +101,11 @@ impl Export {
             file: name,
             provenance,
         })
+    }
+
+    /// The influence on a spectrum, where there is some.
+    pub(super) fn influence_on(&self, row: &Row<'_>) -> Option<&Influence> {
+        self.added.influence_by(row.spectrum.measure)
     }
 
     /// One line of provenance.

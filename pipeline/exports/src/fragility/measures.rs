@@ -1,10 +1,22 @@
-//! How other programs call intensity measures, and in which units they take them.
+//! What other programs take: formats of fragilities, and intensity measures by their names and units.
 
+use clap::ValueEnum;
 use uplift_fragility::{PelicunDemand, pelicun_demand};
 use uplift_job::JobError;
 use uplift_motion::IntensityMeasure;
 
-use super::FragilityFormat;
+/// Formats of fragilities.
+#[expect(clippy::doc_markdown, reason = "what completions show has no backticks")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FragilityFormat {
+    /// A fragility model of OpenQuake (NRML 0.5): counted shares, and lognormal functions of them.
+    #[value(name = "openquake")]
+    OpenQuake,
+    /// A fragility table of pelicun 3: counted shares, and lognormal functions of them.
+    Pelicun,
+    /// A tidy table, a row each level, and another of the fits.
+    Csv,
+}
 
 /// A measure of another program.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,7 +11,7 @@ use uplift_regression::Exponential;
 use uplift_result::{Fit, ResultFile, Spectrum, StoredConsistency};
 use uplift_study::UniformRiskStudy;
 
-use super::TableOptions;
+use super::options::TableOptions;
 use crate::error::ExportsError;
 
 /// Strengths above this are compared, up to 1 (the range of Table 4.2's fits).

@@ -8,7 +8,7 @@ use uplift_laboratory::pushover::{axial_load_ratio, capacity, pushed};
 use uplift_statics::{EventKind, Parts, RestrainedColumns, Restrainer, Spring, TendonPath};
 use uplift_study::Structure;
 
-use super::TableOptions;
+use super::options::TableOptions;
 use crate::error::ExportsError;
 
 /// Drift ratio up to which the force is searched for its peak, that of the last slope of Table 5.1.

@@ -10,7 +10,7 @@ use uplift_result::{DesignRow, ResultFile};
 use uplift_spectra::Noisy;
 use uplift_study::ScaledTo;
 
-use super::TableOptions;
+use super::options::TableOptions;
 use crate::error::ExportsError;
 
 /// The design tables of a result; serialized, the rows.

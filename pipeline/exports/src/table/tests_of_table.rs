@@ -8,7 +8,7 @@ use uplift_job::text::finite;
 use uplift_result::{ResultFile, ShakeTable};
 use uplift_validation::pairs::spearman;
 
-use super::TableOptions;
+use super::options::TableOptions;
 use crate::error::ExportsError;
 
 /// The tests of a result, in the order of their response.
