@@ -2,13 +2,13 @@
 
 mod measured;
 mod protocol;
+mod report;
 mod run;
 mod tables;
 
 pub use measured::{MeasuredCurve, SideOfLoop};
-pub use protocol::{CyclicReport, ProtocolOptions, ProtocolReport, protocol};
+pub use protocol::{ProtocolOptions, ProtocolReport, protocol};
+pub use report::{CapacityReport, CyclicReport, LinearCurve, PushoverReport};
 pub(crate) use run::anchorage_word;
-pub use run::{
-    CapacityReport, LinearCurve, PushoverOptions, PushoverReport, axial_load_ratio, capacity, pushed, pushover,
-};
+pub use run::{PushoverOptions, axial_load_ratio, capacity, pushed, pushover};
 pub(crate) use tables::check_rows;

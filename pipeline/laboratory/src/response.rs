@@ -190,7 +190,8 @@ fn oscillator_response(strength: f64, options: &ResponseOptions) -> Result<Respo
         history_file: options.history_file.clone(),
     };
     if let (Some(file), Some(history)) = (&options.history_file, &report.history) {
-        history.write(file, &report)?;
+        let what = format!("strength {strength}, uplift displacement {} m", report.uplift_displacement_m);
+        history.write(file, &report.shaken_by.line(&what))?;
     }
     Ok(report)
 }

@@ -2,11 +2,15 @@
 
 mod group;
 mod join;
+mod options;
 mod peaks;
+mod report;
 mod run;
 mod write;
 
 pub use group::{Censored, GroupReport};
 pub use join::Unmatched;
+pub use options::{PRule, ValidateOptions};
 pub use peaks::PeakValue;
-pub use run::{PRule, ValidateOptions, ValidateReport, validate};
+pub use report::ValidateReport;
+pub use run::validate;

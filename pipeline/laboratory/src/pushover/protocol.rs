@@ -8,6 +8,7 @@ use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_statics::{CyclicState, LoadingProtocol, ProtocolPoint, RestrainedColumns};
 
+use super::report::CyclicReport;
 use super::tables;
 use crate::error::LaboratoryError;
 
@@ -66,24 +67,6 @@ pub fn protocol(options: &ProtocolOptions, events: &dyn Events) -> Result<Protoc
         report.files.push(table.clone());
     }
     Ok(report)
-}
-
-/// Columns under a protocol.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct CyclicReport {
-    /// Amplitudes of the sets, as drift ratios.
-    pub amplitudes: Vec<f64>,
-    /// Duration, s.
-    pub duration_s: f64,
-    /// Largest force on the deck, N.
-    pub largest_force_n: f64,
-    /// Largest force of a restrainer, N.
-    pub largest_tendon_n: f64,
-    /// Energy that yielding stoppers dissipate, all cycles together, J; 0 where none yields.
-    pub dissipated_j: f64,
-    /// The history.
-    #[serde(skip)]
-    pub states: Vec<CyclicState>,
 }
 
 impl CyclicReport {

@@ -7,7 +7,7 @@ use uplift_job::JobError;
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_statics::{CyclicState, LoadingProtocol, ProtocolPoint};
 
-use super::run::PushoverReport;
+use super::report::PushoverReport;
 use crate::error::LaboratoryError;
 
 /// A column of every pushover, and of no other table.

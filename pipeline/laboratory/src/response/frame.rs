@@ -12,7 +12,7 @@ use uplift_plausible::{RESTITUTION, USUAL_RESTITUTION};
 use uplift_statics::EventKind;
 use uplift_study::Structure;
 
-use super::{FrameHistory, ResponseOptions, ShakingRecord};
+use super::{FrameHistory, ResponseOptions, ShakingRecord, frame_history};
 use crate::error::LaboratoryError;
 
 /// A component, as it shakes the frame.
@@ -117,6 +117,23 @@ pub struct FrameRun {
     pub history: Option<FrameHistory>,
 }
 
+impl FrameResponseReport {
+    /// The frame and what shook it, in a line.
+    fn line(&self) -> String {
+        let records: Vec<String> =
+            (self.components.iter()).map(|of| format!("{} {}", of.component, of.shaken_by.record.display())).collect();
+        let scale = self.components.first().map_or(1.0, |of| of.shaken_by.scale);
+        format!(
+            "{}; structure {}, {} model, restitution {}; {}, scale {scale}",
+            uplift_job::outputs::mark(),
+            self.structure.display(),
+            model_word(self.model),
+            self.restitution,
+            records.join(", ")
+        )
+    }
+}
+
 /// Shakes the frame of the structure file `file`.
 pub(super) fn frame_response(file: &Path, options: &ResponseOptions) -> Result<FrameResponseReport, LaboratoryError> {
     if let Some(record) = &options.record {
@@ -203,7 +220,8 @@ pub(super) fn frame_response(file: &Path, options: &ResponseOptions) -> Result<F
         history_file: options.history_file.clone(),
     };
     if let Some(file) = &report.history_file {
-        super::frame_history::write(file, &report)?;
+        let runs = report.runs.iter().filter_map(|run| Some((run.under, run.history.as_ref()?)));
+        frame_history::write(file, &report.line(), runs)?;
     }
     Ok(report)
 }
@@ -342,5 +360,13 @@ impl FrameRun {
             chatter_was_cut: response.chatter_was_cut,
             history: None,
         }
+    }
+}
+
+/// A model in a word.
+fn model_word(model: uplift_frame::Model) -> &'static str {
+    match model {
+        uplift_frame::Model::Planar => "planar",
+        uplift_frame::Model::Wobbling => "wobbling",
     }
 }

@@ -3,12 +3,10 @@
 use std::path::Path;
 
 use uplift_frame::{History, HistoryRow, Moment, RockingFrame};
-use uplift_job::outputs;
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_motion::Accelerogram;
 use uplift_statics::Sections;
 
-use super::FrameResponseReport;
 use super::history::acceleration_at;
 use crate::error::LaboratoryError;
 
@@ -65,21 +63,14 @@ fn word(moment: Moment) -> Option<&'static str> {
     }
 }
 
-/// Writes the histories of all runs of `report` as one table.
-pub(super) fn write(file: &Path, report: &FrameResponseReport) -> Result<(), LaboratoryError> {
-    let records: Vec<String> =
-        (report.components.iter()).map(|of| format!("{} {}", of.component, of.shaken_by.record.display())).collect();
-    let scale = report.components.first().map_or(1.0, |of| of.shaken_by.scale);
-    let line = format!(
-        "{}; structure {}, {} model, restitution {}; {}, scale {scale}",
-        outputs::mark(),
-        report.structure.display(),
-        model_word(report.model),
-        report.restitution,
-        records.join(", ")
-    );
-    let rows = (report.runs.iter())
-        .flat_map(|run| run.history.iter().flat_map(|history| history.rows.iter().map(|row| (run.under, row))));
+/// Writes the histories of runs, each with the components that it is under, as one table; `line` says what was shaken
+/// by what.
+pub(super) fn write<'a>(
+    file: &Path,
+    line: &str,
+    runs: impl Iterator<Item = (&'static str, &'a FrameHistory)>,
+) -> Result<(), LaboratoryError> {
+    let rows = runs.flat_map(|(under, history)| history.rows.iter().map(move |row| (under, row)));
     let section = |row: &FrameHistoryRow, value: fn(&Sections) -> f64| row.sections.as_ref().map(value);
     let columns = ColumnsOf::new(rows)
         .with("under", |(under, _)| under)
@@ -104,13 +95,5 @@ pub(super) fn write(file: &Path, report: &FrameResponseReport) -> Result<(), Lab
         .with("ground_acceleration_y_m_s2", |(_, row)| row.ground_m_s2[1])
         .with("ground_acceleration_z_m_s2", |(_, row)| row.ground_m_s2[2])
         .with("event", |(_, row)| word(row.state.moment));
-    Ok(write_table(file, &line, columns.build())?)
-}
-
-/// A model in a word.
-fn model_word(model: uplift_frame::Model) -> &'static str {
-    match model {
-        uplift_frame::Model::Planar => "planar",
-        uplift_frame::Model::Wobbling => "wobbling",
-    }
+    Ok(write_table(file, line, columns.build())?)
 }

@@ -5,7 +5,6 @@ use std::path::Path;
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_oscillator::{Event, EventKind, Excitation, History};
 
-use super::ResponseReport;
 use crate::error::LaboratoryError;
 
 /// The motion of the ground and what it did to the oscillator.
@@ -67,17 +66,15 @@ impl ResponseHistory {
         }
     }
 
-    pub(super) fn write(&self, file: &Path, report: &ResponseReport) -> Result<(), LaboratoryError> {
-        let line = report
-            .shaken_by
-            .line(&format!("strength {}, uplift displacement {} m", report.strength, report.uplift_displacement_m));
+    /// Writes it as a table; `line` says what was shaken by what.
+    pub(super) fn write(&self, file: &Path, line: &str) -> Result<(), LaboratoryError> {
         let columns = ColumnsOf::new(&self.rows)
             .with("time_s", |row| row.time_s)
             .with("displacement_m", |row| row.displacement_m)
             .with("velocity_m_s", |row| row.velocity_m_s)
             .with("ground_acceleration_m_s2", |row| row.ground_acceleration_m_s2)
             .with("event", |row| row.event);
-        Ok(write_table(file, &line, columns.build())?)
+        Ok(write_table(file, line, columns.build())?)
     }
 }
 

@@ -8,8 +8,8 @@ use uplift_validation::{
 };
 
 use super::join::Peers;
+use super::options::{PRule, ValidateOptions};
 use super::peaks::PeakValue;
-use super::run::{PRule, ValidateOptions};
 
 /// Replicates of the power: its standard error is then below 1 %.
 const POWER_REPLICATES: u32 = 2000;

@@ -1,21 +1,20 @@
 //! The job: two tables in, every statistic of every group out.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use clap::{Args, ValueEnum};
 use rayon::prelude::*;
-use serde::Serialize;
 use uplift_ida::Watch;
 use uplift_job::JobError;
 use uplift_job::events::{Events, Progress};
 use uplift_job::machine::require_memory;
 use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::typed::number;
-use uplift_validation::{BandRule, ValidationError, holm_adjusted};
+use uplift_validation::{ValidationError, holm_adjusted};
 
 use super::group::{GroupReport, memory_of_group};
 use super::join::{Joined, Unmatched, as_samples, by_key};
+use super::options::{PRule, ValidateOptions};
 use super::peaks::{Peaks, unit_of};
+use super::report::ValidateReport;
 use super::write::{self, COLUMN};
 use crate::error::LaboratoryError;
 
@@ -26,135 +25,6 @@ const MOST_REPLICATES: u32 = 10_000_000;
 const MEMORY_OF_A_BYTE: u64 = 80;
 /// The column that the key stands in where none is named.
 const USUAL_KEY: &str = "exc_id";
-
-/// Which p of the Kolmogorov–Smirnov test decides.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, ValueEnum)]
-#[serde(rename_all = "lowercase")]
-pub enum PRule {
-    /// Of all orders of the values
-    #[default]
-    Exact,
-    /// By Kolmogorov's distribution
-    Kolmogorov,
-    /// By the formula of MATLAB's kstest2
-    Kstest2,
-}
-
-/// Heading of the options of the statistics.
-const STATISTICS: &str = "Statistics";
-
-/// What is compared, and how.
-#[expect(clippy::doc_markdown, reason = "what --help prints has no backticks")]
-#[derive(Debug, Clone, PartialEq, Args)]
-pub struct ValidateOptions {
-    /// Measured peaks: CSV with a header, or a shake table's result
-    pub measured: PathBuf,
-    /// Computed peaks: CSV with a header, or a shake table's result
-    pub computed: PathBuf,
-    /// Column of the peaks with its unit
-    #[arg(long, value_name = "COLUMN", default_value = "u_m")]
-    pub value: String,
-    /// Columns that identify a motion [default: exc_id, if there]
-    #[arg(long, value_name = "COLUMN[,…]", value_delimiter = ',')]
-    pub key: Vec<String>,
-    /// Columns to group by
-    #[arg(long, value_name = "COLUMN[,…]", value_delimiter = ',')]
-    pub by: Vec<String>,
-    /// p-value of the Kolmogorov-Smirnov test (Table 6.2 has kstest2)
-    #[arg(long = "p", value_name = "P", value_enum, default_value_t = PRule::Exact, help_heading = STATISTICS)]
-    pub p_rule: PRule,
-    /// Add the p-value by permutations within pairs
-    #[arg(long, help_heading = STATISTICS)]
-    pub permutation: bool,
-    /// Significance level of the power
-    #[arg(
-        long, value_name = "P", default_value_t = ValidateOptions::default().significance,
-        allow_negative_numbers = true, value_parser = number, help_heading = STATISTICS
-    )]
-    pub significance: f64,
-    /// Number of resamples and permutations
-    #[arg(
-        long, value_name = "N", default_value_t = ValidateOptions::default().replicates, help_heading = STATISTICS
-    )]
-    pub replicates: u32,
-    /// Random seed
-    #[arg(long, value_name = "N", default_value_t = ValidateOptions::default().seed, help_heading = STATISTICS)]
-    pub seed: u64,
-    /// Band of the measured distribution.
-    #[arg(skip)]
-    pub band: BandRule,
-    /// Where the statistics are written, CSV.
-    #[arg(skip)]
-    pub table: Option<PathBuf>,
-    /// Whether existing files are overwritten.
-    #[arg(skip)]
-    pub force: bool,
-}
-
-impl Default for ValidateOptions {
-    fn default() -> Self {
-        Self {
-            measured: PathBuf::new(),
-            computed: PathBuf::new(),
-            value: "u_m".to_owned(),
-            key: Vec::new(),
-            by: Vec::new(),
-            p_rule: PRule::Exact,
-            significance: 0.1,
-            replicates: 10_000,
-            seed: 1,
-            permutation: false,
-            band: BandRule::Greenwood,
-            table: None,
-            force: false,
-        }
-    }
-}
-
-/// What was found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ValidateReport {
-    /// The table of measured peaks.
-    pub measured: PathBuf,
-    /// The table of computed peaks.
-    pub computed: PathBuf,
-    /// The column of the peaks.
-    pub value: String,
-    /// Their unit; empty of pure numbers.
-    pub unit: &'static str,
-    /// Columns that pairs are joined by; empty where the tables are two samples.
-    pub key: Vec<String>,
-    /// Columns that the peaks are grouped by.
-    pub by: Vec<String>,
-    /// Which p decides.
-    pub p_rule: PRule,
-    /// Significance that the power is for.
-    pub significance: f64,
-    /// Replicates of bands, and of swaps.
-    pub replicates: u32,
-    /// Their seed.
-    pub seed: u64,
-    /// Band of the measured distribution.
-    pub band: BandRule,
-    /// The groups.
-    pub groups: Vec<GroupReport>,
-    /// Rows that stand in no statistic.
-    pub unmatched: Unmatched,
-    /// What to know before using the numbers.
-    pub notes: Vec<String>,
-    /// The files written.
-    pub files: Vec<PathBuf>,
-}
-
-impl ValidateReport {
-    /// A group in words: `low, all`.
-    pub fn name(group: &GroupReport) -> String {
-        if group.of.is_empty() {
-            return "all".to_owned();
-        }
-        group.of.iter().map(|value| value.as_deref().unwrap_or("all")).collect::<Vec<_>>().join(", ")
-    }
-}
 
 /// Compares computed peaks with measured ones.
 ///

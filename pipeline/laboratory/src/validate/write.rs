@@ -7,7 +7,7 @@ use uplift_job::table::{ColumnsOf, write_table};
 use uplift_validation::{Bands, Quantiles};
 
 use super::group::GroupReport;
-use super::run::ValidateReport;
+use super::report::ValidateReport;
 use crate::error::LaboratoryError;
 
 /// A column of every such table, and of no other.
