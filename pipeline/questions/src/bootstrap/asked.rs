@@ -7,7 +7,8 @@ use uplift_uniform_risk::consistency::{Question, Reweighing};
 use uplift_uniform_risk::{QuotedUnits, StoredStripes};
 
 use super::bands::BandSettings;
-use super::compute::{Source, compute};
+use super::compute::compute;
+use super::source::Source;
 use crate::error::QuestionsError;
 
 /// The result `file` with bands at the risks that it was asked for ([`at`](uplift_uniform_risk::at)), made of the draws

@@ -8,10 +8,11 @@ use uplift_job::outputs::beside;
 use uplift_labelled::{LabelledReader, LabelledWriter, hexadecimal};
 use uplift_uniform_risk::consistency::Reweighing;
 
-use super::bands::{StrengthBands, bands_of_numbers, numbers_of_bands};
-use super::compute::Source;
+use super::bands::{bands_of_numbers, numbers_of_bands};
 use super::joint::JointSiteBands;
+use super::plain::StrengthBands;
 use super::repaired::{SiteBands, SiteShape};
+use super::source::Source;
 use crate::error::QuestionsError;
 
 /// What is finished.

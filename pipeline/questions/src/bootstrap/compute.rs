@@ -13,29 +13,17 @@ use uplift_risk::PooledDemand;
 use uplift_uniform_risk::consistency::Reweighing;
 use uplift_uniform_risk::{QuotedUnits, StoredMeasure, StoredStripes};
 
-use super::bands::{BandSettings, StrengthBands, bands_of_strength, gather_bands};
 use super::checkpoint::{Checkpoint, Expected, Finished};
 use super::joint::{JointSiteBands, gather_joint, joint_bands_of_site};
+use super::plain::{StrengthBands, bands_of_strength, gather_bands};
 use super::repaired::{SiteBands, SiteShape, bands_of_site, gather_repaired};
+use super::source::Source;
 use crate::error::QuestionsError;
 
 /// Strengths done between two looks at the clock and at whoever may stop the job, a thread.
 const BATCH: usize = 16;
 /// What is finished is kept so often.
 const KEPT_EVERY: Duration = Duration::from_secs(30);
-
-/// What bands are made of.
-pub(super) struct Source<'a> {
-    pub(super) stored: &'a StoredStripes,
-    /// What weighs the records of its repaired spectra anew; none where it has none.
-    pub(super) reweighing: Option<&'a Reweighing>,
-    /// The draws.
-    pub(super) plan: &'a ResamplingPlan,
-    /// Whose scatter the bands of the truth are of, where records are not drawn by earthquake, `[measure]`.
-    pub(super) quoted: &'a [QuotedUnits],
-    /// What kind of bands.
-    pub(super) settings: &'a BandSettings,
-}
 
 /// The bands of all measures; what is finished is kept in `checkpoint`, if there is one.
 ///

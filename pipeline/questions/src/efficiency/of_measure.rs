@@ -31,6 +31,14 @@ pub struct MeasureEfficiency {
     pub dispersions: Vec<Dispersion>,
 }
 
+/// The place of the scatter `of` a measure among those of all at the strength `index`, the smallest first; none where
+/// there is no such number.
+pub(super) fn rank(measures: &[MeasureEfficiency], of: &StoredEfficiency, index: usize) -> Option<u32> {
+    let smaller = |other: &&MeasureEfficiency| other.own.reaching[index] < of.reaching[index];
+    let place = || u32::try_from(1 + measures.iter().filter(smaller).count()).unwrap_or(u32::MAX);
+    of.reaching[index].is_finite().then(place)
+}
+
 /// One strength: scatter of each level, levels at first uplift, a line for each covariate.
 type OfStrength = (Vec<Dispersion>, Vec<f64>, Vec<Option<Line>>);
 

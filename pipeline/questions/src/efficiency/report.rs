@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use uplift_job::text::finite;
-use uplift_result::{StoredEfficiency, StoredTrend};
+use uplift_result::StoredTrend;
 use uplift_uniform_risk::StoredStripes;
 
-use super::of_measure::{Covariate, MeasureEfficiency};
+use super::of_measure::{Covariate, MeasureEfficiency, rank};
 use super::write::efficiency_path;
 
 /// The report on efficiency and sufficiency.
@@ -71,14 +71,6 @@ pub struct Trend {
     pub p_value: Option<f64>,
     /// Share of the variance explained, 0 to 1.
     pub r_squared: Option<f64>,
-}
-
-/// The place of the scatter `of` a measure among those of all at the strength `index`, the smallest first; none where
-/// there is no such number.
-pub(super) fn rank(measures: &[MeasureEfficiency], of: &StoredEfficiency, index: usize) -> Option<u32> {
-    let smaller = |other: &&MeasureEfficiency| other.own.reaching[index] < of.reaching[index];
-    let place = || u32::try_from(1 + measures.iter().filter(smaller).count()).unwrap_or(u32::MAX);
-    of.reaching[index].is_finite().then(place)
 }
 
 fn trend_at(trend: &StoredTrend, index: usize) -> Trend {
