@@ -125,7 +125,7 @@ impl Output {
         }
         let told = beside.as_deref().and_then(head_of);
         if let (Some(beside), Some(told)) = (&beside, &told)
-            && !metadata::is_metadata(told)
+            && !is_metadata(told)
         {
             let beside = beside.display();
             return Some(format!(
@@ -372,6 +372,12 @@ fn names_result(head: &[u8], result: &str) -> bool {
         };
         head.windows(words.len()).enumerate().any(|(at, window)| window == words && ends(at))
     })
+}
+
+/// Whether the first bytes of a file are those of one that this program put beside a table.
+fn is_metadata(head: &[u8]) -> bool {
+    let text = without_spaces(head);
+    text.starts_with(b"{") && contains(&text, metadata::MARK)
 }
 
 fn contains(head: &[u8], words: &[u8]) -> bool {

@@ -72,6 +72,7 @@
 //! | [`text`], [`typed`] | numbers in words; numbers as they are typed |
 
 mod error;
+mod finished;
 pub mod init;
 pub mod plan;
 mod result_of;

@@ -8,46 +8,22 @@ use std::io::ErrorKind;
 use std::path::Path;
 use std::time::Instant;
 
-use serde::Serialize;
 use uplift_atomic_file::FileError;
 use uplift_engine::checkpoint::{FinishedRows, RowFile, checkpoint_path};
 use uplift_inputs::manifest;
 use uplift_job::events::Events;
-use uplift_job::outputs::Output;
 use uplift_job::study_run::Place;
 use uplift_job::{JobError, cause, outputs};
 use uplift_labelled::LabelledError;
 use uplift_study::AnyStudy;
 
 use crate::error::UpliftError;
-use crate::result_of::finished;
+pub use crate::finished::RunReport;
+use crate::finished::{finished, tables};
 use uplift_job::lock::ResultLock;
 pub use uplift_job::study_run::{RunHead, RunOptions};
 use uplift_result::{check_place, replaces_another};
 use uplift_studies::{displacement, shake_table, uniform_risk};
-
-/// What a run tells, by the kind of its study.
-#[derive(Debug, Clone, Serialize)]
-#[serde(untagged)]
-pub enum RunReport {
-    /// Of a study of uniform risk.
-    UniformRisk(Box<uniform_risk::RunReport>),
-    /// Of a study of displacement spectra.
-    Displacement(displacement::RunReport),
-    /// Of a study of a shaking table.
-    ShakeTable(shake_table::RunReport),
-}
-
-impl RunReport {
-    /// What every kind reports.
-    pub fn head(&self) -> &RunHead {
-        match self {
-            Self::UniformRisk(report) => &report.head,
-            Self::Displacement(report) => &report.head,
-            Self::ShakeTable(report) => &report.head,
-        }
-    }
-}
 
 /// Carries out a study: records and hazard are read and checked, everything that is not known from before is computed,
 /// and the result file and its tables are written.
@@ -69,15 +45,6 @@ pub fn run(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Resul
         return Ok(report);
     }
     run_with(study, options, FinishedRows::default(), events)
-}
-
-/// The tables that a run of `study` writes beside its result at `path`.
-pub(crate) fn tables(study: &AnyStudy, path: &Path) -> Vec<Output> {
-    match study {
-        AnyStudy::UniformRisk(study) => uniform_risk::tables(study, path),
-        AnyStudy::Displacement(study) => displacement::tables(study, path),
-        AnyStudy::ShakeTable(study) => shake_table::tables(study, path),
-    }
 }
 
 /// Refuses a run whose result or tables would replace something else, see [`outputs`].

@@ -10,7 +10,6 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::{contains, without_spaces};
 use crate::text::one_line;
 
 /// The file beside the table at `table`.
@@ -33,9 +32,3 @@ pub fn metadata_text<'a>(table: &Path, line: &str, columns: impl Iterator<Item =
 
 /// How this program names itself in such a file, but for spaces.
 pub(super) const MARK: &[u8] = b"\"dc:provenance\":\"uplift";
-
-/// Whether the first bytes of a file are those of one that this program put beside a table.
-pub(super) fn is_metadata(head: &[u8]) -> bool {
-    let text = without_spaces(head);
-    text.starts_with(b"{") && contains(&text, MARK)
-}
