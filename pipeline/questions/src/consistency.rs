@@ -3,16 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use polars::prelude::Column;
 use uplift_job::events::Events;
-use uplift_job::outputs::{self, Output, OutputKind};
-use uplift_job::table::write_table;
+use uplift_job::outputs::{self, Output, OutputKind, beside};
+use uplift_job::table::{ColumnsOf, write_table};
 use uplift_job::{Array, JobError};
 use uplift_motion::IntensityMeasure;
-use uplift_result::LockedResult;
+use uplift_result::{ConsistencyGroup, LockedResult};
 use uplift_study::Repair;
 use uplift_uniform_risk::StoredStripes;
 use uplift_uniform_risk::consistency::{
-    ConsistencyReport, Keep, Question, add, columns, consistency_path, disaggregated, earthquakes, repairs_of, replaced,
+    Answer, ConsistencyReport, ConsistencyRow, Question, TargetRow, disaggregated, earthquakes,
 };
 
 use crate::error::QuestionsError;
@@ -59,33 +60,63 @@ pub fn consistency(
     let question = Question::from_result(&file)?;
     let shaken = disaggregated(&question, &options.disaggregations)?;
     if !question.can_be_asked() {
-        return Ok(ConsistencyReport::new(&question, &[], &[], &[]));
+        return Ok(Answer::from_question(question, &file, None, false)?.report(&[]));
     }
     let stored = StoredStripes::read(&file)?;
-    let table = Output::new(consistency_path(&stored.path), OutputKind::Table("implied_level"));
-    outputs::check(&[table], &[result], options.force)?;
+    let path = beside(&stored.path, "consistency.csv");
+    outputs::check(&[Output::new(path.clone(), OutputKind::Table("implied_level"))], &[result], options.force)?;
     // a repair that is there stays: what was made of it would be of another result
     let is_there = file.has_repair();
     let repair = options.repair || options.keep_weights || is_there || question.settings.repair == Repair::Weights;
-    let findings = question.findings(repair)?;
+    let answer = Answer::from_question(question, &file, Some(&stored), repair)?;
     if events.cancelled() {
         return Err(JobError::Interrupted.into());
     }
-    let repairs = if repair { repairs_of(&file, &stored, &question, &findings)? } else { Vec::new() };
-    let keep = if options.keep_weights { Keep::Weights } else { Keep::Exponents };
-    locked.write(&replaced(), |writer| add(writer, &question, &findings, &repairs, keep))?;
+    locked.write(&ConsistencyGroup::replaced(), |writer| answer.group(options.keep_weights).write(writer))?;
     let plain_m: Vec<(IntensityMeasure, Array<3>)> =
         file.spectra()?.measures.into_iter().map(|spectra| (spectra.measure, spectra.u_m)).collect();
-    let mut report = ConsistencyReport::new(&question, &findings, &plain_m, &repairs);
-    report.earthquakes = earthquakes(&question, &report.rows, &shaken);
+    let (question, mut report) = (answer.question(), answer.report(&plain_m));
+    report.earthquakes = earthquakes(question, &report.rows, &shaken);
     for ((_, path), (site, _)) in options.disaggregations.iter().zip(&shaken) {
         if !report.earthquakes.iter().any(|row| row.site == question.sites[*site]) {
             events.note(&format!("{}: ignored, its measure and probability are not in the result", path.display()));
         }
     }
-    let path = consistency_path(&stored.path);
     write_table(&path, &stored.line("hazard consistency"), columns(&report))?;
     report.result = Some(stored.path.clone());
     report.table = Some(path);
     Ok(report)
+}
+
+/// The rows of a report as a table: a row a measure, site and probability.
+fn columns(report: &ConsistencyReport) -> Vec<Column> {
+    let targets = report.rows.iter().flat_map(|row| row.targets.iter().map(move |target| (row, target)));
+    let repaired = |(row, target): (&ConsistencyRow, &TargetRow), value: fn(&TargetRow) -> Option<f64>| {
+        value(row.repair.as_ref()?.targets.iter().find(|own| own.poe.to_bits() == target.poe.to_bits())?)
+    };
+    ColumnsOf::new(targets)
+        .with("site", |(row, _)| row.site.as_str())
+        .with("scaled_to", |(row, _)| row.scaled_to)
+        .with("shows", |(row, _)| row.shows)
+        .with("unit", |(row, _)| row.unit)
+        .with("poe", |(_, target)| target.poe)
+        .with("years", |_| report.years)
+        .with("site_level", |(_, target)| target.site_level)
+        .with("implied_level", |(_, target)| target.implied_level)
+        .with("ratio", |(_, target)| target.ratio)
+        .with("times_as_often", |(_, target)| target.times_as_often)
+        .with("bias", |(row, _)| row.bias)
+        .with("rms", |(row, _)| row.rms)
+        .with("max", |(row, _)| row.max)
+        .with("verdict", |(row, _)| row.verdict.unwrap_or_default())
+        .with("scale_factor_05", |(_, target)| target.scale_factors[0])
+        .with("scale_factor_50", |(_, target)| target.scale_factors[1])
+        .with("scale_factor_95", |(_, target)| target.scale_factors[2])
+        .with("scale_factors_outside", |(_, target)| target.outside_limits)
+        .with("effective_records", |(_, target)| target.effective_records)
+        .with("effective_events", |(_, target)| target.effective_events)
+        .with("repaired_ratio", |at| repaired(at, |target| target.ratio))
+        .with("repaired_effective_records", |at| repaired(at, |target| Some(target.effective_records)))
+        .with("repaired_effective_events", |at| repaired(at, |target| target.effective_events))
+        .build()
 }

@@ -1,13 +1,18 @@
 //! What a result knows of the consistency of its records with the hazard.
 
-use uplift_consistency::{Diagnosis, Repaired};
+use std::collections::BTreeSet;
+
+use uplift_consistency::{DEVIATION_RATES, Diagnosis, KNOTS, Repaired};
 use uplift_job::Array;
+use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::Ordinate;
 
 use super::declared::{Group, Quantity, group, of_measure};
-use super::layout::axis::{KNOT, POE, RATE, RECORD, SITE, STRENGTH, STRIPE_LEVEL};
+use super::extend::sign;
+use super::layout::axis::{self, KNOT, POE, RATE, RECORD, SITE, STRENGTH, STRIPE_LEVEL};
 use super::spectra::{Fit, Fits, regression};
+use super::spread::BranchSpectra;
 use super::stored_result::StoredResult;
 use crate::error::ResultError;
 
@@ -44,6 +49,36 @@ pub struct StoredConsistency {
     pub u_m: Option<Array<3>>,
     /// Coefficients of these spectra `[site, poe]`; NaN where there is no fit. None before a repair.
     pub fits: Option<Fits>,
+}
+
+/// All that a result holds of the consistency of its records, as it is written.
+#[derive(Debug)]
+pub struct ConsistencyGroup<'a> {
+    /// Smoothness of the weights.
+    pub smoothness: f64,
+    /// Names of the sites.
+    pub sites: &'a [String],
+    /// Number of records.
+    pub records: usize,
+    /// Whether the weights of all runs are kept, which follow from the exponents.
+    pub keeps_weights: bool,
+    /// A measure each; none where no site has curves of two measures.
+    pub measures: Vec<MeasureConsistency<'a>>,
+}
+
+/// What is written of the records scaled to one measure.
+#[derive(Debug)]
+pub struct MeasureConsistency<'a> {
+    /// What is read again.
+    pub stored: StoredConsistency,
+    /// What records that count alike bring `[site]`.
+    pub diagnoses: Vec<Option<&'a Diagnosis>>,
+    /// The repairs `[site]`.
+    pub repaired: Vec<Option<&'a Repaired>>,
+    /// Ordinates of weighted records `[site, poe, strength]`; none before a repair.
+    pub ordinates: Option<&'a Array<3, Option<Ordinate>>>,
+    /// Positions of the sites with weighted hazard curves, and their spectra where each curve is repaired by itself.
+    pub branches: Vec<(usize, Option<&'a BranchSpectra>)>,
 }
 
 group! {
@@ -130,7 +165,7 @@ group! {
 }
 
 /// Names of the arrays of the analysis by a measure, about another one.
-pub fn consistency_names(scaled_to: IntensityMeasure, other: IntensityMeasure) -> [(&'static str, &'static str); 4] {
+fn consistency_names(scaled_to: IntensityMeasure, other: IntensityMeasure) -> [(&'static str, &'static str); 4] {
     [("<im>", scaled_to.key()), ("<other>", other.key()), ("<other_unit>", other.unit()), ("<label>", other.label())]
 }
 
@@ -155,6 +190,65 @@ impl StoredConsistency {
     /// miss the site's hazard.
     pub fn stands_beside(&self, site: usize) -> bool {
         self.verdict[site] == "inconsistent" && self.is_repaired(site)
+    }
+}
+
+impl ConsistencyGroup<'_> {
+    /// The groups and axes of a result that a new look replaces.
+    pub fn replaced() -> [String; 3] {
+        [CONSISTENCY.root().to_owned(), axis::path(RATE.name), axis::path(KNOT.name)]
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
+        if self.measures.is_empty() {
+            return Ok(());
+        }
+        let is_repaired = self.measures.iter().any(|own| own.ordinates.is_some());
+        sign(writer, CONSISTENCY.root())?;
+        writer.attribute(CONSISTENCY.root(), "smoothness", self.smoothness)?;
+        writer.attribute(CONSISTENCY.root(), "repair", if is_repaired { "weights" } else { "none" })?;
+        RATE.write(writer, &[], &(1..).take(DEVIATION_RATES).collect::<Vec<u32>>())?;
+        KNOT.write(writer, &[], &(1..).take(KNOTS).collect::<Vec<u32>>())?;
+        self.measures.iter().try_for_each(|own| self.write_measure(writer, own))
+    }
+
+    fn write_measure(&self, writer: &mut LabelledWriter, own: &MeasureConsistency<'_>) -> Result<(), LabelledError> {
+        let stored = &own.stored;
+        let (measure, level) = (stored.scaled_to, STRIPE_LEVEL.of_measure(stored.scaled_to));
+        let names = consistency_names(measure, stored.other);
+        let [sites, poes] = stored.ratio.shape();
+        let lengths = [
+            (SITE.name, sites),
+            (RATE.name, DEVIATION_RATES),
+            (POE.name, poes),
+            (STRENGTH.name, own.ordinates.map_or(0, |of| of.shape()[2])),
+            (KNOT.name, KNOTS),
+            (level.as_str(), stored.effective_records.as_ref().map_or(0, |of| of.shape()[1])),
+            (RECORD.name, self.records),
+        ];
+        let repaired = || own.repaired.iter().copied();
+        CONSISTENCY.write(writer, &names, &lengths, stored)?;
+        DIAGNOSES.write_rows(writer, &names, &lengths, own.diagnoses.iter().copied())?;
+        REPAIRED_LEVELS.write_rows(writer, &names, &lengths, repaired())?;
+        let (Some(ordinates), Some(fits)) = (own.ordinates, &stored.fits) else { return Ok(()) };
+        REPAIRS.write_rows(writer, &names, &lengths, repaired())?;
+        if self.keeps_weights {
+            WEIGHTS.write_rows(writer, &names, &lengths, repaired())?;
+        }
+        REPAIRED_SPECTRA.write_rows(writer, &names, &lengths, ordinates.values().iter().map(Option::as_ref))?;
+        REPAIRED_FITS.write(writer, &names, &lengths, fits)?;
+        let mut axes = BTreeSet::new();
+        for (site, branches) in &own.branches {
+            let site = &self.sites[*site];
+            // as the plain spectra of the branches name them, whether repaired or not
+            let axis = axis::branch(site, measure, &mut axes);
+            branches.map_or(Ok(()), |own| own.write_repaired(writer, (measure, site, &axis)))?;
+        }
+        Ok(())
     }
 }
 

@@ -41,7 +41,7 @@ pub use bands::{
     StoredRepairedBands, StoredSpectraBands, WidestInferred, band_lengths, band_names,
 };
 pub use consistency::{CONSISTENCY, DIAGNOSES, REPAIRED_FITS, REPAIRED_LEVELS, REPAIRED_SPECTRA, REPAIRS, WEIGHTS};
-pub use consistency::{StoredConsistency, consistency_names};
+pub use consistency::{ConsistencyGroup, MeasureConsistency, StoredConsistency};
 pub use declared::NO_ORDINATE;
 pub use design::{BOUNDS, RESTRAINED_DESIGN, ROUNDING, SOLITARY_CAPACITY, SOLITARY_DESIGN, VALUES, bounds, rule_names};
 pub use design::{DesignRow, RULES, StoredDesign, StoredDesigned};
@@ -73,7 +73,7 @@ pub use spread::{
     BRANCH_WEIGHTS, EPISTEMIC, EPISTEMIC_SPECTRA, REPAIRED_EPISTEMIC, REPAIRED_EPISTEMIC_SPECTRA, UNCERTAINTY,
     UNCERTAINTY_SPECTRA,
 };
-pub use spread::{FRACTILES, Spread, SpreadOver, StoredSpread};
+pub use spread::{BranchSpectra, FRACTILES, Spread, SpreadOver, StoredSpread};
 pub use stored_result::{RiskAxes, StoredResult};
 pub use target::{check_place, replaces_another};
 pub use target::{check_target, is_hdf5};

@@ -1,15 +1,16 @@
 //! How far the spectra of a result lie apart over what is not known: weighted hazard curves, possible structures.
 
+use uplift_job::Array;
+use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
-
-/// Fractiles of the spectra over the branches.
-pub const FRACTILES: [f64; 5] = [0.05, 0.16, 0.5, 0.84, 0.95];
 
 use super::declared::{Group, group, of_measure};
 use super::file::ResultFile;
-use super::layout::axis::{POE, STRENGTH};
+use super::layout::axis::{BRANCH, POE, STRENGTH, STRUCTURE};
 use crate::error::ResultError;
-use uplift_job::Array;
+
+/// Fractiles of the spectra over the branches.
+pub const FRACTILES: [f64; 5] = [0.05, 0.16, 0.5, 0.84, 0.95];
 
 /// What a spread is over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,6 +73,21 @@ pub struct Spread {
     pub fractiles_m: [Array<2>; 5],
 }
 
+/// The spectra of one site and measure by each of its branches: weighted hazard curves, or possible structures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BranchSpectra {
+    /// Position of the site.
+    pub site: usize,
+    /// Names of the branches.
+    pub names: Vec<String>,
+    /// Their weights.
+    pub weights: Vec<f64>,
+    /// Ordinates `[branch, poe, strength]`, m; NaN where a branch has none.
+    pub spectra_m: Array<3>,
+    /// Their weighted mean and fractiles.
+    pub spread: Spread,
+}
+
 group! {
     /// Spread over the weighted hazard curves of a site; `<one>` of them and `<many>` in words.
     pub const EPISTEMIC: Spread = "/epistemic/<im>/<site>";
@@ -109,6 +125,65 @@ pub const UNCERTAINTY_SPECTRA: Group<Array<3>> = Group { path: UNCERTAINTY.path,
 pub const REPAIRED_EPISTEMIC: Group<Spread> = Group { path: "/consistency/<im>/branches/<site>", ..EPISTEMIC };
 /// The repaired spectra of these curves.
 pub const REPAIRED_EPISTEMIC_SPECTRA: Group<Array<3>> = Group { path: REPAIRED_EPISTEMIC.path, ..EPISTEMIC_SPECTRA };
+
+/// What branches are called that are hazard curves, one and many.
+const CURVES: [&str; 2] = ["branch", "branches"];
+
+impl BranchSpectra {
+    /// Writes those of the weighted hazard curves of `site` with the names and weights of these, along their `axis`.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write_curves(
+        &self,
+        writer: &mut LabelledWriter,
+        (measure, site, axis): (IntensityMeasure, &str, &str),
+    ) -> Result<(), LabelledError> {
+        BRANCH.write_texts(writer, &[("<branches>", axis)], &self.names)?;
+        let names = [of_measure(measure)[0], ("<site>", site), ("<branches>", axis)];
+        BRANCH_WEIGHTS.write_array(writer, &names, &self.weights)?;
+        self.write(writer, (&EPISTEMIC_SPECTRA, &EPISTEMIC), CURVES, (measure, site, axis))
+    }
+
+    /// Writes the repaired ones of weighted hazard curves, along the `axis` of these.
+    pub(super) fn write_repaired(
+        &self,
+        writer: &mut LabelledWriter,
+        at: (IntensityMeasure, &str, &str),
+    ) -> Result<(), LabelledError> {
+        self.write(writer, (&REPAIRED_EPISTEMIC_SPECTRA, &REPAIRED_EPISTEMIC), CURVES, at)
+    }
+
+    /// Writes those of the possible structures.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn write_structures(
+        &self,
+        writer: &mut LabelledWriter,
+        (measure, site): (IntensityMeasure, &str),
+    ) -> Result<(), LabelledError> {
+        let words = ["structure", "structures"];
+        self.write(writer, (&UNCERTAINTY_SPECTRA, &UNCERTAINTY), words, (measure, site, STRUCTURE.name))
+    }
+
+    fn write(
+        &self,
+        writer: &mut LabelledWriter,
+        (spectra, spread): (&Group<Array<3>>, &Group<Spread>),
+        [one, many]: [&str; 2],
+        (measure, site, axis): (IntensityMeasure, &str, &str),
+    ) -> Result<(), LabelledError> {
+        let names = [of_measure(measure)[0], ("<site>", site), ("<branches>", axis), ("<one>", one), ("<many>", many)];
+        spectra.write_array(writer, &names, self.spectra_m.values())?;
+        spread.write(writer, &names, &lengths(self.spread.mean_m.shape()), &self.spread)
+    }
+}
+
+/// Lengths of the axes of a spread.
+fn lengths([poes, strengths]: [usize; 2]) -> [(&'static str, usize); 2] {
+    [(POE.name, poes), (STRENGTH.name, strengths)]
+}
 
 impl StoredSpread {
     /// Names of the mean and of the fractiles, in the order of [`limits_m`](Self::limits_m): `mean`, `u05`, ….
@@ -174,12 +249,7 @@ impl ResultFile {
                     let names = [of_measure(measure)[0], ("<site>", name)];
                     if over.group().is_in(self, &names) {
                         let mut spread = Spread { mean_m: nan(), fractiles_m: FRACTILES.map(|_| nan()) };
-                        over.group().read(
-                            self,
-                            &names,
-                            &[(POE.name, poes), (STRENGTH.name, strengths)],
-                            &mut spread,
-                        )?;
+                        over.group().read(self, &names, &lengths([poes, strengths]), &mut spread)?;
                         spreads.push(StoredSpread { measure, over, site, spread });
                     }
                 }

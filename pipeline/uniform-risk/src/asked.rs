@@ -10,7 +10,7 @@ use uplift_risk::Ordinate;
 use uplift_study::{Kind, UniformRiskStudy};
 
 use crate::coefficients::Coefficients;
-use crate::consistency::consistency_of_asked;
+use crate::consistency::consistency_at_target_risks;
 use crate::error::UniformRiskError;
 use crate::site_risk::{SiteRisk, SiteSpectra};
 use crate::spectra::Spectra;
@@ -166,7 +166,7 @@ pub fn at(file: ResultFile, asked: &AskedRisk) -> Result<ResultFile, UniformRisk
     let RiskAxes { strengths, sites, .. } = axes;
     let spectra = StoredSpectra { strengths, poes: study.risk.poe, years: study.risk.years, sites, measures };
     let file = file.with_spectra(spectra);
-    let consistency = consistency_of_asked(&file)?;
+    let consistency = consistency_at_target_risks(&file)?;
     Ok(file.with_consistency(consistency))
 }
 

@@ -1,6 +1,5 @@
 //! Spectra of uniform risk in memory: stripes to demands, demands and hazard to spectra, spectra to coefficients; and
-//! the same asked of a result at other risks. What a run and a question add alike is written here, consistency and the
-//! spectra of branches; nothing else is.
+//! the same asked of a result at other risks.
 //!
 //! | module | what is in it |
 //! |---|---|
@@ -33,7 +32,6 @@ pub use displacement::{
     CONFIDENCE, Displacement, DisplacementOptions, DisplacementReport, QUOTED_LIMITS, displacements, measure_index,
     site_index, strength_index,
 };
-pub use epistemic::{BRANCHES, BranchSpectra, write_branch_spectra};
 pub use error::UniformRiskError;
 pub use precision::{Precision, precision};
 pub use quoted::{BandOf, QuotedUnits};

@@ -7,10 +7,12 @@ use uplift_ida::Axes;
 use uplift_inputs::{BranchHazard, SiteHazard};
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
+use uplift_result::BranchSpectra;
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, ThresholdGrid};
 use uplift_study::{Contour, UncertaintyKind, UniformRiskStudy};
 
-use super::{BranchSpectra, Stripes};
+use super::Stripes;
+use crate::epistemic::branch_spectra;
 use crate::error::UniformRiskError;
 
 /// The spectra of one measure.
@@ -166,7 +168,8 @@ pub fn uniform_risk_spectra(
             let spectra_m = Array::from_fn(shape, |[branch, poe, strength]| {
                 by_strength[strength].branches[index][branch][poe].displacement_m
             });
-            BranchSpectra::new(index, &site.branches, spectra_m)
+            let names = site.branches.iter().map(|branch| branch.name.clone()).collect();
+            branch_spectra(index, names, site.branches.iter().map(|branch| branch.weight).collect(), spectra_m)
         })
         .collect();
     let of_structures = |site: usize| {
@@ -174,7 +177,7 @@ pub fn uniform_risk_spectra(
         let spectra_m = Array::from_fn([shared, targets.len(), strengths], |[structure, poe, strength]| {
             by_strength[strength].structures[site][structure][poe].displacement_m
         });
-        BranchSpectra::from_spectra(site, names, vec![1.0; shared], spectra_m)
+        branch_spectra(site, names, vec![1.0; shared], spectra_m)
     };
     let structures = if shared > 1 { (0..hazard.len()).map(of_structures).collect() } else { Vec::new() };
     Ok(Spectra {

@@ -1,5 +1,6 @@
 //! The result file, written as docs/hdf5-layout.md describes it.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use uplift_engine::checkpoint::oscillator_key;
@@ -14,10 +15,9 @@ use uplift_result::{
     DRAWN_QUANTITY, DRAWN_STRUCTURE, FACTORS, IMPACTS, INTENSITY, KeptGroups, MOTION_KEYS, MeasureSpectra, PEAKS,
     RECORDS, RISK_SURFACE, SHARES, StoredRecords, drawn_names, intensity_names,
 };
-use uplift_uniform_risk::consistency::Keep;
 
 use super::ComputedStudy;
-use super::write_hazard::{write_branches, write_hazard, write_other_hazard, write_structures};
+use super::write_hazard::{write_hazard, write_other_hazard};
 use crate::error::StudiesError;
 
 /// Write `outcome` to `path` with the `additions` to an earlier result, atomically: an earlier file survives a failure.
@@ -40,7 +40,7 @@ pub(crate) fn write_result(
         write_measure(&mut writer, outcome, index, stored)?;
     }
     if !additions.as_ref().is_some_and(KeptGroups::has_repair) {
-        outcome.consistency.add(&mut writer, Keep::Exponents)?;
+        outcome.consistency.group(false).write(&mut writer)?;
     }
     if let Some(additions) = additions {
         additions.write(&mut writer)?; // closes the earlier file, which is about to be replaced
@@ -185,7 +185,13 @@ fn write_measure(
             attribute::precision::HALF_WIDTH_BY_EVENT.write(writer, &names, width)?;
         }
     }
-    write_branches(writer, outcome, spectra)?;
-    write_structures(writer, outcome, spectra)?;
+    let mut axes = BTreeSet::new();
+    for branches in &spectra.branches {
+        let site = &outcome.study.sites[branches.site].name;
+        branches.write_curves(writer, (measure, site, &axis::branch(site, measure, &mut axes)))?;
+    }
+    for structures in &spectra.structures {
+        structures.write_structures(writer, (measure, &outcome.study.sites[structures.site].name))?;
+    }
     stored.write_coefficients(writer)
 }

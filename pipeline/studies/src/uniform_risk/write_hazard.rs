@@ -1,4 +1,4 @@
-//! Hazard curves in the result file, and the spectra of weighted ones.
+//! Hazard curves in the result file.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -6,16 +6,9 @@ use std::path::Path;
 use uplift_hazard::HazardCurve;
 use uplift_inputs::{HazardInput, OtherHazard, SiteHazard};
 use uplift_labelled::{LabelledError, LabelledWriter};
-use uplift_result::declared::of_measure;
 use uplift_result::layout::attribute::curve as attribute;
 use uplift_result::layout::axis;
-use uplift_result::{
-    BRANCH_WEIGHTS, EPISTEMIC, EPISTEMIC_SPECTRA, HAZARD_CURVE, UNCERTAINTY, UNCERTAINTY_SPECTRA, branch_curve_name,
-    curve_name,
-};
-use uplift_uniform_risk::{BRANCHES, Spectra, write_branch_spectra};
-
-use super::ComputedStudy;
+use uplift_result::{HAZARD_CURVE, branch_curve_name, curve_name};
 
 /// Write the curves `[measure][site]` with their branches.
 pub(super) fn write_hazard(writer: &mut LabelledWriter, hazard: &[Vec<SiteHazard>]) -> Result<(), LabelledError> {
@@ -65,39 +58,4 @@ fn write_curve(
 
 fn of_input(input: &HazardInput) -> (&HazardCurve, Option<&Path>) {
     (&input.curve, input.file.as_deref())
-}
-
-/// Write the spectra of the branches of `spectra`, their mean and their fractiles.
-pub(super) fn write_branches(
-    writer: &mut LabelledWriter,
-    outcome: &ComputedStudy<'_>,
-    spectra: &Spectra,
-) -> Result<(), LabelledError> {
-    let mut axes = BTreeSet::new();
-    for branches in &spectra.branches {
-        let site = &outcome.study.sites[branches.site].name;
-        let axis = axis::branch(site, spectra.measure, &mut axes);
-        let own = [of_measure(spectra.measure)[0], ("<site>", site), ("<branches>", &axis)];
-        axis::BRANCH.write_texts(writer, &own, &branches.names)?;
-        BRANCH_WEIGHTS.write_array(writer, &own, &branches.weights)?;
-        let groups = (&EPISTEMIC_SPECTRA, &EPISTEMIC);
-        write_branch_spectra(writer, branches, groups, &[&own[..], &BRANCHES].concat())?;
-    }
-    Ok(())
-}
-
-/// Write the spectra of the possible structures, their mean and their fractiles.
-pub(super) fn write_structures(
-    writer: &mut LabelledWriter,
-    outcome: &ComputedStudy<'_>,
-    spectra: &Spectra,
-) -> Result<(), LabelledError> {
-    for structures in &spectra.structures {
-        let site = &outcome.study.sites[structures.site].name;
-        let words = [("<one>", "structure"), ("<many>", "structures")];
-        let own = [of_measure(spectra.measure)[0], ("<site>", site), ("<branches>", axis::STRUCTURE.name)];
-        let groups = (&UNCERTAINTY_SPECTRA, &UNCERTAINTY);
-        write_branch_spectra(writer, structures, groups, &[own.as_slice(), &words].concat())?;
-    }
-    Ok(())
 }

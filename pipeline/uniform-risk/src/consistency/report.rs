@@ -200,7 +200,7 @@ pub struct AgreementRow {
 
 impl ConsistencyReport {
     /// The report on `findings`; `plain_m` are the plain spectra `[site, poe, strength]` of each measure, m.
-    pub fn new(
+    pub(super) fn new(
         question: &Question,
         findings: &[Finding],
         plain_m: &[(IntensityMeasure, Array<3>)],

@@ -1,16 +1,16 @@
-//! The spectra of a repaired set, beside the plain ones.
+//! What repaired weights make of a set: its spectra, and how many of its records still count.
 
 use rayon::prelude::*;
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 use uplift_regression::ExponentialFit;
-use uplift_result::ResultFile;
+use uplift_result::{BranchSpectra, ResultFile, StoredConsistency};
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RunWeights};
 use uplift_study::UniformRiskStudy;
 
 use super::{BranchFindings, Finding, Question};
 use crate::coefficients::fit_ordinates;
-use crate::epistemic::BranchSpectra;
+use crate::epistemic::branch_spectra;
 use crate::error::UniformRiskError;
 use crate::spectra::Reading;
 use crate::stored_stripes::{StoredMeasure, StoredStripes};
@@ -33,7 +33,7 @@ pub struct Repairs {
 ///
 /// # Errors
 /// Demands that are not demands, in a file that was changed.
-pub(crate) fn repaired_spectra(
+pub(super) fn repaired_spectra(
     study: &UniformRiskStudy,
     measure: IntensityMeasure,
     (findings, branches): (&[Finding], &[BranchFindings]),
@@ -69,7 +69,7 @@ pub(crate) fn repaired_spectra(
         let spectra_m = Array::from_fn([own.findings.len(), targets, strengths], |[branch, poe, strength]| {
             by_strength[strength][begin + branch].as_ref().map_or(f64::NAN, |of| of[poe].displacement_m)
         });
-        BranchSpectra::from_spectra(own.site, own.names.clone(), own.weights.clone(), spectra_m)
+        branch_spectra(own.site, own.names.clone(), own.weights.clone(), spectra_m)
     };
     let branches = branches.iter().map(&mut spectra_of).collect();
     Ok(Repairs { measure, ordinates, fits, branches })
@@ -79,7 +79,7 @@ pub(crate) fn repaired_spectra(
 ///
 /// # Errors
 /// Demands that are none, in a file that was changed.
-pub fn repairs_of(
+pub(super) fn repairs_of(
     file: &ResultFile,
     stored: &StoredStripes,
     question: &Question,
@@ -92,4 +92,28 @@ pub fn repairs_of(
         repaired_spectra(&study, measure.measure, (findings, &branches), |strength| measure.demand(strength))
     };
     stored.measures.iter().map(of_measure).collect()
+}
+
+/// Fewest effective records at a level within the rates compared `[site]`; NaN where there is no repair, none before
+/// one.
+///
+/// # Errors
+/// A `file` that is damaged, or of another kind.
+pub fn least_effective(file: &ResultFile, of: &StoredConsistency) -> Result<Option<Vec<f64>>, UniformRiskError> {
+    let Some(records) = &of.effective_records else { return Ok(None) };
+    let levels = file.levels()?.into_iter().find(|(measure, _)| *measure == of.scaled_to);
+    let levels = levels.map_or_else(Vec::new, |(_, levels)| levels);
+    let extrapolation = file.stored_study()?.risk.extrapolate;
+    let of_site = |(site, name): (usize, &String)| {
+        let Some(curve) = file.mean_curve(name, of.scaled_to)? else { return Ok(f64::NAN) };
+        let [high, .., low] = of.rate_per_year.block([site]) else { return Ok(f64::NAN) };
+        let is_compared = |level: f64| {
+            let rate = curve.rate_at_extrapolated(level, extrapolation);
+            rate.is_ok_and(|rate| *low <= rate && rate <= *high)
+        };
+        let compared = levels.iter().zip(records.block([site])).filter(|(level, _)| is_compared(**level));
+        // the least of none, and of numbers that are none, is none
+        Ok(compared.map(|(_, records)| *records).fold(f64::NAN, f64::min))
+    };
+    file.axes()?.sites.iter().enumerate().map(of_site).collect::<Result<_, _>>().map(Some)
 }
