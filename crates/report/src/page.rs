@@ -28,7 +28,7 @@ use uplift::bootstrap::resampled;
 use uplift::events::Events;
 use uplift::export::calculator;
 use uplift::outputs;
-use uplift::result::{Head, Kind, ResultFile, at};
+use uplift::result::{Head, Kind, ResultFile, at_target_risks};
 use uplift::text::{Table, visible};
 use uplift::{JobError, UpliftError};
 use uplift_plot::{Figure, html};
@@ -106,7 +106,7 @@ pub fn page(options: &ReportOptions, events: &dyn Events) -> Result<String, Upli
         if events.cancelled() {
             return Err(JobError::Interrupted.into());
         }
-        let result = resampled(at(ResultFile::open(path)?, &options.risk)?, events)?;
+        let result = resampled(at_target_risks(ResultFile::open(path)?, &options.risk)?, events)?;
         if let Some(built) = &options.explore {
             let calculator = calculator(&result, built)?.replace('&', "&amp;").replace('"', "&quot;");
             live = Some(Value::from_safe_string(calculator));

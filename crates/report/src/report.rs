@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 use uplift::events::Events;
 use uplift::outputs::{self, Output, OutputKind, beside};
-use uplift::result::{AskedRisk, ResultFile, is_hdf5, write_atomically};
+use uplift::result::{ResultFile, TargetRisks, is_hdf5, write_atomically};
 use uplift::typed::Overwriting;
 use uplift::verify::require_whole;
 use uplift::{JobError, UpliftError};
@@ -27,7 +27,7 @@ pub struct ReportOptions {
     pub explore: Option<PathBuf>,
     /// The risks of the spectra.
     #[command(flatten)]
-    pub risk: AskedRisk,
+    pub risk: TargetRisks,
     /// Whether existing files are overwritten.
     #[command(flatten)]
     pub overwriting: Overwriting,

@@ -25,7 +25,7 @@ use uplift_result::ResultFile;
 use uplift_risk::SiteWeights;
 use uplift_study::Structure;
 use uplift_uniform_risk::consistency::Reweighing;
-use uplift_uniform_risk::{EventRisk, OneRisk, SpectraOfResult, StudyOfResult, at};
+use uplift_uniform_risk::{EventRisk, OneRisk, SpectraOfResult, StudyOfResult, at_target_risks};
 
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
@@ -169,7 +169,7 @@ pub fn design_shard(
     shard: Shard,
     events: &dyn Events,
 ) -> Result<ShardReport, DesignError> {
-    let file = at(ResultFile::open(result)?, &options.risk.into())?;
+    let file = at_target_risks(ResultFile::open(result)?, &options.risk.into())?;
     let source = StudyOfResult::read(&file, options.manifest.as_deref())?;
     require_zero_stiffness(&source)?;
     // one shard serves every site
@@ -250,7 +250,7 @@ fn spectrum_demand(structure: &Structure, source: &StudyOfResult, u_m: &[f64]) -
 /// The result at the risk asked for, with its bands there where it keeps draws: alarms take them, and what is quoted
 /// needs none.
 fn result_at(path: &Path, risk: OneRisk, events: &dyn Events) -> Result<ResultFile, DesignError> {
-    let file = at(ResultFile::open(path)?, &risk.into())?;
+    let file = at_target_risks(ResultFile::open(path)?, &risk.into())?;
     Ok(if file.draws()?.is_some() { resampled(file, events)? } else { file })
 }
 

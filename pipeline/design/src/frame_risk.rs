@@ -46,7 +46,7 @@ use uplift_engine::analysis::ShardReport;
 use uplift_inputs::TORSION;
 use uplift_job::events::{Events, Silent};
 use uplift_result::ResultFile;
-use uplift_uniform_risk::{OneRisk, StudyOfResult, at, consistency};
+use uplift_uniform_risk::{OneRisk, StudyOfResult, at_target_risks, consistency};
 
 /// What is asked of the risk of a frame.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
@@ -110,7 +110,7 @@ pub fn frame_risk(
         let tables: [(&Path, _); 2] = [(path, tables::PEAKS_COLUMN), (&levels, tables::LEVELS_COLUMN)];
         check_tables(&tables, (structure, result, manifest), options.force)?;
     }
-    let file = at(ResultFile::open(result)?, &options.risk.into())?;
+    let file = at_target_risks(ResultFile::open(result)?, &options.risk.into())?;
     file.refuse_records_at_level("a frame is shaken by the same records at every level")?;
     let source = StudyOfResult::read(&file, manifest)?;
     let place = Place::choose(&source, options.site.as_deref(), options.measure)?;

@@ -16,7 +16,7 @@ use uplift_motion::{Accelerogram, IntensityMeasure, RecordPair};
 use uplift_risk::{PooledDemand, SiteWeights, StripeWeights};
 use uplift_statics::RestrainedColumns;
 use uplift_study::Structure;
-use uplift_uniform_risk::{EventRisk, SpectraOfResult, seen, stripes_of};
+use uplift_uniform_risk::{EventRisk, SpectraOfResult, plan_motions, with_components};
 
 use super::certainty::{DemandBands, Scatter, demand_bands};
 use super::hazard::Hazard;
@@ -126,8 +126,8 @@ pub(super) fn in_the_plane_of_records<'a>(
         accelerogram: &record.accelerogram,
         intensity: measure.amplitude(record.intensity(measure)),
     };
-    let stripes = stripes_of((measure, levels), set.records.iter().map(record).collect(), planar, true)?;
-    Ok(seen(stripes, set)?)
+    let stripes = plan_motions((measure, levels), set.records.iter().map(record).collect(), planar, true)?;
+    Ok(with_components(stripes, set)?)
 }
 
 /// The wobbling frame of `structure`, with the rest and the loss that its file has.

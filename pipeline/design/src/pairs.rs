@@ -4,7 +4,7 @@ use uplift_ida::{Plan, StripeRecord, System};
 use uplift_inputs::RecordSet;
 use uplift_job::checksum::motion_key;
 use uplift_motion::{Accelerogram, IntensityMeasure, RecordPair};
-use uplift_uniform_risk::{shaken_upwards, stripes_of};
+use uplift_uniform_risk::{plan_motions, with_verticals};
 
 use crate::error::DesignError;
 
@@ -41,7 +41,7 @@ impl Pairs {
         wobbling: &'a [System],
     ) -> Result<Plan<'a>, DesignError> {
         let stripes = self.level(set, (measure, levels), wobbling)?;
-        Ok(shaken_upwards(stripes, self.verticals(set, 1))?)
+        Ok(with_verticals(stripes, self.verticals(set, 1))?)
     }
 
     /// The same without vertical components.
@@ -57,7 +57,7 @@ impl Pairs {
             intensity: self.amplitude(set, measure, index),
         };
         let records = self.all.iter().enumerate().map(record).collect();
-        let stripes = stripes_of((measure, levels), records, wobbling, true)?;
+        let stripes = plan_motions((measure, levels), records, wobbling, true)?;
         Ok(stripes.across(self.all.iter().map(|pair| &pair.h2).collect())?)
     }
 }

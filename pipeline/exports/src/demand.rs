@@ -12,7 +12,7 @@ use uplift_job::typed::all_numbers;
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
 use uplift_study::Repair;
-use uplift_uniform_risk::{StoredMeasure, StoredStripes, at, measure_index, site_index, strength_index};
+use uplift_uniform_risk::{StoredMeasure, StoredStripes, at_target_risks, measure_index, site_index, strength_index};
 
 use crate::error::ExportsError;
 use crate::fragility::measures::pelicun;
@@ -48,7 +48,7 @@ pub(crate) fn demand(site: &str, options: &ExportOptions, events: &dyn Events) -
 
     let file = ResultFile::open(&options.result)?;
     file.refuse_records_at_level("a sample of demands has a row each record")?;
-    let file = at(file, &options.risk)?;
+    let file = at_target_risks(file, &options.risk)?;
     let stored = StoredStripes::read(&file)?;
     let known = file.measures();
     let measure = known[measure_index(&known, asked.measure)?];

@@ -23,7 +23,7 @@ use uplift_job::table::{write_atomically, write_table};
 use uplift_questions::bootstrap::resampled;
 use uplift_result::{Kind, ResultFile};
 use uplift_studies::shake_table::TESTS_COLUMN;
-use uplift_uniform_risk::{AskedRisk, at};
+use uplift_uniform_risk::{TargetRisks, at_target_risks};
 pub use web::calculator;
 
 pub use crate::fragility::measures::FragilityFormat;
@@ -117,7 +117,7 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
             .map(|table| Output::new(table, OutputKind::Table(findings::FIRST_COLUMN)).with_result(&options.result)),
     );
     if kind == Kind::ShakeTable {
-        if options.risk != AskedRisk::default() {
+        if options.risk != TargetRisks::default() {
             return Err(JobError::Usage(
                 "the tests of a shaking table have no risk: leave --poe and the like out".into(),
             )
@@ -133,7 +133,7 @@ pub fn export(options: &ExportOptions, events: &dyn Events) -> Result<ExportRepo
             ExportFormat::Web => Err(result.fail("holds tests of a shaking table, and --web writes spectra").into()),
         });
     }
-    let result = at(result, &options.risk)?;
+    let result = at_target_risks(result, &options.risk)?;
     outputs::check(&outputs, &[&options.result], options.overwriting.force)?;
     let result = resampled(result, events)?;
     let export = Export::from_file(&result)?;

@@ -7,7 +7,7 @@ use uplift_design::{CAPACITY_SHARE, LimitOptions};
 use uplift_job::typed::{Numbers, Overwriting, number_or_per_cent, numbers};
 use uplift_motion::IntensityMeasure;
 use uplift_study::Structure;
-use uplift_uniform_risk::AskedRisk;
+use uplift_uniform_risk::TargetRisks;
 
 use crate::error::ExportsError;
 use crate::fragility::measures::FragilityFormat;
@@ -38,7 +38,7 @@ pub struct ExportOptions {
     pub output: Option<PathBuf>,
     /// Risks of the spectra, or the risk that sets the intensity of the demands.
     #[command(flatten)]
-    pub risk: AskedRisk,
+    pub risk: TargetRisks,
     /// Whether existing files are overwritten.
     #[command(flatten)]
     pub overwriting: Overwriting,

@@ -23,7 +23,7 @@ use uplift_job::events::Events;
 use uplift_job::text::counted;
 use uplift_questions::bootstrap::resampled;
 use uplift_result::{Kind, ResultFile};
-use uplift_uniform_risk::at;
+use uplift_uniform_risk::at_target_risks;
 
 use crate::error::ExportsError;
 
@@ -59,7 +59,7 @@ pub fn table(options: &TableOptions, events: &dyn Events) -> Result<TableReport,
         let rows = TableRows::Columns(columns::read(options)?);
         return Ok(TableReport { rows, alarms: Vec::new() });
     }
-    let file = at(ResultFile::open(&options.result)?, &options.risk)?;
+    let file = at_target_risks(ResultFile::open(&options.result)?, &options.risk)?;
     let rows = match file.kind() {
         Kind::UniformRisk => coefficients::read(options, &file, events).map(TableRows::Coefficients),
         Kind::Displacement => design::read(options, &file, events).map(TableRows::Design),

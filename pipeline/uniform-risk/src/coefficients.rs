@@ -3,6 +3,7 @@
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 use uplift_regression::{ExponentialFit, fit};
+use uplift_result::{Fit, MeasureSpectra};
 use uplift_risk::Ordinate;
 use uplift_study::UniformRiskStudy;
 
@@ -44,4 +45,17 @@ pub fn fit_ordinates(strengths: &[f64], u_m: &[f64], above: f64) -> Result<Expon
         return Err(format!("the spectrum is censored at strength {}", strengths[position]));
     }
     fit(strengths, displacements).map_err(|error| error.to_string())
+}
+
+/// Spectra and their coefficients as a result holds them.
+pub fn stored_spectra(spectra: &Spectra, coefficients: &Coefficients) -> MeasureSpectra {
+    let of = |value: fn(&Ordinate) -> f64| spectra.ordinates.map(value);
+    MeasureSpectra {
+        measure: spectra.measure,
+        u_m: of(|ordinate| ordinate.displacement_m),
+        flags: spectra.ordinates.map(|ordinate| ordinate.flag),
+        lower_tail_share: of(|ordinate| ordinate.lower_tail_share),
+        upper_tail_share: of(|ordinate| ordinate.upper_tail_share),
+        fits: coefficients.fits.map(|fit| Fit::from_exponential(fit.as_ref().ok())),
+    }
 }

@@ -17,11 +17,11 @@ use uplift_risk::StrengthPlace;
 use uplift_structure::{Capacity, Demand, Rule};
 use uplift_study::Oscillator;
 
-use crate::asked::AskedRisk;
 use crate::consistency::{Question, Reweighing};
 use crate::error::UniformRiskError;
 use crate::quoted::{BandOf, QuotedUnits};
 use crate::stored_stripes::{StoredMeasure, poe_index, stored_measure};
+use crate::target_risks::TargetRisks;
 
 pub use uplift_bootstrap::QUOTED_CONFIDENCE as CONFIDENCE;
 
@@ -38,7 +38,7 @@ pub struct DisplacementOptions {
     pub strengths: Vec<f64>,
     /// Risks; the smallest probability of the study where none are given.
     #[command(flatten)]
-    pub risk: AskedRisk,
+    pub risk: TargetRisks,
     /// Whether all probabilities of the study are read where no risks are given.
     #[arg(skip)]
     pub every_probability: bool,

@@ -9,9 +9,8 @@
 //! | `precision`, `quoted` | how well the records know the spectra; whose scatter a quoted band is of |
 //! | `displacement` | displacements with their confidence bands, at any strength and risk |
 //! | [`consistency`] | whether the records have the hazard of the other measure, and weights by which they do |
-//! | `asked`, `study_of_result` | a result asked for other risks; its study and records read again |
+//! | `target_risks`, `study_of_result` | a result at other risks; its study and records read again |
 
-mod asked;
 mod coefficients;
 pub mod consistency;
 mod displacement;
@@ -24,10 +23,10 @@ mod spectra;
 mod stored_stripes;
 mod stripes;
 mod study_of_result;
+mod target_risks;
 mod units;
 
-pub use asked::{AskedRisk, OneRisk, at, stored_spectra};
-pub use coefficients::{Coefficients, fit_ordinates, fit_spectra};
+pub use coefficients::{Coefficients, fit_ordinates, fit_spectra, stored_spectra};
 pub use displacement::{
     CONFIDENCE, Displacement, DisplacementOptions, DisplacementReport, QUOTED_LIMITS, displacements, measure_index,
     site_index, strength_index,
@@ -39,9 +38,11 @@ pub use site_risk::{SiteRisk, SiteSpectra, SiteSpread};
 pub use spectra::{Reading, Spectra, pooled_demand, uniform_risk_spectra};
 pub use stored_stripes::{StoredMeasure, StoredStripes, branch_weights};
 pub use stripes::{
-    Stripes, plan_levels, plan_own_stripes, plan_stripes, seen, shaken_upwards, stripes_of, systems, systems_under,
+    Stripes, plan_levels, plan_motions, plan_own_stripes, plan_stripes, systems, systems_under, with_components,
+    with_verticals,
 };
 pub use study_of_result::{SpectraOfResult, StudyOfResult};
+pub use target_risks::{OneRisk, TargetRisks, at_target_risks};
 pub use units::RecordUnits;
 pub use uplift_risk::{BOUND_CONFIDENCE, EventRisk, StrengthPlace, at_most_per_year, share_at_most};
 

@@ -106,7 +106,7 @@ pub fn plan_stripes<'a>(
             accelerogram: &record.accelerogram,
             scales: at_level.factors_of(index, measure.levels.len()).to_vec(),
         });
-        return seen(Plan::selected(motions.collect(), systems, study.oscillator.free_vibration)?, set);
+        return with_components(Plan::selected(motions.collect(), systems, study.oscillator.free_vibration)?, set);
     }
     plan_levels(study, (measure.measure, &measure.levels), set, systems)
 }
@@ -127,7 +127,7 @@ pub fn plan_levels<'a>(
         accelerogram: &record.accelerogram,
         intensity: amplitude(record.intensity(measure)),
     });
-    seen(stripes_of((measure, levels), records.collect(), systems, study.oscillator.free_vibration)?, set)
+    with_components(plan_motions((measure, levels), records.collect(), systems, study.oscillator.free_vibration)?, set)
 }
 
 /// The same `plan` of the records of `set` from all azimuths that these have, and with their vertical components where
@@ -135,7 +135,7 @@ pub fn plan_levels<'a>(
 ///
 /// # Errors
 /// Records whose ground falls as fast as gravity.
-pub fn seen<'a>(plan: Plan<'a>, set: &'a RecordSet) -> Result<Plan<'a>, UniformRiskError> {
+pub fn with_components<'a>(plan: Plan<'a>, set: &'a RecordSet) -> Result<Plan<'a>, UniformRiskError> {
     let plan = match set.records.first().map(|record| record.direction) {
         Some(Direction::Percentile { percentile, .. }) => {
             let others = set.records.iter().map(|record| record.other_azimuths.as_slice());
@@ -144,14 +144,14 @@ pub fn seen<'a>(plan: Plan<'a>, set: &'a RecordSet) -> Result<Plan<'a>, UniformR
         _ => plan,
     };
     let verticals = set.records.iter().filter_map(|record| record.vertical.as_ref());
-    shaken_upwards(plan, verticals.map(|vertical| &vertical.accelerogram).collect())
+    with_verticals(plan, verticals.map(|vertical| &vertical.accelerogram).collect())
 }
 
 /// The same `plan` with these vertical components, one a motion or none, where a system feels them.
 ///
 /// # Errors
-/// As [`seen`].
-pub fn shaken_upwards<'a>(plan: Plan<'a>, verticals: Vec<&'a Accelerogram>) -> Result<Plan<'a>, UniformRiskError> {
+/// As [`with_components`].
+pub fn with_verticals<'a>(plan: Plan<'a>, verticals: Vec<&'a Accelerogram>) -> Result<Plan<'a>, UniformRiskError> {
     let feels = plan.systems().iter().any(|system| system.gravity_m_s2().is_some());
     if feels && !verticals.is_empty() { Ok(plan.upwards(verticals)?) } else { Ok(plan) }
 }
@@ -161,7 +161,7 @@ pub fn shaken_upwards<'a>(plan: Plan<'a>, verticals: Vec<&'a Accelerogram>) -> R
 ///
 /// # Errors
 /// A motion that cannot be scaled.
-pub fn stripes_of<'a>(
+pub fn plan_motions<'a>(
     (measure, levels): (IntensityMeasure, &[f64]),
     motions: Vec<StripeRecord<'a>>,
     systems: &'a [System],

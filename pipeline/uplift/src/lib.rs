@@ -132,7 +132,8 @@ pub mod result {
     pub use uplift_job::table::{write_atomically, write_table};
     pub use uplift_result::*;
     pub use uplift_uniform_risk::{
-        AskedRisk, OneRisk, RecordUnits, SpectraOfResult, StoredMeasure, StoredStripes, StudyOfResult, at,
+        OneRisk, RecordUnits, SpectraOfResult, StoredMeasure, StoredStripes, StudyOfResult, TargetRisks,
+        at_target_risks,
     };
 }
 

@@ -8,7 +8,9 @@ use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_plausible::USUAL_CAPACITY;
 use uplift_result::ResultFile;
-use uplift_uniform_risk::{AskedRisk, DisplacementOptions, DisplacementReport, at, displacements, site_index};
+use uplift_uniform_risk::{
+    DisplacementOptions, DisplacementReport, TargetRisks, at_target_risks, displacements, site_index,
+};
 
 use crate::error::UpliftError;
 
@@ -29,7 +31,7 @@ pub struct SpectrumReport {
 /// A file that is missing, damaged, of another kind, or without sites; strengths, risks, sites or a measure that it
 /// does not have; repaired spectra where no site has one.
 pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumReport, UpliftError> {
-    let file = at(ResultFile::open(path)?, &asked.risk)?;
+    let file = at_target_risks(ResultFile::open(path)?, &asked.risk)?;
     let found = displacements(&file, asked)?;
     if found.repaired && found.displacements.iter().all(|own| own.u_m.is_nan()) {
         return Err(JobError::Usage(format!(
@@ -52,7 +54,7 @@ pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumRepo
     let poe = axes.poes.iter().position(|own| Some(*own) == only);
     let mut alarms = alarms_of(&file, &Scope { site, measure, poe, strengths, repaired })?;
     // of risks asked for, what the printed numbers rest on comes before what is true of the whole set
-    if asked.risk != AskedRisk::default() {
+    if asked.risk != TargetRisks::default() {
         alarms.sort_by_key(|alarm| (alarm.severity, ![BEYOND_LAST_LEVEL, BELOW_FIRST_LEVEL].contains(&alarm.kind)));
     }
     let unlikely = number_alarms("spectrum", &[(USUAL_CAPACITY, "--capacity-m", asked.capacity_m)]);

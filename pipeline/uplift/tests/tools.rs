@@ -16,7 +16,7 @@ use uplift::records::{
     Criteria, SelectOptions, SetOptions, ShowOptions, ShowReport, SynthesizeOptions, list, select, show, synthesize,
 };
 use uplift::response::{HistoryRow, Response, ResponseOptions, response};
-use uplift::result::AskedRisk;
+use uplift::result::TargetRisks;
 use uplift::status::status;
 use uplift::table::{TableOptions, table};
 use uplift::typed::Overwriting;
@@ -205,7 +205,7 @@ fn what_is_no_result_is_an_error_or_a_finding() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("r.h5");
     assert!(status(&file).is_err());
-    let options = TableOptions { result: file.clone(), reference: None, measure: None, risk: AskedRisk::default() };
+    let options = TableOptions { result: file.clone(), reference: None, measure: None, risk: TargetRisks::default() };
     assert!(table(&options, &Silent).is_err());
     let report = verify(std::slice::from_ref(&file), &Silent).unwrap();
     assert!(report.mistakes()[0].contains("r.h5"), "{:?}", report.mistakes());

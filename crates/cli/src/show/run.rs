@@ -8,7 +8,7 @@ use uplift::run::{RunHead, RunReport};
 use uplift::text;
 use uplift::text::{Table, metres, risk_name, rounded};
 use uplift::uniform_risk::{
-    AskedRisk, BranchReport, DisplacementOptions, DisplacementReport, RunReport as UniformRiskReport, displacements,
+    BranchReport, DisplacementOptions, DisplacementReport, RunReport as UniformRiskReport, TargetRisks, displacements,
 };
 
 use super::alarms::print_result_warnings;
@@ -58,7 +58,7 @@ fn print_details(out: &mut impl Write, report: &UniformRiskReport) -> Result<(),
     let is_repaired = report.repaired.is_some();
     for measure in file.measures() {
         for repaired in [false, true].into_iter().filter(|repaired| is_repaired || !repaired) {
-            let risk = AskedRisk { poe: axes.poes.clone(), ..AskedRisk::default() };
+            let risk = TargetRisks { poe: axes.poes.clone(), ..TargetRisks::default() };
             let asked =
                 DisplacementOptions { risk, measure: Some(measure), repaired, ..DisplacementOptions::default() };
             print_displacements(out, &displacements(&file, &asked)?)?;

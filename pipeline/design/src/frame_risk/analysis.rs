@@ -8,7 +8,7 @@ use uplift_job::checksum::motion_key;
 use uplift_job::text::{cost_in_words, counted};
 use uplift_motion::{Component, Direction, Horizontal, RecordPair};
 use uplift_study::{Structure, UniformRiskStudy};
-use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_stripes, shaken_upwards, stripes_of};
+use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_motions, plan_stripes, with_verticals};
 
 use super::super::opening::{ShakenRecords, required};
 use super::super::own_frame::{self, in_the_plane_of_records};
@@ -114,8 +114,8 @@ impl FrameAnalysis {
             [&pair.h1, &pair.h2].map(|accelerogram| StripeRecord { id: &pair.id, accelerogram, intensity })
         };
         let components = self.pairs.all.iter().enumerate().flat_map(of_pair).collect();
-        let stripes = stripes_of(at, components, &self.planar, true)?;
-        let stripes = shaken_upwards(stripes, self.pairs.verticals(set, 2))?;
+        let stripes = plan_motions(at, components, &self.planar, true)?;
+        let stripes = with_verticals(stripes, self.pairs.verticals(set, 2))?;
         plans.push(labelled(stripes, "component", &self.component_keys));
         if self.is_rotated() {
             let stripes = in_the_plane_of_records(set, at, &self.planar)?;

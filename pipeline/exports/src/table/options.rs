@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use clap::Args;
 use uplift_motion::{IntensityMeasure, MotionError};
-use uplift_uniform_risk::AskedRisk;
+use uplift_uniform_risk::TargetRisks;
 
 /// Which table, and what stands beside it. A reference has, for uniform risk spectra, the columns `site`, `poe_50y`
 /// (or `poe`), `c0_m`, `c1`, `c2_m`, `rmse_m`; for displacement spectra, which have neither measure nor risk,
@@ -23,7 +23,7 @@ pub struct TableOptions {
     pub measure: Option<TableMeasure>,
     /// The risks of the spectra.
     #[command(flatten)]
-    pub risk: AskedRisk,
+    pub risk: TargetRisks,
 }
 
 /// By which intensity measures the rows of a table are.

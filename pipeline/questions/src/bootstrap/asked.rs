@@ -11,8 +11,9 @@ use super::compute::compute;
 use super::source::Source;
 use crate::error::QuestionsError;
 
-/// The result `file` with bands at the risks that it was asked for ([`at`](uplift_uniform_risk::at)), made of the draws
-/// of its bootstrap, to the bit as a bootstrap of these risks makes them. Without a bootstrap there are none.
+/// The result `file` with bands at the risks that it is read at
+/// ([`at_target_risks`](uplift_uniform_risk::at_target_risks)), made of the draws of its bootstrap, to the bit as a
+/// bootstrap of these risks makes them. Without a bootstrap there are none.
 ///
 /// # Errors
 /// A file that is damaged; [`JobError::Interrupted`](uplift_job::JobError::Interrupted) where `events` say so.

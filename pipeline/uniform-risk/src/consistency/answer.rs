@@ -7,7 +7,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_result::{ConsistencyGroup, Fit, MeasureConsistency, ResultFile, StoredConsistency};
 use uplift_study::{Repair, UniformRiskStudy};
 
-use super::repairs::{Repairs, repaired_spectra, repairs_of};
+use super::repairs::{Repairs, repaired_spectra, repairs_from_result};
 use super::{ConsistencyReport, Finding, Question};
 use crate::error::UniformRiskError;
 use crate::spectra::pooled_demand;
@@ -82,7 +82,9 @@ impl Answer {
     ) -> Result<Self, UniformRiskError> {
         let findings = question.findings(with_repair)?;
         let repairs = match stored {
-            Some(stored) if with_repair && !findings.is_empty() => repairs_of(file, stored, &question, &findings)?,
+            Some(stored) if with_repair && !findings.is_empty() => {
+                repairs_from_result(file, stored, &question, &findings)?
+            }
             _ => Vec::new(),
         };
         Ok(Self { question, findings, repairs })
@@ -196,8 +198,8 @@ impl Answer {
     }
 }
 
-/// What [`ResultFile::consistency`] says of `file` at the risks that it was asked for after its run: verdict and weights
-/// are those of the study's own probabilities, and the spectra of the weights are read at the others.
+/// What [`ResultFile::consistency`] says of `file` at other risks than those of its study: verdict and weights are of
+/// the study's own probabilities, and the spectra of the weights are read at the others.
 ///
 /// # Errors
 /// A file that is damaged.
@@ -207,7 +209,10 @@ pub(crate) fn consistency_at_target_risks(file: &ResultFile) -> Result<Vec<Store
     let axes = file.axes()?;
     let question = question.at(&axes.poes, axes.years)?;
     let at_risks = question.findings(false)?;
-    let repairs =
-        if is_repaired { repairs_of(file, &StoredStripes::read(file)?, &question, &findings)? } else { Vec::new() };
+    let repairs = if is_repaired {
+        repairs_from_result(file, &StoredStripes::read(file)?, &question, &findings)?
+    } else {
+        Vec::new()
+    };
     Ok(Answer { question, findings, repairs }.stored(&at_risks))
 }

@@ -3,22 +3,14 @@
 
 use std::collections::BTreeMap;
 
-use uplift_hazard::HazardCurve;
 use uplift_motion::IntensityMeasure;
+use uplift_result::StoredBranch;
 
 use super::{Finding, Question};
 use crate::error::UniformRiskError;
 
-/// A weighted alternative to the curve of a site.
-#[derive(Debug, Clone)]
-pub(super) struct AskedBranch {
-    pub(super) name: String,
-    pub(super) weight: f64,
-    pub(super) curve: HazardCurve,
-}
-
 /// The branches of every measure and site that has some.
-pub(super) type AskedBranches = BTreeMap<(IntensityMeasure, usize), Vec<AskedBranch>>;
+pub(super) type WeightedCurves = BTreeMap<(IntensityMeasure, usize), Vec<StoredBranch>>;
 
 /// The answers for the branches of a site and the measure that the records are scaled to, one each.
 #[derive(Debug, Clone)]
@@ -63,7 +55,9 @@ impl Question {
             let Some(other) = self.other(*scaled_to) else { continue };
             for (site, name) in self.sites.iter().enumerate() {
                 let both = self.curve(*scaled_to, site).is_some() && self.curve(other, site).is_some();
-                if both && !self.of(*scaled_to, site).is_empty() && self.branch_pairs(site, *scaled_to, other).is_none()
+                if both
+                    && !self.weighted_curves(*scaled_to, site).is_empty()
+                    && self.branch_pairs(site, *scaled_to, other).is_none()
                 {
                     apart.push(format!(
                         "{name} by {}: its weighted hazard curves are repaired by their mean only: those of {} are not \
@@ -77,7 +71,7 @@ impl Question {
         apart
     }
 
-    fn of(&self, measure: IntensityMeasure, site: usize) -> &[AskedBranch] {
+    fn weighted_curves(&self, measure: IntensityMeasure, site: usize) -> &[StoredBranch] {
         self.branches.get(&(measure, site)).map_or(&[], Vec::as_slice)
     }
 
@@ -87,9 +81,9 @@ impl Question {
         site: usize,
         scaled_to: IntensityMeasure,
         other: IntensityMeasure,
-    ) -> Option<Vec<(&AskedBranch, &AskedBranch)>> {
-        let (own, compared) = (self.of(scaled_to, site), self.of(other, site));
-        let is_same = |(own, compared): (&AskedBranch, &AskedBranch)| {
+    ) -> Option<Vec<(&StoredBranch, &StoredBranch)>> {
+        let (own, compared) = (self.weighted_curves(scaled_to, site), self.weighted_curves(other, site));
+        let is_same = |(own, compared): (&StoredBranch, &StoredBranch)| {
             own.name == compared.name && own.weight.to_bits() == compared.weight.to_bits()
         };
         let same = own.len() == compared.len() && own.iter().zip(compared).all(is_same);

@@ -10,11 +10,11 @@ use uplift_motion::IntensityMeasure;
 use uplift_result::{ResultFile, StoredBranch};
 use uplift_study::{Consistency, UniformRiskStudy};
 
-use super::branches::{AskedBranch, AskedBranches};
+use super::branches::WeightedCurves;
 use crate::error::UniformRiskError;
 
 #[derive(Debug, Clone)]
-pub(crate) struct AskedRecord {
+pub(crate) struct UnscaledRecord {
     /// Its name.
     pub(crate) id: String,
     /// The pair that it is a component of.
@@ -29,7 +29,7 @@ pub(crate) struct AskedRecord {
 /// Measures of an unscaled pair, in their units.
 type Intensities = BTreeMap<IntensityMeasure, f64>;
 
-impl AskedRecord {
+impl UnscaledRecord {
     /// A number that the records of its earthquake share; of its pair alone where the earthquake is not known.
     pub(crate) fn earthquake(&self) -> usize {
         self.event.map_or(2 * self.pair, |event| 2 * event + 1)
@@ -56,7 +56,7 @@ pub struct Question {
     pub(crate) targets_per_year: Vec<f64>,
     /// Names of the sites.
     pub sites: Vec<String>,
-    pub(crate) records: Vec<AskedRecord>,
+    pub(crate) records: Vec<UnscaledRecord>,
     /// Whether these are synthetic.
     pub(super) synthetic: bool,
     /// Names of the earthquakes.
@@ -68,7 +68,7 @@ pub struct Question {
     /// The hazard of every measure that a site has a curve of, `[measure][site]`.
     curves: BTreeMap<IntensityMeasure, Vec<Option<HazardCurve>>>,
     /// Weighted alternatives to them.
-    pub(super) branches: AskedBranches,
+    pub(super) branches: WeightedCurves,
 }
 
 impl Question {
@@ -90,15 +90,15 @@ impl Question {
                 curves.entry(measure).or_insert_with(|| vec![None; sites.len()])[site] = Some(curve.clone());
             }
         }
-        let mut branches = AskedBranches::new();
+        let mut branches = WeightedCurves::new();
         for (site, of) in hazard.iter().flat_map(|sites| sites.iter().enumerate()) {
             if !of.branches.is_empty() {
-                let asked = |branch: &BranchHazard| AskedBranch {
+                let weighted = |branch: &BranchHazard| StoredBranch {
                     name: branch.name.clone(),
                     weight: branch.weight,
                     curve: branch.input.curve.clone(),
                 };
-                branches.insert((of.measure, site), of.branches.iter().map(asked).collect());
+                branches.insert((of.measure, site), of.branches.iter().map(weighted).collect());
             }
         }
         let rows = records.records.iter().map(|record| RawRecord {
@@ -117,7 +117,7 @@ impl Question {
             _ => None,
         };
         let synthetic = records.synthetic;
-        let (records, events) = asked_records(rows, study);
+        let (records, events) = unscaled_records(rows, study);
         Ok(Self {
             synthetic,
             settings: study.consistency.clone(),
@@ -169,13 +169,12 @@ impl Question {
                 curves.insert(measure, of_sites);
             }
         }
-        let mut branches = AskedBranches::new();
+        let mut branches = WeightedCurves::new();
         for (measure, _) in &analyses {
             for (site, name) in axes.sites.iter().enumerate() {
                 let own = file.branches(name, *measure)?;
                 if !own.is_empty() {
-                    let asked = |StoredBranch { name, weight, curve }| AskedBranch { name, weight, curve };
-                    branches.insert((*measure, site), own.into_iter().map(asked).collect());
+                    branches.insert((*measure, site), own);
                 }
             }
         }
@@ -197,7 +196,7 @@ impl Question {
                 level_sets = Some(LevelSets::new(stored.ids.len(), relative, sets.shares)?);
             }
         }
-        let (records, events) = asked_records(rows, &study);
+        let (records, events) = unscaled_records(rows, &study);
         Ok(Self {
             synthetic: file.is_synthetic()?,
             level_sets,
@@ -217,7 +216,7 @@ impl Question {
 
     /// The earthquake of each record, `[record]`, as a number that its records share.
     pub fn event_of(&self) -> Vec<usize> {
-        self.records.iter().map(AskedRecord::earthquake).collect()
+        self.records.iter().map(UnscaledRecord::earthquake).collect()
     }
 
     /// The pair of each record, `[record]`, as a number that its components share.
@@ -278,7 +277,7 @@ impl Question {
     /// # Errors
     /// Records and hazard that cannot be held against each other.
     pub fn set(&self, scaled_to: IntensityMeasure, other: IntensityMeasure) -> Result<ScaledSet, UniformRiskError> {
-        let row = |record: &AskedRecord| SetRecord {
+        let row = |record: &UnscaledRecord| SetRecord {
             scaled_to: record.intensity(scaled_to),
             other: record.intensity(other),
             pair: record.pair,
@@ -320,7 +319,10 @@ struct RawRecord {
 }
 
 /// The records, and the names of their earthquakes.
-fn asked_records(rows: impl Iterator<Item = RawRecord>, study: &UniformRiskStudy) -> (Vec<AskedRecord>, Vec<String>) {
+fn unscaled_records(
+    rows: impl Iterator<Item = RawRecord>,
+    study: &UniformRiskStudy,
+) -> (Vec<UnscaledRecord>, Vec<String>) {
     let (mut pairs, mut events): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
     let position = |known: &mut Vec<String>, name: &str| {
         known.iter().position(|known| known == name).unwrap_or_else(|| {
@@ -334,7 +336,7 @@ fn asked_records(rows: impl Iterator<Item = RawRecord>, study: &UniformRiskStudy
             // what the program made is of no earthquake
             let known = !row.event.is_empty() && !row.event.to_lowercase().starts_with("synthetic");
             let number = |value: f64| value.is_finite().then_some(value);
-            AskedRecord {
+            UnscaledRecord {
                 pair,
                 event: known.then(|| position(&mut events, &row.event)),
                 intensities: row.intensities,

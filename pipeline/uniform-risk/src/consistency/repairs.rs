@@ -79,7 +79,7 @@ pub(super) fn repaired_spectra(
 ///
 /// # Errors
 /// Demands that are none, in a file that was changed.
-pub(super) fn repairs_of(
+pub(super) fn repairs_from_result(
     file: &ResultFile,
     stored: &StoredStripes,
     question: &Question,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use uplift::alarms::alarms;
-use uplift::result::{AskedRisk, ResultFile, at};
+use uplift::result::{ResultFile, TargetRisks, at_target_risks};
 
 use crate::error::CommandError;
 use crate::show::{print_all_warnings, print_json};
@@ -15,13 +15,13 @@ pub(crate) struct WarningsArguments {
     /// Result file
     result: PathBuf,
     #[command(flatten)]
-    risk: AskedRisk,
+    risk: TargetRisks,
     /// Print JSON
     #[arg(long)]
     json: bool,
 }
 
 pub(crate) fn warnings(arguments: &WarningsArguments) -> Result<(), CommandError> {
-    let found = alarms(&at(ResultFile::open(&arguments.result)?, &arguments.risk)?)?;
+    let found = alarms(&at_target_risks(ResultFile::open(&arguments.result)?, &arguments.risk)?)?;
     if arguments.json { print_json(&found) } else { print_all_warnings(&found, &arguments.result) }
 }

@@ -1,15 +1,14 @@
-//! A result asked for other risks than those of its study: its stripes and hazard hold them all.
+//! A result at other risks than those of its study: its stripes and hazard hold them all.
 
 use clap::Args;
 use uplift_hazard::probability_from_rate;
 use uplift_job::typed::{number, number_or_per_cent};
 use uplift_job::{Array, JobError, in_file};
 use uplift_plausible::{PROBABILITY, RETURN_PERIOD, YEARS};
-use uplift_result::{Fit, MeasureSpectra, ResultFile, RiskAxes, StoredSpectra};
-use uplift_risk::Ordinate;
+use uplift_result::{ResultFile, RiskAxes, StoredSpectra};
 use uplift_study::{Kind, UniformRiskStudy};
 
-use crate::coefficients::Coefficients;
+use crate::coefficients::{Coefficients, stored_spectra};
 use crate::consistency::consistency_at_target_risks;
 use crate::error::UniformRiskError;
 use crate::site_risk::{SiteRisk, SiteSpectra};
@@ -24,9 +23,9 @@ const POE_OPTION: &str = "--poe";
 const RETURN_PERIOD_OPTION: &str = "--return-period";
 const YEARS_OPTION: &str = "--years";
 
-/// The risks that a result is asked for; by default those of its study.
+/// The risks that a result is read at; by default those of its study.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
-pub struct AskedRisk {
+pub struct TargetRisks {
     /// Probabilities of exceedance, 0.1 or 10% [default: the study's]
     #[arg(
         long,
@@ -45,7 +44,7 @@ pub struct AskedRisk {
     pub years: Option<f64>,
 }
 
-/// The one risk that a result is asked for; by default the smallest probability of its study.
+/// The one risk that a result is read at; by default the smallest probability of its study.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Args)]
 pub struct OneRisk {
     /// Probability of exceedance, 0.1 or 10% [default: the smallest]
@@ -62,14 +61,14 @@ pub struct OneRisk {
     pub years: Option<f64>,
 }
 
-impl From<OneRisk> for AskedRisk {
+impl From<OneRisk> for TargetRisks {
     fn from(one: OneRisk) -> Self {
         let OneRisk { poe, return_period, years } = one;
         Self { poe: poe.into_iter().collect(), return_period: return_period.into_iter().collect(), years }
     }
 }
 
-impl AskedRisk {
+impl TargetRisks {
     /// Whether the probabilities are those of the study.
     pub(crate) fn has_targets_of_study(&self) -> bool {
         self.poe.is_empty() && self.return_period.is_empty()
@@ -137,13 +136,13 @@ fn probability(option: &str, value: f64, years: f64) -> Result<f64, String> {
     })
 }
 
-/// The result `file` at the risks asked for: axes, spectra, coefficients, warnings, stripes and study are from now on
+/// The result `file` at the risks `asked`: axes, spectra, coefficients, warnings, stripes and study are from now on
 /// of these, read off the stripes as a run reads them, to the bit; bands once they are resampled.
 ///
 /// # Errors
 /// Risks that are none; a file that is damaged, or of another kind; a study without sites.
-pub fn at(file: ResultFile, asked: &AskedRisk) -> Result<ResultFile, UniformRiskError> {
-    if *asked == AskedRisk::default() {
+pub fn at_target_risks(file: ResultFile, asked: &TargetRisks) -> Result<ResultFile, UniformRiskError> {
+    if *asked == TargetRisks::default() {
         return Ok(file);
     }
     if file.kind() != Kind::UniformRisk {
@@ -168,19 +167,6 @@ pub fn at(file: ResultFile, asked: &AskedRisk) -> Result<ResultFile, UniformRisk
     let file = file.with_spectra(spectra);
     let consistency = consistency_at_target_risks(&file)?;
     Ok(file.with_consistency(consistency))
-}
-
-/// Spectra and their coefficients as a result holds them.
-pub fn stored_spectra(spectra: &Spectra, coefficients: &Coefficients) -> MeasureSpectra {
-    let of = |value: fn(&Ordinate) -> f64| spectra.ordinates.map(value);
-    MeasureSpectra {
-        measure: spectra.measure,
-        u_m: of(|ordinate| ordinate.displacement_m),
-        flags: spectra.ordinates.map(|ordinate| ordinate.flag),
-        lower_tail_share: of(|ordinate| ordinate.lower_tail_share),
-        upper_tail_share: of(|ordinate| ordinate.upper_tail_share),
-        fits: coefficients.fits.map(|fit| Fit::from_exponential(fit.as_ref().ok())),
-    }
 }
 
 /// The spectra of `study` and their coefficients, off `stripes`.
