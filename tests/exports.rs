@@ -18,9 +18,13 @@ fn head_of_table(study: &SmallStudy) -> String {
 }
 
 fn sheets(study: &SmallStudy) -> String {
+    part_of_workbook(study, "xl/workbook.xml")
+}
+
+fn part_of_workbook(study: &SmallStudy, name: &str) -> String {
     let file = std::fs::File::open(study.path().join("r.xlsx")).unwrap();
     let mut text = String::new();
-    zip::ZipArchive::new(file).unwrap().by_name("xl/workbook.xml").unwrap().read_to_string(&mut text).unwrap();
+    zip::ZipArchive::new(file).unwrap().by_name(name).unwrap().read_to_string(&mut text).unwrap();
     text
 }
 
@@ -129,9 +133,10 @@ fn repaired_spectra_are_exported_where_there_are_some() {
     }
 
     let spectra = std::fs::read_to_string(study.path().join("r.spectra.csv")).unwrap();
-    let last: Vec<&str> = spectra.lines().map(|line| line.rsplit(',').next().unwrap()).collect();
-    assert_eq!((last[0], last[1]), ("u_consistent_m", ""));
-    assert_eq!(last[13].parse::<f64>().unwrap(), u_m[12]);
+    // the ordinate before both limits of its band
+    let repaired: Vec<&str> = spectra.lines().map(|line| line.rsplit(',').nth(2).unwrap()).collect();
+    assert_eq!((repaired[0], repaired[1]), ("u_consistent_m", ""));
+    assert_eq!(repaired[13].parse::<f64>().unwrap(), u_m[12]);
     for name in ["u_consistent_pgv_m", "c1_consistent_pga", "consistency_ratio_pga", "consistency_verdict_pgv"] {
         assert!(matlab_has(&study, name), "{name}");
     }
@@ -236,4 +241,44 @@ fn tables_beside_a_result_have_the_columns_that_the_documents_name() {
         let untold: Vec<_> = written.iter().filter(|name| is_whole && !documented.contains(name)).collect();
         assert!(untold.is_empty(), "{kind}: {untold:?} are not in the documents");
     }
+}
+
+/// Every export has the band that `spectrum --repaired` prints, without a bootstrap.
+#[test]
+fn repaired_spectra_have_their_quoted_band_in_every_export() {
+    let study = SmallStudy::repaired();
+    study.uplift(&["export", "r.h5", "--json", "--csv", "--mat", "--xlsx", "--poe", "0.02", "-q"]).ok();
+    let spectra = json(&study)["spectra"].as_array().unwrap().clone();
+    let spectrum = spectra.iter().find(|own| own["im"] == "PGA" && own.get("u_consistent_m").is_some()).unwrap();
+    let strengths = json(&study)["strength"].as_array().unwrap().iter().map(Value::to_string).collect::<Vec<_>>();
+    let site = spectrum["site"].as_str().unwrap();
+    let asked = ["spectrum", "r.h5", "--repaired", "--measure", "pga", "--poe", "0.02", "--csv", "--site", site];
+    let printed = study.uplift(&[&asked[..], &["--strength", &strengths.join(",")]].concat()).ok().stdout;
+    let row = |line: &str| line.split(',').rev().take(3).map(|cell| cell.parse().ok()).collect::<Vec<Option<f64>>>();
+    let expected: Vec<Vec<Option<f64>>> = printed.lines().skip(1).map(row).collect();
+    assert!(expected.len() == strengths.len() && expected[0][0] > expected[0][2], "{printed}");
+    for (place, name) in ["upper_consistent_m", "lower_consistent_m", "u_consistent_m"].iter().enumerate() {
+        let exported: Vec<Option<f64>> = serde_json::from_value(spectrum[*name].clone()).unwrap();
+        let expected: Vec<Option<f64>> =
+            expected.iter().map(|row| row[place].filter(|value| value.is_finite())).collect();
+        assert_eq!(exported, expected, "{name}");
+        assert!(head_of_table(&study).contains(name), "{}", head_of_table(&study));
+        assert!(matlab_has(&study, &name.replace("_m", "_pga_m")), "{name}");
+    }
+    let place = sheets(&study).split("<sheet ").position(|sheet| sheet.contains("\"Consistent spectra\""));
+    let sheet = part_of_workbook(&study, &format!("xl/worksheets/sheet{}.xml", place.unwrap()));
+    // a column of strengths, and three of either measure of the repaired site
+    assert!(sheet.contains("<c r=\"G6\"") && !sheet.contains("<c r=\"H6\""), "{sheet:.3000}");
+}
+
+/// The percentiles of resamples are called as in every other format.
+#[test]
+fn percentiles_of_resamples_are_not_called_as_the_quoted_band() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-q", "-o", "r.h5", "--set", "bootstrap.confidence=0.8"]).ok();
+    study.uplift(&["bootstrap", "r.h5", "-q", "--replicates", "20"]).ok();
+    study.uplift(&["export", "r.h5", "--json", "-q"]).ok();
+    let band = json(&study)["spectra"][0]["bands"][0].clone();
+    assert!(["u10_m", "u50_m", "u90_m"].iter().all(|name| band[name].is_array()), "{band}");
+    assert!(band.get("lower_m").is_none() && band.get("upper_m").is_none(), "{band}");
 }

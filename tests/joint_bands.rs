@@ -141,7 +141,7 @@ fn it_is_in_tables_and_exports_and_hangs_on_no_thread() {
             assert_eq!(stored[key].as_array().unwrap().len(), 2, "a band for each size");
         }
     }
-    let first = stored[0]["bands_consistent_joint"][0]["upper_m"].as_array().unwrap();
+    let first = stored[0]["bands_consistent_joint"][0]["u95_m"].as_array().unwrap();
     let first: Vec<f64> = first.iter().map(|value| value.as_f64().unwrap()).collect();
     assert!(same_bits(&first, &joint(&file, "pgv", "u95_m")[..3]));
     study.uplift(&["export", "r.h5", "--csv", "-o", "t.csv", "-q"]).ok();

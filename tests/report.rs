@@ -275,7 +275,9 @@ fn a_report_shows_hazard_consistency() {
     let said = repaired.split("</td>").nth(1).unwrap().rsplit('>').next().unwrap();
     // the second site, 2 %, the second strength
     let expected = u_m.values[3 * 4 + 1];
+    let (said, band) = said.split_once(' ').expect("a number and its band");
     assert!((said.parse::<f64>().unwrap() / expected - 1.0).abs() < 0.06, "{said}: {expected}");
+    assert!(band.starts_with('(') && band.contains('–'), "{band}");
 
     // so does a page of other probabilities
     study.uplift(&["report", "r.h5", "-o", "asked.html", "--poe", "0.02,0.05,0.3", "-q"]).ok();

@@ -67,7 +67,7 @@ assert first["site"] == sites[0] and first["u_m"] == finite
 assert first["flag"] == [flags[number] for number in flag["pgv"][0, 0]]
 assert [band["sample_size"] for band in first["bands"]] == list(sizes)
 lower = bands["pgv", "u05"][0, 0, -1]
-assert first["bands"][-1]["lower_m"] == [value if np.isfinite(value) else None for value in lower]
+assert first["bands"][-1]["u05_m"] == [value if np.isfinite(value) else None for value in lower]
 for name in beyond:
     values = bands["pgv", name][0, 0, -1]
     assert first["bands"][-1][f"{name}_m"] == [value if np.isfinite(value) else None for value in values]

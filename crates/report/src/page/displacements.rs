@@ -14,7 +14,7 @@ pub(super) struct Row {
     pub(super) measure: IntensityMeasure,
     pub(super) site: usize,
     pub(super) poe: usize,
-    /// Whether it is of weighted records, which have no band.
+    /// Whether it is of weighted records.
     pub(super) repaired: bool,
     /// A cell for each strength.
     pub(super) cells: Vec<String>,
@@ -33,16 +33,20 @@ pub(super) fn rows(file: &ResultFile, source: &FigureSource, shown: &[usize]) ->
             measure: Some(of.measure),
             ..DisplacementOptions::default()
         };
-        let found = displacements(file, &asked)?.displacements;
-        let cells = found.chunks(shown.len().max(1));
-        let places = of.u_m.blocks::<2>().map(|(at, _)| at);
-        for ([site, poe], cells) in places.zip(cells) {
-            let cells = cells.iter().map(|own| cell_with_band(own.u_m, own.band_m)).collect();
-            let row = Row { measure: of.measure, site, poe, repaired: false, cells };
-            rows.push(row.clone());
-            if let Some(u_m) = source.repaired(of.measure, site) {
-                let without_band = |&strength: &usize| cell_with_band(u_m[[site, poe, strength]], None);
-                rows.push(Row { repaired: true, cells: shown.iter().map(without_band).collect(), ..row });
+        let is_repaired = |site| source.repaired(of.measure, site).is_some();
+        let repaired = (0..source.spectra.sites.len()).any(is_repaired);
+        let found = [false, true]
+            .into_iter()
+            .take(1 + usize::from(repaired))
+            .map(|repaired| Ok(displacements(file, &DisplacementOptions { repaired, ..asked.clone() })?.displacements));
+        let found = found.collect::<Result<Vec<_>, UpliftError>>()?;
+        for (index, ([site, poe], _)) in of.u_m.blocks::<2>().enumerate() {
+            let spectrum = index * shown.len()..(index + 1) * shown.len();
+            for (found, repaired) in found.iter().zip([false, true]) {
+                if !repaired || is_repaired(site) {
+                    let cells = found[spectrum.clone()].iter().map(|own| cell_with_band(own.u_m, own.band_m)).collect();
+                    rows.push(Row { measure: of.measure, site, poe, repaired, cells });
+                }
             }
         }
     }

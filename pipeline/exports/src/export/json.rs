@@ -5,8 +5,8 @@ use uplift_job::text::finite;
 use uplift_questions::influence::{CHANGES, RecordInfluence};
 use uplift_result::declared::{Field, Group, Quantity};
 use uplift_result::{
-    BANDS, BandKind, EFFICIENCY, Fit, Fits, INFERRED_BANDS, StoredEfficiency, StoredSpread, StoredTrend, TRENDS,
-    regression, urs,
+    BANDS, BandKind, EFFICIENCY, Fit, Fits, INFERRED_BANDS, StoredBands, StoredEfficiency, StoredSpread, StoredTrend,
+    TRENDS, regression, urs,
 };
 use uplift_uniform_risk::{CONFIDENCE, QUOTED_LIMITS};
 
@@ -55,22 +55,21 @@ impl Export {
                 self.places(row).map(|at| cell(quantity, row.of_measure, at)).collect();
         }
         spectrum["confidence"] = CONFIDENCE.into();
-        for (name, limits_m) in QUOTED_LIMITS.iter().zip(row.quoted_m()) {
-            spectrum[name] = numbers(&limits_m).into();
-        }
+        add_quoted(&mut spectrum, row, BandKind::PLAIN);
         spectrum["fit"] = coefficients(&row.spectrum.fit);
-        spectrum["bands"] = self.bands_of(row, BandKind::PLAIN).iter().map(band).collect();
+        spectrum["bands"] = self.bands_json(row, BandKind::PLAIN).into();
         spectrum["disaggregation"] =
             self.influence_on(row).map(|influence| self.disaggregation(row.at, influence)).into();
         if let Some((u_m, fit)) = self.repaired(row) {
             spectrum[BandKind::REPAIRED.column(urs::U_M.name)] = numbers(u_m).into();
+            add_quoted(&mut spectrum, row, BandKind::REPAIRED);
             spectrum["fit_consistent"] = coefficients(fit);
-            spectrum["bands_consistent"] = self.bands_of(row, BandKind::REPAIRED).iter().map(band).collect();
+            spectrum["bands_consistent"] = self.bands_json(row, BandKind::REPAIRED).into();
         }
         for kind in [BandKind::JOINT, BandKind::REPAIRED_JOINT] {
-            let bands = self.bands_of(row, kind);
+            let bands = self.bands_json(row, kind);
             if !bands.is_empty() {
-                spectrum[format!("bands{}", kind.suffix)] = bands.iter().map(band).collect();
+                spectrum[format!("bands{}", kind.suffix)] = bands.into();
             }
         }
         for over in self.spread_over() {
@@ -80,6 +79,12 @@ impl Export {
             spectrum[format!("spread_over_{}", over.key())] = Value::Object(named.collect());
         }
         spectrum
+    }
+
+    /// The bands of a kind of a spectrum, by size of the sample.
+    fn bands_json(&self, row: &Row<'_>, kind: BandKind) -> Vec<Value> {
+        let names = self.bands.as_ref().map(StoredBands::limit_names).unwrap_or_default();
+        self.bands_of(row, kind).iter().map(|own| band(own, &names)).collect()
     }
 
     /// The records of every spectrum, the most influential first.
@@ -162,10 +167,18 @@ fn efficiency(of: &StoredEfficiency) -> Value {
     said
 }
 
-fn band(band: &BandOf<'_>) -> Value {
+/// The limits of the quoted band of a kind of spectrum.
+fn add_quoted(spectrum: &mut Value, row: &Row<'_>, kind: BandKind) {
+    for (name, limits_m) in QUOTED_LIMITS.iter().zip(row.quoted_m(kind)) {
+        spectrum[kind.column(name)] = numbers(&limits_m).into();
+    }
+}
+
+/// A band, its percentiles called `names`.
+fn band(band: &BandOf<'_>, names: &[String; 3]) -> Value {
     let mut said = json!({ "sample_size": band.records });
-    for (name, limit_m) in ["lower_m", "median_m", "upper_m"].iter().zip(band.limits_m) {
-        said[*name] = numbers(limit_m).into();
+    for (name, limit_m) in names.iter().zip(band.limits_m) {
+        said[name] = numbers(limit_m).into();
     }
     for (quantity, figure) in BANDS.exported().zip(band.figures) {
         said[quantity.exported_name()] = finite(figure).into();

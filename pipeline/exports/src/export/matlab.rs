@@ -4,11 +4,11 @@ pub(super) mod level_5;
 
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
+use uplift_motion::IntensityMeasure;
 use uplift_result::declared::{Field, Lengths, Quantity};
 use uplift_result::layout::axis::{POE, SAMPLE_SIZE, SITE, STRENGTH};
 use uplift_result::{
-    BANDS, BandKind, CONSISTENCY, EFFICIENCY, INFERRED_BANDS, StoredSpectra, StoredSpread, TRENDS, before_unit,
-    regression, urs,
+    BANDS, BandKind, CONSISTENCY, EFFICIENCY, INFERRED_BANDS, StoredSpectra, StoredSpread, TRENDS, regression, urs,
 };
 use uplift_uniform_risk::QUOTED_LIMITS;
 
@@ -39,15 +39,9 @@ impl Export {
         for spectra in measures {
             let key = spectra.measure.key();
             // spectra come site by site, in each probability by probability: the order of MATLAB's columns
-            let shape = Shape(vec![strengths.len(), poes.len(), sites.len()]);
             let lengths = &[(SITE.name, sites.len()), (POE.name, poes.len()), (STRENGTH.name, strengths.len())];
             add(&mut file, urs::GROUP.exported(), lengths, spectra, |own| own.name_with(key));
-            let rows = self.rows().filter(|row| row.spectrum.measure == spectra.measure);
-            let quoted_m: Vec<[Vec<f64>; 2]> = rows.map(|row| row.quoted_m()).collect();
-            for (limit, name) in QUOTED_LIMITS.iter().enumerate() {
-                let limits_m: Vec<f64> = quoted_m.iter().flat_map(|of_row| of_row[limit].iter().copied()).collect();
-                file.numbers(&before_unit(name, &format!("_{key}")), &shape, &limits_m);
-            }
+            self.add_quoted(&mut file, spectra.measure, BandKind::PLAIN);
             add(&mut file, regression::COEFFICIENTS, lengths, &spectra.fits, |own| own.name_with(key));
         }
         self.add_consistency(&mut file);
@@ -59,6 +53,18 @@ impl Export {
             self.add_findings(&mut file);
         }
         Ok(file.finish().map_err(JobError::input)?)
+    }
+
+    /// The quoted band of the spectra of a kind by a measure: `lower_pgv_m`.
+    fn add_quoted(&self, file: &mut MatFile, measure: IntensityMeasure, kind: BandKind) {
+        let StoredSpectra { strengths, poes, sites, .. } = &self.spectra;
+        let rows = self.rows().filter(|row| row.spectrum.measure == measure);
+        let quoted_m: Vec<[Vec<f64>; 2]> = rows.map(|row| row.quoted_m(kind)).collect();
+        let shape = Shape(vec![strengths.len(), poes.len(), sites.len()]);
+        for (limit, name) in QUOTED_LIMITS.iter().enumerate() {
+            let limits_m = quoted_m.iter().map(|of_row| of_row[limit].as_slice()).collect::<Vec<_>>().concat();
+            file.numbers(&name_with(kind, name, measure.key()), &shape, &limits_m);
+        }
     }
 
     /// Whether the records bring the site's hazard, columns over the sites, and the spectra of weighted records as the
@@ -79,6 +85,7 @@ impl Export {
             if let (Some(u_m), Some(fits)) = (&of.u_m, &of.fits) {
                 let spectra = Shape(vec![strengths.len(), poes.len(), sites.len()]);
                 file.numbers(&name_with(BandKind::REPAIRED, urs::U_M.name, key), &spectra, u_m.values());
+                self.add_quoted(file, of.scaled_to, BandKind::REPAIRED);
                 let name = |own: &Quantity<_>| own.name_with(&format!("consistent_{key}"));
                 add(file, regression::COEFFICIENTS, lengths, fits, name);
             }

@@ -7,7 +7,7 @@ use uplift_hazard::return_period_from_probability;
 use uplift_job::alarm::Alarm;
 use uplift_result::declared::Quantity;
 use uplift_result::{
-    CONSISTENCY, Fit, Head, MeasureSpectra, ResultFile, Spectrum, SpreadOver, StoredBands, StoredConsistency,
+    BandKind, CONSISTENCY, Fit, Head, MeasureSpectra, ResultFile, Spectrum, SpreadOver, StoredBands, StoredConsistency,
     StoredFinding, StoredHazard, StoredSpectra, StoredSpread,
 };
 use uplift_studies::uniform_risk::quoted_bands_m;
@@ -25,6 +25,8 @@ pub struct Export {
     /// Limits of the quoted band of every ordinate, m, by measure, site, probability, then strength; none for a single
     /// record.
     pub(super) quoted_m: Vec<Option<[f64; 2]>>,
+    /// The same of the repaired spectra; none without repair.
+    repaired_quoted_m: Vec<Option<[f64; 2]>>,
     pub(super) bands: Option<StoredBands>,
     /// Spreads over what is not known.
     pub(super) spreads: Vec<StoredSpread>,
@@ -56,14 +58,16 @@ pub(super) struct Row<'a> {
     pub(super) spectrum: Spectrum<'a>,
     /// [`Export::quoted_m`] over the strengths.
     quoted_m: &'a [Option<[f64; 2]>],
+    repaired_quoted_m: &'a [Option<[f64; 2]>],
     /// Years.
     pub(super) return_period: f64,
 }
 
 impl Row<'_> {
-    /// Lower and upper limit of the quoted band over the strengths, m; NaN where there is none.
-    pub(super) fn quoted_m(&self) -> [Vec<f64>; 2] {
-        [0, 1].map(|limit| self.quoted_m.iter().map(|band_m| band_m.map_or(f64::NAN, |band_m| band_m[limit])).collect())
+    /// Lower and upper limit of the quoted band of a kind of spectrum over the strengths, m; NaN where there is none.
+    pub(super) fn quoted_m(&self, kind: BandKind) -> [Vec<f64>; 2] {
+        let quoted_m = if kind.is_repaired { self.repaired_quoted_m } else { self.quoted_m };
+        [0, 1].map(|limit| quoted_m.iter().map(|band_m| band_m.map_or(f64::NAN, |band_m| band_m[limit])).collect())
     }
 }
 
@@ -86,7 +90,8 @@ impl Export {
         Ok(Self {
             return_periods: spectra.poes.iter().map(return_period).collect::<Result<_, ExportsError>>()?,
             study: file.stored_study()?,
-            quoted_m: quoted_bands_m(file, &spectra)?,
+            quoted_m: quoted_bands_m(file, &spectra, false)?,
+            repaired_quoted_m: quoted_bands_m(file, &spectra, true)?,
             bands: file.bands()?,
             spreads: file.spreads()?,
             hazard: file.hazard()?,
@@ -123,13 +128,17 @@ impl Export {
     /// Every spectrum, by measure, then site, then probability.
     pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
         let places = self.spectra.measures.iter().flat_map(|of| of.fits.blocks::<2>().map(move |(at, _)| (at, of)));
-        let quoted = self.quoted_m.chunks(self.spectra.strengths.len());
-        places.zip(self.spectra.rows()).zip(quoted).map(|(((at, of_measure), spectrum), quoted_m)| Row {
-            at,
-            of_measure,
-            spectrum,
-            quoted_m,
-            return_period: self.return_periods[at[1]],
+        places.zip(self.spectra.rows()).enumerate().map(|(index, ((at, of_measure), spectrum))| {
+            let strengths = self.spectra.strengths.len();
+            let ordinates = index * strengths..(index + 1) * strengths;
+            Row {
+                at,
+                of_measure,
+                spectrum,
+                quoted_m: &self.quoted_m[ordinates.clone()],
+                repaired_quoted_m: &self.repaired_quoted_m[ordinates],
+                return_period: self.return_periods[at[1]],
+            }
         })
     }
 

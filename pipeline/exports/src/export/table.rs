@@ -5,6 +5,7 @@ use uplift_job::text::finite;
 use uplift_result::declared::Quantity;
 use uplift_result::{BandKind, EFFICIENCY, INFERRED_BANDS, StoredEfficiency, StoredSpread, before_unit, urs};
 use uplift_studies::uniform_risk::{band_columns, spectra_table};
+use uplift_uniform_risk::QUOTED_LIMITS;
 
 use super::Export;
 use super::added::SHARES;
@@ -87,7 +88,8 @@ impl Export {
     }
 
     /// What `uplift influence`, `uplift measures` and a repair added: levels below which 5 %, half and 95 % of the risk
-    /// of an ordinate lie, in the unit of the measure; dispersions; displacements of weighted records.
+    /// of an ordinate lie, in the unit of the measure; dispersions; displacements of weighted records with
+    /// their quoted band.
     fn added_cells(&self) -> Vec<Cells<'_>> {
         let mut cells = Vec::new();
         if !self.added.influence.is_empty() {
@@ -114,6 +116,11 @@ impl Export {
             let known = |u_m: &[f64]| u_m.iter().map(|u_m| Some(*u_m).filter(|u_m| !u_m.is_nan())).collect();
             cells.push(Cells::new(BandKind::REPAIRED.column(urs::U_M.name), move |row| {
                 Some(known(self.repaired(row)?.0))
+            }));
+            cells.extend(QUOTED_LIMITS.iter().enumerate().map(|(limit, name)| {
+                Cells::new(BandKind::REPAIRED.column(name), move |row| {
+                    Some(known(&row.quoted_m(BandKind::REPAIRED)[limit]))
+                })
             }));
         }
         cells

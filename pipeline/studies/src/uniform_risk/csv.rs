@@ -50,7 +50,7 @@ pub(crate) fn write_csv(result: &Path, outcome: &ComputedStudy<'_>) -> Result<()
     let [ordinates, coefficients] = csv_paths(result);
     let spectra = outcome.stored_spectra();
     let mut columns = spectra_table(&spectra);
-    columns.extend(band_columns(&quoted_bands_m(&ResultFile::open(result)?, &spectra)?));
+    columns.extend(band_columns(&quoted_bands_m(&ResultFile::open(result)?, &spectra, false)?));
     write_table(&ordinates, &line, columns)?;
     Ok(write_table(&coefficients, &line, regression_table(&spectra))?)
 }
@@ -65,16 +65,26 @@ pub fn spectra_table(spectra: &StoredSpectra) -> Vec<Column> {
     columns
 }
 
-/// Limits of the quoted bands of the ordinates in `file`, m, by measure, site, probability, then strength; none for a
-/// single record.
+/// Limits of the quoted bands of the ordinates in `file` or of the `repaired` ones, m, by measure, site, probability,
+/// then strength; none for a single record and without repair.
 ///
 /// # Errors
 /// A file that is damaged.
-pub fn quoted_bands_m(file: &ResultFile, spectra: &StoredSpectra) -> Result<Vec<Option<[f64; 2]>>, StudiesError> {
+pub fn quoted_bands_m(
+    file: &ResultFile,
+    spectra: &StoredSpectra,
+    repaired: bool,
+) -> Result<Vec<Option<[f64; 2]>>, StudiesError> {
+    let consistency = file.consistency()?;
+    let is_repaired = |measure| consistency.iter().any(|own| own.scaled_to == measure && own.u_m.is_some());
     let mut bands_m = Vec::new();
     for of in &spectra.measures {
+        if repaired && !is_repaired(of.measure) {
+            bands_m.resize(bands_m.len() + of.u_m.values().len(), None);
+            continue;
+        }
         let (strengths, measure) = (spectra.strengths.clone(), Some(of.measure));
-        let asked = DisplacementOptions { strengths, measure, every_probability: true, ..Default::default() };
+        let asked = DisplacementOptions { strengths, measure, every_probability: true, repaired, ..Default::default() };
         bands_m.extend(displacements(file, &asked)?.displacements.into_iter().map(|own| own.band_m));
     }
     Ok(bands_m)

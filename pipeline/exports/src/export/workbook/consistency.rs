@@ -2,10 +2,9 @@
 
 use rust_xlsxwriter::XlsxError;
 use uplift_job::text::risk_in_words;
-use uplift_result::CONSISTENCY;
+use uplift_result::{BandKind, CONSISTENCY};
 
 use super::sheet::{Sheet, Shown};
-use super::spectra::{head_of, over_strengths};
 use crate::export::Export;
 
 impl Export {
@@ -40,17 +39,9 @@ impl Export {
         sheet.finish((1, 1), &[18.0, 10.0, 9.0, 14.0])
     }
 
-    /// The spectra of weighted records.
+    /// The spectra of weighted records, the quoted band of each beside it.
     pub(super) fn consistent_spectra(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
-        let below = self.heads(sheet, &[])?;
-        let repaired = self.rows().filter_map(|row| self.repaired(&row).map(|(u_m, _)| (row, u_m)));
-        for (index, (row, u_m)) in repaired.enumerate() {
-            let column = index + 1;
-            head_of(sheet, column, &row)?;
-            sheet.heading((below - 1, column), "u, m", true)?;
-            over_strengths(sheet, (below, column), u_m)?;
-        }
-        sheet.finish((below, 1), &[26.0])
+        self.banded_sheet(sheet, |row| Some((self.repaired(row)?.0, row.quoted_m(BandKind::REPAIRED))))
     }
 
     /// Their coefficients.

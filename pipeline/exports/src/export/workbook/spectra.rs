@@ -20,13 +20,22 @@ const WIDTHS: [f64; 1] = [26.0];
 impl Export {
     /// The spectra, the quoted band of each beside it.
     pub(super) fn spectra_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
+        self.banded_sheet(sheet, |row| Some((row.spectrum.u_m, row.quoted_m(BandKind::PLAIN))))
+    }
+
+    /// Ordinates and limits of the quoted band of every spectrum that `of_row` has some of, m, side by side.
+    pub(super) fn banded_sheet<'a>(
+        &'a self,
+        sheet: &mut Sheet<'_>,
+        of_row: impl Fn(&Row<'a>) -> Option<(&'a [f64], [Vec<f64>; 2])>,
+    ) -> Result<(), XlsxError> {
         let below = self.heads(sheet, &["value"])?;
         let band = per_cent(CONFIDENCE);
         let names = ["best estimate".to_owned(), format!("{band} band, lower"), format!("{band} band, upper")];
         let mut column = 1;
         for row in self.rows() {
-            let [lower_m, upper_m] = row.quoted_m();
-            for (name, values_m) in names.iter().zip([row.spectrum.u_m, &lower_m, &upper_m]) {
+            let Some((u_m, [lower_m, upper_m])) = of_row(&row) else { continue };
+            for (name, values_m) in names.iter().zip([u_m, &lower_m, &upper_m]) {
                 head_of(sheet, column, &row)?;
                 sheet.heading((below - 2, column), name, false)?;
                 sheet.heading((below - 1, column), "u, m", true)?;
