@@ -44,11 +44,10 @@ pub use validation::{distributions_figure, pairs_figure};
 use std::path::Path;
 
 use uplift::result::{
-    Kind, ResultFile, StoredBands, StoredConsistency, StoredHazard, StoredInfluence, StoredRecords, StoredSpectra,
-    StoredSpread, StoredStripes,
+    Kind, ResultFile, SiteArrays, StoredBands, StoredConsistency, StoredHazard, StoredInfluence, StoredRecords,
+    StoredSpectra, StoredSpread, StoredStripes,
 };
 use uplift::text::risks_in_words;
-use uplift::uniform_risk::site_table::cube_path;
 use uplift::{Array, JobError, UpliftError};
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Band, Figure, Panel, Series, Tone, share_y};
@@ -61,7 +60,7 @@ use uplift_plot::{Axis, Band, Figure, Panel, Series, Tone, share_y};
 /// A file that is missing, damaged or no result; strengths that its sites do not have, or of a result without maps.
 pub fn result_figures(path: &Path, strengths: &[f64]) -> Result<Vec<Figure>, UpliftError> {
     let file = ResultFile::open(path)?;
-    if !strengths.is_empty() && (file.kind() != Kind::UniformRisk || !cube_path(path).is_file()) {
+    if !strengths.is_empty() && (file.kind() != Kind::UniformRisk || !SiteArrays::path(path).is_file()) {
         return Err(JobError::Usage("--strength is of maps: the result has no table of sites".to_owned()).into());
     }
     match file.kind() {

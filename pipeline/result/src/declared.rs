@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use uplift_job::Array;
-use uplift_labelled::{LabelledError, LabelledWriter, Number};
+use uplift_labelled::{GrowingArray, LabelledError, LabelledWriter, Number};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::OrdinateFlag;
 
@@ -148,6 +148,21 @@ impl<T> Quantity<T> {
     /// Its heading in a workbook.
     pub fn heading(&self) -> &'static str {
         self.exported.map_or(self.name, |(_, heading)| heading)
+    }
+
+    /// Its name with `names` for what stands in angle brackets.
+    pub fn name(&self, names: Names<'_>) -> String {
+        named(self.name, names).into_owned()
+    }
+
+    /// The same quantity in a field of another plain value over other axes, under its name in tables.
+    pub const fn over<U>(&self, axes: &'static [&'static str], field: Field<U>) -> Quantity<U> {
+        let name = match self.exported {
+            Some((name, _)) => name,
+            None => self.name,
+        };
+        let Self { unit, long_name, note, is_later, .. } = *self;
+        Quantity { name, axes, unit, long_name, note, exported: None, is_later, field }
     }
 
     /// Its name where arrays of all measures stand side by side: `u_pgv_m`, `flag_pgv`; the unit stays at the end.
@@ -306,7 +321,11 @@ impl<T> Group<T> {
     /// What `write` makes of path, axes, unit and long name of the only array.
     fn with_only<R>(&self, names: Names<'_>, write: impl FnOnce(&str, &[&str], &str, &str) -> R) -> R {
         debug_assert_eq!(self.quantities.len(), 1, "the arrays of {}", self.path);
-        let own = &self.quantities[0];
+        self.with(&self.quantities[0], names, write)
+    }
+
+    /// What `write` makes of path, axes, unit and long name of an array.
+    fn with<R>(&self, own: &Quantity<T>, names: Names<'_>, write: impl FnOnce(&str, &[&str], &str, &str) -> R) -> R {
         let axes = own.axes(names);
         let dims: Vec<&str> = axes.iter().map(AsRef::as_ref).collect();
         write(&self.path(own, names), &dims, &named(own.unit, names), &named(own.long_name, names))
@@ -314,7 +333,20 @@ impl<T> Group<T> {
 
     /// The path of an array.
     pub fn path(&self, quantity: &Quantity<T>, names: Names<'_>) -> String {
-        named(&format!("{}/{}", self.path, quantity.name), names).into_owned()
+        named(&format!("{}/{}", self.path.trim_end_matches('/'), quantity.name), names).into_owned()
+    }
+
+    /// Begins an array to which rows are appended.
+    ///
+    /// # Errors
+    /// Whatever keeps the file from being written.
+    pub fn grow<V: Number>(
+        &self,
+        quantity: &Quantity<T>,
+        writer: &mut LabelledWriter,
+        names: Names<'_>,
+    ) -> Result<GrowingArray<V>, LabelledError> {
+        self.with(quantity, names, |path, dims, unit, long_name| writer.grow(path, dims, unit, long_name))
     }
 
     /// The path of the first of its arrays that results of every version have.

@@ -26,6 +26,7 @@ mod peaks;
 mod provenance;
 mod records;
 mod shake_table;
+mod site_arrays;
 mod spectra;
 mod spread;
 mod stored_result;
@@ -68,6 +69,11 @@ pub use records::{DRAWN_QUANTITY, DRAWN_STRUCTURE, INTENSITY, MOTION_KEYS, RECOR
 pub use records::{StoredRecords, drawn_names, intensity_names};
 pub use shake_table::{DESIGN_SPECTRUM, TABLE_EXCITATIONS, TABLE_ORDER, TABLE_SPECTRA, TABLE_TESTS};
 pub use shake_table::{DIRECTIONS, Excitation, ShakeTable, TableLevel, TableSpectra, TableTest};
+pub use site_arrays::{
+    REPAIRED_SITE_NAMES, SITE_BANDS, SITE_CONSISTENCY, SITE_FITS, SITE_FLAGS, SITE_NAMES, SITE_PLACES, SITE_PROBLEMS,
+    SITE_SPECTRA, SITE_SPREADS,
+};
+pub use site_arrays::{SiteArrays, SiteConsistency, SiteSpectrum, SiteSpread};
 pub use spectra::{Fit, Fits, MeasureSpectra, Spectrum, StoredSpectra, regression, urs};
 pub use spread::{
     BRANCH_WEIGHTS, EPISTEMIC, EPISTEMIC_SPECTRA, REPAIRED_EPISTEMIC, REPAIRED_EPISTEMIC_SPECTRA, UNCERTAINTY,

@@ -41,8 +41,17 @@ impl SpreadOver {
         }
     }
 
+    /// In the names and meanings of its arrays.
+    pub const fn names(self) -> [(&'static str, &'static str); 3] {
+        let (one, many) = match self {
+            Self::HazardCurves => ("branch", "branches"),
+            Self::Structures => ("structure", "structures"),
+        };
+        [("<one>", one), ("<many>", many), ("<over>", self.key())]
+    }
+
     /// In names of columns and keys.
-    pub fn key(self) -> &'static str {
+    pub const fn key(self) -> &'static str {
         match self {
             Self::HazardCurves => "hazard",
             Self::Structures => "structure",
@@ -91,17 +100,17 @@ pub struct BranchSpectra {
 group! {
     /// Spread over the weighted hazard curves of a site; `<one>` of them and `<many>` in words.
     pub const EPISTEMIC: Spread = "/epistemic/<im>/<site>";
-    "mean_m" [POE, STRENGTH] F64 "m" "weighted mean over the <many>" as "mean_m" "mean"
+    "mean_m" [POE, STRENGTH] F64 "m" "weighted mean over the <many>" as "mean_<over>_m" "mean"
         = |of, at| of.mean_m[at];
-    "u05_m" [POE, STRENGTH] F64 "m" "5 % fractile over the <many>" as "u05_m" "5 %"
+    "u05_m" [POE, STRENGTH] F64 "m" "5 % fractile over the <many>" as "u05_<over>_m" "5 %"
         = |of, at| of.fractiles_m[0][at];
-    "u16_m" [POE, STRENGTH] F64 "m" "16 % fractile over the <many>" as "u16_m" "16 %"
+    "u16_m" [POE, STRENGTH] F64 "m" "16 % fractile over the <many>" as "u16_<over>_m" "16 %"
         = |of, at| of.fractiles_m[1][at];
-    "u50_m" [POE, STRENGTH] F64 "m" "50 % fractile over the <many>" as "u50_m" "50 %"
+    "u50_m" [POE, STRENGTH] F64 "m" "50 % fractile over the <many>" as "u50_<over>_m" "50 %"
         = |of, at| of.fractiles_m[2][at];
-    "u84_m" [POE, STRENGTH] F64 "m" "84 % fractile over the <many>" as "u84_m" "84 %"
+    "u84_m" [POE, STRENGTH] F64 "m" "84 % fractile over the <many>" as "u84_<over>_m" "84 %"
         = |of, at| of.fractiles_m[3][at];
-    "u95_m" [POE, STRENGTH] F64 "m" "95 % fractile over the <many>" as "u95_m" "95 %"
+    "u95_m" [POE, STRENGTH] F64 "m" "95 % fractile over the <many>" as "u95_<over>_m" "95 %"
         = |of, at| of.fractiles_m[4][at];
 }
 
@@ -126,9 +135,6 @@ pub const REPAIRED_EPISTEMIC: Group<Spread> = Group { path: "/consistency/<im>/b
 /// The repaired spectra of these curves.
 pub const REPAIRED_EPISTEMIC_SPECTRA: Group<Array<3>> = Group { path: REPAIRED_EPISTEMIC.path, ..EPISTEMIC_SPECTRA };
 
-/// What branches are called that are hazard curves, one and many.
-const CURVES: [&str; 2] = ["branch", "branches"];
-
 impl BranchSpectra {
     /// Writes those of the weighted hazard curves of `site` with the names and weights of these, along their `axis`.
     ///
@@ -142,7 +148,7 @@ impl BranchSpectra {
         BRANCH.write_texts(writer, &[("<branches>", axis)], &self.names)?;
         let names = [of_measure(measure)[0], ("<site>", site), ("<branches>", axis)];
         BRANCH_WEIGHTS.write_array(writer, &names, &self.weights)?;
-        self.write(writer, (&EPISTEMIC_SPECTRA, &EPISTEMIC), CURVES, (measure, site, axis))
+        self.write(writer, (&EPISTEMIC_SPECTRA, &EPISTEMIC), SpreadOver::HazardCurves, (measure, site, axis))
     }
 
     /// Writes the repaired ones of weighted hazard curves, along the `axis` of these.
@@ -151,7 +157,7 @@ impl BranchSpectra {
         writer: &mut LabelledWriter,
         at: (IntensityMeasure, &str, &str),
     ) -> Result<(), LabelledError> {
-        self.write(writer, (&REPAIRED_EPISTEMIC_SPECTRA, &REPAIRED_EPISTEMIC), CURVES, at)
+        self.write(writer, (&REPAIRED_EPISTEMIC_SPECTRA, &REPAIRED_EPISTEMIC), SpreadOver::HazardCurves, at)
     }
 
     /// Writes those of the possible structures.
@@ -163,18 +169,19 @@ impl BranchSpectra {
         writer: &mut LabelledWriter,
         (measure, site): (IntensityMeasure, &str),
     ) -> Result<(), LabelledError> {
-        let words = ["structure", "structures"];
-        self.write(writer, (&UNCERTAINTY_SPECTRA, &UNCERTAINTY), words, (measure, site, STRUCTURE.name))
+        let groups = (&UNCERTAINTY_SPECTRA, &UNCERTAINTY);
+        self.write(writer, groups, SpreadOver::Structures, (measure, site, STRUCTURE.name))
     }
 
     fn write(
         &self,
         writer: &mut LabelledWriter,
         (spectra, spread): (&Group<Array<3>>, &Group<Spread>),
-        [one, many]: [&str; 2],
+        over: SpreadOver,
         (measure, site, axis): (IntensityMeasure, &str, &str),
     ) -> Result<(), LabelledError> {
-        let names = [of_measure(measure)[0], ("<site>", site), ("<branches>", axis), ("<one>", one), ("<many>", many)];
+        let own = [of_measure(measure)[0], ("<site>", site), ("<branches>", axis)];
+        let names = [&own[..], &over.names()].concat();
         spectra.write_array(writer, &names, self.spectra_m.values())?;
         spread.write(writer, &names, &lengths(self.spread.mean_m.shape()), &self.spread)
     }

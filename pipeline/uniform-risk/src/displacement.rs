@@ -12,7 +12,7 @@ use uplift_job::text::nearest;
 use uplift_job::typed::number;
 use uplift_job::{Array, JobError};
 use uplift_motion::IntensityMeasure;
-use uplift_result::{MeasureSpectra, ResultFile};
+use uplift_result::{MeasureSpectra, ResultFile, SITE_BANDS};
 use uplift_risk::StrengthPlace;
 use uplift_structure::{Capacity, Demand, Rule};
 use uplift_study::Oscillator;
@@ -26,7 +26,7 @@ use crate::target_risks::TargetRisks;
 pub use uplift_bootstrap::QUOTED_CONFIDENCE as CONFIDENCE;
 
 /// The names of the limits of that band, m, in tables and exports.
-pub const QUOTED_LIMITS: [&str; 2] = ["lower_m", "upper_m"];
+pub const QUOTED_LIMITS: [&str; 2] = [SITE_BANDS.quantities[0].name, SITE_BANDS.quantities[1].name];
 /// The strengths that are shown where none are asked for, or the nearest that a result has.
 pub(crate) const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
 

@@ -34,7 +34,7 @@ pub use displacement::{
 pub use error::UniformRiskError;
 pub use precision::{Precision, precision};
 pub use quoted::{BandOf, QuotedUnits};
-pub use site_risk::{SiteRisk, SiteSpectra, SiteSpread};
+pub use site_risk::{SiteRisk, SiteSpectra};
 pub use spectra::{Reading, Spectra, pooled_demand, uniform_risk_spectra};
 pub use stored_stripes::{StoredMeasure, StoredStripes, branch_weights};
 pub use stripes::{

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use uplift_bootstrap::truth_limits;
 use uplift_job::Array;
 use uplift_regression::ExponentialFit;
-use uplift_result::{FRACTILES, Spread};
+use uplift_result::{FRACTILES, SiteSpread, Spread};
 use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, SiteWeights, StripeWeights};
 use uplift_study::UniformRiskStudy;
 
@@ -46,9 +46,6 @@ pub struct SiteSpectra {
     /// strengths of [`SiteRisk::spread_m`]; empty without.
     pub spread_m: Vec<SiteSpread>,
 }
-
-/// Mean and fractiles of an ordinate over weighted hazard curves, m.
-pub type SiteSpread = [f64; 1 + FRACTILES.len()];
 
 impl SiteSpectra {
     /// The ordinates and the bands at the position of a probability.

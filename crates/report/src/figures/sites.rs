@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use uplift::UpliftError;
-use uplift::result::ResultFile;
+use uplift::result::{ResultFile, SiteArrays};
 use uplift::text::{nearest, risk_in_words, rounded};
-use uplift::uniform_risk::site_table::{SHOWN_ON_MAP, SiteArrays};
+use uplift::uniform_risk::site_table::SHOWN_ON_MAP;
 use uplift::uniform_risk::strength_index;
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 

@@ -12,14 +12,16 @@ use crate::*;
 impl<T> Group<T> {
     /// Its rows of the table of arrays in `docs/hdf5-layout.md`.
     pub(super) fn rows(&self) -> String {
+        let of_sites: Names<'_> = if self.path == SITE_SPECTRA.path { &SITE_NAMES } else { &[] };
+        let names = [of_sites, EXAMPLES].concat();
         let row = |quantity: &Quantity<T>| {
-            let Quantity { name, unit, long_name, .. } = *quantity;
+            let Quantity { unit, long_name, .. } = *quantity;
             let note = if quantity.note.is_empty() { long_name } else { quantity.note };
             let absent = if quantity.is_later { "; absent in older results" } else { "" };
             let unit = if quantity.element() == "text" { String::new() } else { format!(" {unit}") };
-            let (path, axes, element) = (self.path, quantity.axes(EXAMPLES).join(", "), quantity.element());
-            named(&format!("| `{path}/{name}` | {axes} | {element} |{unit} | {note}{absent} |\n"), EXAMPLES)
-                .into_owned()
+            let path = self.path(quantity, &names);
+            let (axes, element) = (quantity.axes(&names).join(", "), quantity.element());
+            named(&format!("| `{path}` | {axes} | {element} |{unit} | {note}{absent} |\n"), &names).into_owned()
         };
         self.quantities.iter().map(row).collect()
     }
@@ -48,6 +50,7 @@ const EXAMPLES: Names<'_> = &[
     ("<unit_key>", "cm_s"),
     ("<unit>", "cm/s"),
     ("<branches>", "branch_<site>_pgv or structure"),
+    ("<sites>", "/"),
     ("<one>", "branch or structure"),
     ("<many>", "branches or structures"),
     ("<levels>", "<im>_level"),
@@ -122,6 +125,14 @@ fn declared() -> impl Iterator<Item = (&'static str, &'static str, String)> {
         TABLE_ORDER,
         TABLE_SPECTRA,
         DESIGN_SPECTRUM,
+        SITE_PLACES,
+        SITE_SPECTRA,
+        SITE_FLAGS,
+        SITE_BANDS,
+        SITE_SPREADS,
+        SITE_FITS,
+        SITE_PROBLEMS,
+        SITE_CONSISTENCY,
     ]
     .into_iter()
 }

@@ -117,6 +117,12 @@ attributes! {
         NAME String "name" "of `branches/<n>` alone";
         WEIGHT f64 "weight" "of `branches/<n>` alone";
     }
+    sites "<sites>" {
+        PROVENANCE String "provenance" "where the numbers come from";
+        YEARS f64 "years" "that the probabilities refer to";
+        FINDINGS String "findings" "how many sites deserve which warning, JSON";
+        TABLES String "tables" "of a slice: SHA-256 of each of its tables and of its map";
+    }
     spectra "/spectra" {
         ANALYSES u64 "analyses" "";
         SECONDS f64 "seconds" "wall time";

@@ -61,6 +61,7 @@ axes! {
     HAZARD "<axis>" "<unit>" "<label> of the hazard curve"
         ("levels of one hazard curve. The site's name is in lower case, at most 40 characters, `_` for other \
           characters, `x` added to tell two apart");
+    MEASURE "measure" "text" "intensity measure that the records are scaled by";
     // Of displacement spectra.
     RECORD_SET "record_set" "text" "record set" ("names of the sets");
     SCALING "scaling" "text" "what motions are scaled to, a multiple of the set's median peak"

@@ -7,12 +7,12 @@ use polars::prelude::Column;
 use uplift_job::outputs::{Output, OutputKind, beside};
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_result::declared::{Field, Place, Quantity};
-use uplift_result::{Fits, ResultFile, StoredSpectra, regression, urs};
+use uplift_result::{Fits, ResultFile, SiteArrays, StoredSpectra, regression, urs};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::{DisplacementOptions, QUOTED_LIMITS, displacements};
 
 use super::ComputedStudy;
-use super::site_table::{cube_path, site_table_paths};
+use super::site_table::{PROBLEM, site_table_paths};
 use crate::error::StudiesError;
 
 /// The tables beside the result file `result`: spectra and coefficients.
@@ -29,12 +29,12 @@ pub fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
         tables.push(Output::new(coefficients, OutputKind::Table(regression::RMSE_PLAIN_M.name)));
     }
     if study.site_table.is_some() {
-        tables.push(Output::new(cube_path(result), OutputKind::Sites));
+        tables.push(Output::new(SiteArrays::path(result), OutputKind::Sites));
     }
     if study.site_table.is_some() && study.output.csv {
         let [spectra, coefficients, map] = site_table_paths(result);
-        tables.push(Output::new(spectra, OutputKind::Table("flag")));
-        tables.push(Output::new(coefficients, OutputKind::Table("problem")));
+        tables.push(Output::new(spectra, OutputKind::Table(urs::FLAG.name)));
+        tables.push(Output::new(coefficients, OutputKind::Table(PROBLEM)));
         tables.push(Output::new(map, OutputKind::GeoJson));
     }
     tables

@@ -5,12 +5,13 @@ mod cube;
 mod files;
 mod layout;
 mod repair;
+mod shape;
 mod slices;
 
-pub use cube::{SiteArrays, cube_path};
 pub use files::{SiteTableFiles, site_table_paths};
 pub use layout::{SHOWN_ON_MAP, SiteRow, SiteTableLayout};
-pub use repair::{SiteConsistency, SiteRepair};
+pub use repair::{RepairedSite, SiteRepair};
+pub(super) use shape::PROBLEM;
 pub use slices::{SLICE, join, slice_path, sorted_slices, stripes_beside};
 
 use std::path::{Path, PathBuf};
@@ -187,16 +188,16 @@ fn spectra_of(
             own.spread_m = risk.spread_m(&weighted, files.layout().in_table()).unwrap_or_default();
         }
     }
-    let consistency: Option<Vec<SiteConsistency>> = repair
+    let repaired: Option<Vec<RepairedSite>> = repair
         .map(|repair| risks.iter().enumerate().map(|(export, risk)| repair.of_site(export, risk, &curves)).collect());
     let findings = SiteFindings {
         spectra: spectra
             .iter()
             .map(|spectra| spectra.as_ref().map_or(Vec::new(), |spectra| found(study, spectra)))
             .collect(),
-        unrepaired: consistency.iter().flatten().map(|consistency| consistency.spectra.is_err()).collect(),
+        unrepaired: repaired.iter().flatten().map(|own| own.spectra.is_err()).collect(),
     };
-    (files.layout().row(&list.sites[site.site], &spectra, consistency.as_deref()), findings)
+    (files.layout().row(&list.sites[site.site], &spectra, repaired.as_deref()), findings)
 }
 
 fn found(study: &UniformRiskStudy, spectra: &SiteSpectra) -> Vec<[bool; FINDINGS]> {

@@ -1,34 +1,29 @@
-//! What the repair adds to the tables of many sites.
+//! What the repair adds to the table of coefficients of many sites.
 
-use std::fmt::Write as _;
+use uplift_result::{BandKind, SITE_CONSISTENCY};
 
-use uplift_result::before_unit;
+use super::layout::{cell, number};
+use super::shape::{Shape, SiteValues, SpectrumArray};
 
-use super::SiteConsistency;
-use super::layout::{FIT, cell, fit_number, number};
+/// Position of the verdict, a text, among the numbers of [`SITE_CONSISTENCY`].
+const VERDICT: usize = 2;
 
-/// Columns of the spectra, the last two where they have bands.
-pub(super) const SPECTRA: [&str; 3] = ["u_consistent_m", "lower_consistent_m", "upper_consistent_m"];
-
-/// Columns of the coefficients.
-pub(super) fn coefficients() -> impl Iterator<Item = String> {
-    let of_fit = FIT.map(|(name, _)| before_unit(name, "_consistent"));
-    let of_site = ["bias", "max", "verdict", "least_effective"].map(str::to_owned);
-    of_site.into_iter().chain(of_fit).chain(["no_repair".to_owned()])
+/// The columns.
+pub(super) fn columns() -> Vec<String> {
+    let mut columns: Vec<String> = SITE_CONSISTENCY.quantities.iter().map(|own| own.name.to_owned()).collect();
+    columns.insert(VERDICT, "verdict".to_owned());
+    columns.extend(Shape::fits(BandKind::REPAIRED).map(SpectrumArray::column));
+    columns.push("no_repair".to_owned());
+    columns
 }
 
-pub(super) fn coefficient_cells(consistency: &SiteConsistency, poe: usize) -> String {
-    let fit = consistency.spectra.as_ref().ok().map(|spectra| spectra.fits[poe].as_ref());
-    let why = match (&consistency.spectra, fit) {
-        (Err(reason), _) => reason.clone(),
-        (_, Some(Err(reason))) => format!("no fit: {reason}"),
-        _ => String::new(),
-    };
-    let fit = fit.and_then(Result::ok);
-    let [bias, max, least] = [consistency.bias, consistency.max, consistency.least_effective].map(number);
-    let mut cells = format!(",{bias},{max},{},{least}", consistency.verdict);
-    for (_, value) in FIT {
-        let _ = write!(cells, ",{}", fit_number(fit, value));
-    }
-    cells + "," + &cell(&why)
+/// The cells of the spectrum at a position among those of a site, which are of so many probabilities.
+pub(super) fn cells(site: &SiteValues<'_>, at: usize, poes: usize) -> Vec<String> {
+    let consistency = site.consistency[at / poes];
+    let numbers = SITE_CONSISTENCY.quantities.iter().map(|own| number(own.number(consistency, 0)));
+    let mut cells: Vec<String> = numbers.collect();
+    cells.insert(VERDICT, consistency.verdict.to_owned());
+    cells.extend(Shape::fits(BandKind::REPAIRED).map(|own| number(own.value(site, at, 0))));
+    cells.push(cell(&site.no_repair[at]));
+    cells
 }

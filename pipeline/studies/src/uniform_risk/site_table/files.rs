@@ -11,9 +11,11 @@ use uplift_job::checksum::checksum_of_file;
 use uplift_job::outputs::{SITE_SPECTRA, beside};
 use uplift_job::table::write_metadata;
 use uplift_labelled::LabelledReader;
+use uplift_result::layout::attribute::sites as attribute;
+use uplift_result::{SITE_NAMES, SiteArrays};
 use uplift_study::UniformRiskStudy;
 
-use super::cube::{Cube, CubeRows, FINDINGS, TABLES, cube_path, is_of_digest};
+use super::cube::{Cube, CubeRows};
 use super::layout::{FEATURE, SiteRow, SiteTableLayout, SiteText, cell, json_text};
 use crate::error::StudiesError;
 
@@ -53,7 +55,7 @@ impl SiteTableFiles {
     /// A file that cannot be written.
     pub fn create(result: &Path, study: &UniformRiskStudy, list: &SiteList, line: &str) -> Result<Self, StudiesError> {
         let layout = SiteTableLayout::new(study, list);
-        let cube = Cube::create(&cube_path(result), study, list, &layout.shape, line)?;
+        let cube = Cube::create(result, study, list, &layout.shape, line)?;
         let texts = layout.has_texts.then(|| Texts::create(result, &layout, &list.carried, line)).transpose()?;
         let is_slice = study.site_table.as_ref().is_some_and(|table| table.slice.is_some());
         Ok(Self { cube, texts, layout, is_slice })
@@ -81,18 +83,18 @@ impl SiteTableFiles {
     /// # Errors
     /// Files of the slice that are missing or not as they were written.
     pub(super) fn write_slice(&mut self, slice: &Path, digest: &str) -> Result<String, StudiesError> {
-        let path = cube_path(slice);
+        let path = SiteArrays::path(slice);
         let again = |path: &Path, why: &str| {
             let (file, slice) = (path.display(), slice.display());
             JobError::input(format!("{file}: {why}: repeat the run of {slice} with --again"))
         };
         let reader = LabelledReader::open(&path)
             .map_err(|error| JobError::input(format!("{error}: repeat the run of {} with --again", slice.display())))?;
-        if !is_of_digest(&reader, digest)? {
+        if !SiteArrays::is_of_digest(&reader, digest)? {
             return Err(again(&path, "is not of this result").into());
         }
         if let Some(texts) = &mut self.texts {
-            let tables = reader.attributes::<String>("/", TABLES)?;
+            let tables = reader.attributes::<String>("/", attribute::TABLES.name)?;
             for (number, path) in site_table_paths(slice).iter().enumerate() {
                 if checksum_of_file(path).ok().as_ref() != tables.get(number) {
                     return Err(again(path, "is missing, or was changed since it was written").into());
@@ -101,7 +103,7 @@ impl SiteTableFiles {
             }
         }
         self.cube.write(CubeRows::read(&reader, &self.layout.shape)?)?;
-        Ok(reader.attribute::<String>("/", FINDINGS)?)
+        Ok(attribute::FINDINGS.read(&reader, &SITE_NAMES)?)
     }
 
     /// Put the files in their places, with what was found of their sites.
@@ -117,8 +119,7 @@ impl SiteTableFiles {
                 checksums = texts.checksums()?;
             }
         }
-        cube.attribute(FINDINGS, findings)?;
-        cube.attribute(TABLES, checksums)?;
+        cube.sign(findings, checksums)?;
         let mut paths = vec![cube.finish()?];
         if let Some(texts) = texts {
             texts.files.into_iter().try_for_each(GrowingFile::put_in_place)?;

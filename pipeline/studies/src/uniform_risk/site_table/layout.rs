@@ -6,41 +6,33 @@ use std::fmt::Write as _;
 use uplift_inputs::{ListedSite, SiteList};
 use uplift_job::table::neutral;
 use uplift_job::text::nearest;
-use uplift_regression::ExponentialFit;
-use uplift_risk::Ordinate;
+use uplift_result::layout::axis::STRENGTH;
+use uplift_result::{BandKind, SITE_FLAGS, regression};
 use uplift_study::UniformRiskStudy;
-use uplift_uniform_risk::{QUOTED_LIMITS, SiteSpectra, SiteSpread};
+use uplift_uniform_risk::SiteSpectra;
 
 use super::consistent;
-use super::cube::{CubeRows, SPREAD, Shape};
-use super::repair::SiteConsistency;
+use super::cube::CubeRows;
+use super::repair::RepairedSite;
+use super::shape::{PROBLEM, Shape, SiteValues, SpectrumArray};
 
 /// Strengths of which a map shows ordinates, unless the study names some.
 pub const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
 /// How the line of a site on the map begins.
 pub(super) const FEATURE: &str = "{\"type\":\"Feature\",";
-/// Columns of the spectra, before their bands.
-const SPECTRA: [&str; 9] = ["site", "longitude", "latitude", "im", "poe", "years", "strength", "u_m", "flag"];
-/// Columns of the coefficients before and after those of [`FIT`]; then come those of the study's own table.
-const COEFFICIENTS: [&[&str]; 2] =
-    [&["site", "longitude", "latitude", "im", "poe", "years"], &["bound_active", "problem"]];
-/// The name of a number of a fit, and where it is.
-type OfFit = (&'static str, fn(&ExponentialFit) -> f64);
-/// What tables, map and arrays have of a fit.
-pub(super) const FIT: [OfFit; 4] =
-    [("c0_m", |fit| fit.c0), ("c1", |fit| fit.c1), ("c2_m", |fit| fit.c2), ("rmse_m", |fit| fit.rmse)];
+/// Columns of both tables that say what a spectrum is of.
+const OF_SPECTRUM: [&str; 6] = ["site", "longitude", "latitude", "im", "poe", "years"];
+/// Position of the flag among the ordinates of a table, numbers.
+const FLAG: usize = 1;
 
 /// What the rows and properties are called.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct SiteTableLayout {
     years: f64,
+    /// In the table.
     strengths: Vec<f64>,
-    /// Positions of the strengths on the map, all of them in the table.
-    on_map: Vec<usize>,
-    /// Their names.
-    map_labels: Vec<String>,
-    /// `[export]`.
-    measures: Vec<MeasureNames>,
+    /// `[export, poe]`, as they are in [`SiteValues`].
+    spectra: Vec<SpectrumNames>,
     /// Names of the cells carried along, as keys of JSON.
     carried: Vec<String>,
     pub(super) has_texts: bool,
@@ -48,22 +40,16 @@ pub struct SiteTableLayout {
     pub(super) shape: Shape,
 }
 
-#[derive(Debug, Clone)]
-struct MeasureNames {
+#[derive(Clone)]
+struct SpectrumNames {
+    /// Of the measure.
     label: &'static str,
-    /// `[poe]`.
-    poes: Vec<PoeNames>,
-}
-
-#[derive(Debug, Clone)]
-struct PoeNames {
     poe: f64,
     /// Such as `pgv_2pct_50yr`.
     key: String,
+    /// What the map shows: name, such as `pgv_2pct_50yr_u_m_at_0.2`, quantity and place of its strength.
+    properties: Vec<(String, SpectrumArray, usize)>,
 }
-
-/// Ordinates of one probability, and their bands at the strengths in the table.
-type Spectrum<'a> = (&'a [Ordinate], &'a [[f64; 2]]);
 
 /// A site as it stands in the files.
 pub struct SiteRow {
@@ -84,32 +70,30 @@ impl SiteTableLayout {
             let is_chosen = |&index: &usize| chosen.contains(&study.strengths[index]);
             (0..study.strengths.len()).filter(is_chosen).collect::<Vec<usize>>()
         });
-        let in_table = chosen.clone().unwrap_or_else(|| (0..study.strengths.len()).collect());
-        let on_map = chosen.unwrap_or_else(|| nearest(&study.strengths, &SHOWN_ON_MAP));
-        let map_labels = strength_labels(on_map.iter().map(|&index| study.strengths[index]));
-        let years = study.risk.years;
-        let measure_names = |key: &str, label| MeasureNames {
-            label,
-            poes: (study.risk.poe.iter())
-                .map(|&poe| PoeNames { poe, key: format!("{key}_{}pct_{years}yr", (poe * 1e10).round() / 1e8) })
-                .collect(),
-        };
-        let shape = Shape::new(study, list, in_table);
-        let mut layout = Self {
-            years,
-            strengths: study.strengths.to_vec(),
-            on_map,
-            map_labels,
-            measures: (list.exports.iter())
-                .map(|export| measure_names(export.measure.key(), export.measure.label()))
-                .collect(),
-            carried: Vec::new(),
-            has_texts: study.output.csv,
-            shape,
-        };
-        let mut taken = layout.property_names();
-        layout.carried = distinct(&list.carried, &mut taken).iter().map(|name| json_text(name)).collect();
-        layout
+        let is_chosen = chosen.is_some();
+        let in_table = chosen.unwrap_or_else(|| (0..study.strengths.len()).collect());
+        let strengths: Vec<f64> = in_table.iter().map(|&index| study.strengths[index]).collect();
+        let on_map = if is_chosen { (0..strengths.len()).collect() } else { nearest(&strengths, &SHOWN_ON_MAP) };
+        let map_labels = strength_labels(on_map.iter().map(|&place| strengths[place]));
+        let on_map: Vec<(usize, String)> = on_map.into_iter().zip(map_labels).collect();
+        let (years, shape) = (study.risk.years, Shape::new(study, list, in_table));
+        let (mut spectra, mut taken) = (Vec::new(), BTreeSet::from(["name", PROBLEM].map(str::to_owned)));
+        for (export, &poe) in list.exports.iter().flat_map(|export| study.risk.poe.iter().map(move |poe| (export, poe)))
+        {
+            let key = format!("{}_{}pct_{years}yr", export.measure.key(), (poe * 1e10).round() / 1e8);
+            let mut properties = Vec::new();
+            for kind in shape.kinds() {
+                for (place, label) in &on_map {
+                    let name = |own: SpectrumArray| format!("{key}{}_{}_at_{label}", kind.suffix, own.name());
+                    properties.extend(shape.spectra(kind).map(|own| (name(own), own, *place)));
+                }
+            }
+            properties.extend(Shape::fits(BandKind::PLAIN).map(|own| (format!("{key}_{}", own.name()), own, 0)));
+            taken.extend(properties.iter().map(|(name, ..)| name.clone()));
+            spectra.push(SpectrumNames { label: export.measure.label(), poe, key, properties });
+        }
+        let carried = distinct(&list.carried, &mut taken).iter().map(|name| json_text(name)).collect();
+        Self { years, strengths, spectra, carried, has_texts: study.output.csv, shape }
     }
 
     /// Positions of the strengths in the table of spectra.
@@ -118,60 +102,36 @@ impl SiteTableLayout {
     }
 
     pub(super) fn spectra_columns(&self) -> Vec<String> {
-        let mut columns = SPECTRA.to_vec();
-        if self.shape.has_bands {
-            columns.extend(QUOTED_LIMITS);
-        }
-        if self.shape.is_repaired {
-            columns.extend(&consistent::SPECTRA[..if self.shape.has_bands { 3 } else { 1 }]);
-        }
-        if self.shape.has_spread {
-            columns.extend(SPREAD);
-        }
-        columns.into_iter().map(str::to_owned).collect()
+        let mut own: Vec<String> = self.shape.ordinates().map(SpectrumArray::column).collect();
+        own.insert(FLAG, SITE_FLAGS.quantities[0].name.to_owned());
+        OF_SPECTRUM.into_iter().chain([STRENGTH.name]).map(str::to_owned).chain(own).collect()
     }
 
     pub(super) fn coefficient_columns(&self, carried: &[String]) -> Vec<String> {
-        let [before, behind] = COEFFICIENTS;
-        let plain = before.iter().copied().chain(FIT.map(|(name, _)| name)).chain(behind.iter().copied());
-        let repaired = consistent::coefficients().filter(|_| self.shape.is_repaired);
-        let own: Vec<String> = plain.map(str::to_owned).chain(repaired).collect();
-        let carried = distinct(carried, &mut own.iter().cloned().collect());
-        own.into_iter().chain(carried).collect()
-    }
-
-    /// The properties of a feature but for cells carried along.
-    fn property_names(&self) -> BTreeSet<String> {
-        let mut names: BTreeSet<String> = ["name", "problem"].map(str::to_owned).into();
-        for names_of_poe in self.measures.iter().flat_map(|measure| &measure.poes) {
-            names.extend(FIT.map(|(name, _)| format!("{}_{name}", names_of_poe.key)));
-            for infix in ["", "_consistent"].into_iter().take(1 + usize::from(self.shape.is_repaired)) {
-                let of_strength = |place| self.map_values((place, None)).map(move |(quantity, _)| (quantity, place));
-                let own = (0..self.on_map.len()).flat_map(of_strength);
-                names.extend(own.map(|(quantity, place)| self.property((names_of_poe, infix), quantity, place)));
-            }
+        let mut columns = OF_SPECTRUM.map(str::to_owned).to_vec();
+        columns.extend(Shape::fits(BandKind::PLAIN).map(SpectrumArray::column));
+        columns.extend([regression::BOUND_ACTIVE.name, PROBLEM].map(str::to_owned));
+        if self.shape.is_repaired {
+            columns.extend(consistent::columns());
         }
-        names
+        columns.extend(distinct(carried, &mut columns.iter().cloned().collect()));
+        columns
     }
 
-    /// A site with its spectra in each export, or why it has none, and with what consistency says of each where the
-    /// study asks for a repair.
+    /// A site with its spectra in each export, or why it has none, and with its repair by each where the study asks
+    /// for one.
     pub fn row(
         &self,
         site: &ListedSite,
         spectra: &[Result<SiteSpectra, String>],
-        consistency: Option<&[SiteConsistency]>,
+        repaired: Option<&[RepairedSite]>,
     ) -> SiteRow {
-        let text = self.has_texts.then(|| self.text(site, spectra, consistency));
-        SiteRow { text, rows: self.shape.rows(spectra, consistency) }
+        let values = SiteValues::new(&self.shape, spectra, repaired.unwrap_or_default());
+        let text = self.has_texts.then(|| self.text(site, &values));
+        SiteRow { text, rows: CubeRows::new(values, &self.shape) }
     }
 
-    fn text(
-        &self,
-        site: &ListedSite,
-        spectra: &[Result<SiteSpectra, String>],
-        consistency: Option<&[SiteConsistency]>,
-    ) -> SiteText {
+    fn text(&self, site: &ListedSite, values: &SiteValues<'_>) -> SiteText {
         let mut text = SiteText { spectra: String::new(), coefficients: String::new(), feature: String::new() };
         let place = format!("{},{:?},{:?}", cell(&site.name), site.longitude_deg, site.latitude_deg);
         let mut tail = String::new();
@@ -182,32 +142,31 @@ impl SiteTableLayout {
         }
         let mut problems: Vec<String> = Vec::new();
         let mut properties = String::new();
-        for (export, (names, spectra)) in self.measures.iter().zip(spectra).enumerate() {
-            let consistency = consistency.map(|of_exports| &of_exports[export]);
-            if let Err(reason) = spectra {
-                problems.push(format!("{}: {reason}", names.label));
+        for (at, names) in self.spectra.iter().enumerate() {
+            let (spectrum, problem) = (values.plain[at].as_ref(), &values.problems[at]);
+            match spectrum {
+                Some(_) if !problem.is_empty() => problems.push(format!("{}: {problem}", names.key)),
+                None if at % self.shape.poes == 0 => problems.push(format!("{}: {problem}", names.label)),
+                _ => {}
             }
-            for (row, poe) in names.poes.iter().enumerate() {
-                let spectrum = spectra.as_ref().ok().map(|spectra| spectra.at_poe(row));
-                let fit = spectra.as_ref().ok().and_then(|spectra| spectra.fits[row].as_ref().ok());
-                let head = format!("{place},{},{:?},{:?}", names.label, poe.poe, self.years);
-                let repaired = consistency.and_then(|own| own.spectra.as_ref().ok()).map(|own| own.at_poe(row));
-                let spread_m = spectra.as_ref().map_or(&[][..], |spectra| spectra.spread_at_poe(row));
-                self.spectrum_rows(&mut text.spectra, &head, (spectrum, repaired), spread_m);
-                let problem = problem(spectra, row);
-                if !problem.is_empty() && spectrum.is_some() {
-                    problems.push(format!("{}: {problem}", poe.key));
-                }
-                let own = coefficient_cells(fit);
-                let of_repair = consistency.map(|own| consistent::coefficient_cells(own, row)).unwrap_or_default();
-                let _ = writeln!(text.coefficients, "{head},{own},{}{of_repair}{tail}", cell(&problem));
-                properties += &self.map_properties((poe, ""), spectrum);
-                if self.shape.is_repaired {
-                    properties += &self.map_properties((poe, "_consistent"), repaired);
-                }
-                for (name, value) in FIT {
-                    let _ = write!(properties, ",\"{}_{name}\":{}", poe.key, json_number(fit.map(value)));
-                }
+            let head = format!("{place},{},{:?},{:?}", names.label, names.poe, self.years);
+            let flags = spectrum.iter().flat_map(|spectrum| &spectrum.flags);
+            for (place, (strength, flag)) in self.strengths.iter().zip(flags).enumerate() {
+                let numbers = self.shape.ordinates().map(|own| number(own.value(values, at, place)));
+                let mut cells: Vec<String> = numbers.collect();
+                cells.insert(FLAG, flag.word().to_owned());
+                let _ = writeln!(text.spectra, "{head},{strength:?},{}", cells.join(","));
+            }
+            let fit = spectrum.map(|spectrum| spectrum.fit).filter(|fit| fit.curve().is_some());
+            let numbers = Shape::fits(BandKind::PLAIN).map(|own| number(own.value(values, at, 0)));
+            let mut cells: Vec<String> = numbers.collect();
+            cells.extend([fit.map_or_else(String::new, |fit| fit.bound_active.to_string()), cell(problem)]);
+            if self.shape.is_repaired {
+                cells.extend(consistent::cells(values, at, self.shape.poes));
+            }
+            let _ = writeln!(text.coefficients, "{head},{}{tail}", cells.join(","));
+            for (name, own, place) in &names.properties {
+                let _ = write!(properties, ",\"{name}\":{}", json_number(own.value(values, at, *place)));
             }
         }
         let problem = if problems.is_empty() { "null".to_owned() } else { json_text(&problems.join("; ")) };
@@ -215,106 +174,17 @@ impl SiteTableLayout {
         let longitude = if site.longitude_deg > 180.0 { site.longitude_deg - 360.0 } else { site.longitude_deg };
         let _ = write!(
             text.feature,
-            "{FEATURE}\"geometry\":{{\"type\":\"Point\",\"coordinates\":[{longitude:?},{:?}]}},\"properties\":{{\"name\":{}{properties},\"problem\":{problem}{carried}}}}}",
+            "{FEATURE}\"geometry\":{{\"type\":\"Point\",\"coordinates\":[{longitude:?},{:?}]}},\"properties\":{{\"name\":{}{properties},\"{PROBLEM}\":{problem}{carried}}}}}",
             site.latitude_deg,
             json_text(&site.name),
         );
         text
     }
-
-    fn spectrum_rows(
-        &self,
-        rows: &mut String,
-        head: &str,
-        (spectrum, repaired): (Option<Spectrum<'_>>, Option<Spectrum<'_>>),
-        spread_m: &[SiteSpread],
-    ) {
-        let Some((ordinates, bands_m)) = spectrum else { return };
-        for (place, &index) in self.shape.strengths.iter().enumerate() {
-            let Ordinate { displacement_m, flag, .. } = ordinates[index];
-            let _ = write!(rows, "{head},{:?},{displacement_m:?},{}", self.strengths[index], flag.word());
-            for limit_m in bands_m.get(place).into_iter().flatten() {
-                let _ = write!(rows, ",{}", number(*limit_m));
-            }
-            if self.shape.is_repaired {
-                let u_m = repaired.map_or(f64::NAN, |(ordinates, _)| ordinates[index].displacement_m);
-                let _ = write!(rows, ",{}", number(u_m));
-            }
-            if self.shape.is_repaired && self.shape.has_bands {
-                let [lower_m, upper_m] = repaired.map_or([f64::NAN; 2], |(_, bands_m)| bands_m[place]);
-                let _ = write!(rows, ",{},{}", number(lower_m), number(upper_m));
-            }
-            if self.shape.has_spread {
-                let unknown = [f64::NAN; SPREAD.len()];
-                for value_m in spread_m.get(place).unwrap_or(&unknown) {
-                    let _ = write!(rows, ",{}", number(*value_m));
-                }
-            }
-            rows.push('\n');
-        }
-    }
-
-    /// The properties of a spectrum at the strengths of the map, null where there is none.
-    fn map_properties(&self, (poe, infix): (&PoeNames, &str), spectrum: Option<Spectrum<'_>>) -> String {
-        let mut properties = String::new();
-        for place in 0..self.on_map.len() {
-            for (quantity, value_m) in self.map_values((place, spectrum)) {
-                let _ = write!(
-                    properties,
-                    ",\"{}\":{}",
-                    self.property((poe, infix), quantity, place),
-                    json_number(value_m)
-                );
-            }
-        }
-        properties
-    }
-
-    /// What the map shows at one of its strengths: the ordinate, and the limits of its band.
-    fn map_values(
-        &self,
-        (place, spectrum): (usize, Option<Spectrum<'_>>),
-    ) -> impl Iterator<Item = (&'static str, Option<f64>)> {
-        let strength = self.on_map[place];
-        let in_table = self.shape.strengths.iter().position(|own| *own == strength);
-        let band_m = spectrum.zip(in_table).and_then(|((_, bands_m), place)| bands_m.get(place).copied());
-        let limits = [0, 1].map(|at| (QUOTED_LIMITS[at], band_m.map(|of| of[at])));
-        let ordinate_m = spectrum.map(|(ordinates, _)| ordinates[strength].displacement_m);
-        [("u_m", ordinate_m)].into_iter().chain(limits.into_iter().filter(move |_| self.shape.has_bands))
-    }
-
-    /// The name of a quantity at one of the strengths of the map, such as `pgv_2pct_50yr_u_m_at_0.2`.
-    fn property(&self, (poe, infix): (&PoeNames, &str), quantity: &str, place: usize) -> String {
-        format!("{}{infix}_{quantity}_at_{}", poe.key, self.map_labels[place])
-    }
-}
-
-const NO_EXPONENTIAL: &str = "the spectrum is not a decaying exponential: its coefficients mean nothing one by one";
-
-/// What is wrong with the spectrum of a probability or its fit; empty where nothing is.
-pub(super) fn problem(spectra: &Result<SiteSpectra, String>, poe: usize) -> String {
-    match spectra.as_ref().map(|spectra| spectra.fits[poe].as_ref()) {
-        Err(reason) => reason.clone(),
-        Ok(Err(reason)) => format!("no fit: {reason}"),
-        Ok(Ok(fit)) if fit.at_search_limit => NO_EXPONENTIAL.to_owned(),
-        Ok(Ok(_)) => String::new(),
-    }
-}
-
-/// The cells from `c0_m` to `bound_active`.
-fn coefficient_cells(fit: Option<&ExponentialFit>) -> String {
-    let cells = FIT.map(|(_, value)| format!("{},", fit_number(fit, value)));
-    cells.concat() + &fit.map_or_else(String::new, |fit| fit.bound_active.to_string())
-}
-
-/// A number of a fit; nothing where there is none.
-pub(super) fn fit_number(fit: Option<&ExponentialFit>, value: fn(&ExponentialFit) -> f64) -> String {
-    number(fit.map_or(f64::NAN, value))
 }
 
 /// A number of a table; nothing where it is not known.
-pub(super) fn number(value: f64) -> String {
-    if value.is_nan() { String::new() } else { format!("{value:?}") }
+pub(super) fn number(value: Option<f64>) -> String {
+    value.filter(|value| !value.is_nan()).map_or_else(String::new, |value| format!("{value:?}"))
 }
 
 /// A cell of a table, in quotes where its content could be taken for the table's structure.
@@ -392,7 +262,7 @@ mod tests {
         assert_eq!(strength_labels([0.1, 1.0 / 3.0].into_iter()), ["0.1", "0.3333"]);
         assert_eq!(strength_labels([0.1, 0.100_001].into_iter()), ["0.1", "0.100001"]);
         let names = ["vs30", "problem", "vs30"].map(str::to_owned);
-        let mut taken = COEFFICIENTS.concat().into_iter().map(str::to_owned).collect();
+        let mut taken = [PROBLEM.to_owned()].into();
         assert_eq!(distinct(&names, &mut taken), ["vs30", "table_problem", "table_vs30"]);
     }
 }

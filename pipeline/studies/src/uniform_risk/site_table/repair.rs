@@ -4,30 +4,26 @@ use uplift_consistency::{RecordSet, Verdict};
 use uplift_hazard::HazardCurve;
 use uplift_inputs::{SiteExport, SiteList};
 use uplift_motion::IntensityMeasure;
+use uplift_result::SiteConsistency;
 use uplift_uniform_risk::consistency::Question;
 use uplift_uniform_risk::{SiteRisk, SiteSpectra};
 
 use crate::error::StudiesError;
 
-/// What the records bring of the other measure at a site, and the spectra of weights by which they bring the site's.
+/// A site whose records are weighted so that they have its hazard of the other measure.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SiteConsistency {
-    /// How many times the site's level they bring, mean over the rates compared; NaN where it cannot be said.
-    pub bias: f64,
-    /// Largest |ln(implied/site)|; NaN where it cannot be said.
-    pub max: f64,
-    /// `consistent`, `off`, `inconsistent`; empty where it cannot be said.
-    pub verdict: &'static str,
-    /// Fewest effective records at a stripe; NaN without a repair.
-    pub least_effective: f64,
+pub struct RepairedSite {
+    /// How far they miss it without weights.
+    pub consistency: SiteConsistency,
     /// The spectra of the weighted records, or why there are none.
     pub spectra: Result<SiteSpectra, String>,
 }
 
-impl SiteConsistency {
-    /// Nothing can be said, and why.
+impl RepairedSite {
+    /// Nothing is known, and why.
     fn unknown(reason: String) -> Self {
-        Self { bias: f64::NAN, max: f64::NAN, verdict: "", least_effective: f64::NAN, spectra: Err(reason) }
+        let [bias, max, least_effective] = [f64::NAN; 3];
+        Self { consistency: SiteConsistency { bias, max, verdict: "", least_effective }, spectra: Err(reason) }
     }
 }
 
@@ -63,25 +59,20 @@ impl<'a> SiteRepair<'a> {
 
     /// The site with `curves` of [`SiteList::all_exports`], where the spectra of the export at `export` are those of
     /// `risk`.
-    pub fn of_site(
-        &self,
-        export: usize,
-        risk: &SiteRisk<'_>,
-        curves: &[Result<HazardCurve, String>],
-    ) -> SiteConsistency {
+    pub fn of_site(&self, export: usize, risk: &SiteRisk<'_>, curves: &[Result<HazardCurve, String>]) -> RepairedSite {
         let Some(scaled) = &self.sets[export] else {
-            return SiteConsistency::unknown(
+            return RepairedSite::unknown(
                 "the table has an export of one measure alone: add that of another".to_owned(),
             );
         };
         let (own, compared) = match (&curves[export], &curves[scaled.other.1]) {
             (Ok(own), Ok(compared)) => (own, compared),
-            (Err(reason), _) => return SiteConsistency::unknown(format!("{}: {reason}", scaled.scaled_to.label())),
-            (_, Err(reason)) => return SiteConsistency::unknown(format!("{}: {reason}", scaled.other.0.label())),
+            (Err(reason), _) => return RepairedSite::unknown(format!("{}: {reason}", scaled.scaled_to.label())),
+            (_, Err(reason)) => return RepairedSite::unknown(format!("{}: {reason}", scaled.other.0.label())),
         };
         let stripes = (scaled.scaled_to, &scaled.levels[..]);
         match self.question.finding_of(0, stripes, scaled.other.0, &scaled.set, (own, compared), true) {
-            Err(error) => SiteConsistency::unknown(error.to_string()),
+            Err(error) => RepairedSite::unknown(error.to_string()),
             Ok(finding) => {
                 let deviation = finding.diagnosis.deviation.as_ref();
                 let spectra = match finding.repaired() {
@@ -89,13 +80,13 @@ impl<'a> SiteRepair<'a> {
                     None => Err(self.question.no_repair(&finding).unwrap_or_default()),
                 };
                 let least = finding.repaired().and_then(|repaired| repaired.diagnosis.least_effective.as_ref());
-                SiteConsistency {
+                let consistency = SiteConsistency {
                     bias: deviation.map_or(f64::NAN, |own| own.bias),
                     max: deviation.map_or(f64::NAN, |own| own.max),
                     verdict: finding.diagnosis.verdict().map_or("", Verdict::key),
                     least_effective: least.map_or(f64::NAN, |least| least.records),
-                    spectra,
-                }
+                };
+                RepairedSite { consistency, spectra }
             }
         }
     }

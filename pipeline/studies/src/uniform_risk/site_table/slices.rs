@@ -9,10 +9,9 @@ use uplift_job::JobError;
 use uplift_job::events::{Events, Progress};
 use uplift_job::outputs::beside;
 use uplift_job::text::counted;
-use uplift_result::ResultFile;
+use uplift_result::{ResultFile, SiteArrays};
 use uplift_study::{SiteSlice, UniformRiskStudy};
 
-use super::cube::cube_path;
 use super::files::SiteTableFiles;
 use super::{SiteOutput, Tally};
 use crate::error::StudiesError;
@@ -53,7 +52,7 @@ pub fn sorted_slices(study: &UniformRiskStudy, paths: &[PathBuf]) -> Result<Vec<
     let mut found: BTreeMap<usize, &PathBuf> = BTreeMap::new();
     let mut counts = Vec::new();
     // a pattern such as *.h5 names the arrays of a slice too
-    let is_cube = |path: &&PathBuf| paths.iter().any(|result| cube_path(result) == **path);
+    let is_cube = |path: &&PathBuf| paths.iter().any(|result| SiteArrays::path(result) == **path);
     for path in paths.iter().filter(|path| !is_cube(path)) {
         let name = path.display();
         let head = match ResultFile::open(path).and_then(|file| file.head()) {
