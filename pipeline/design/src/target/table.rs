@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use uplift_job::outputs;
 use uplift_job::table::{ColumnsOf, write_table};
 
 use super::TargetReport;
 use crate::error::DesignError;
+use crate::tables::{FREQUENCIES, TAIL_SHARES};
 use crate::uncertain::PERCENTILES;
-use uplift_job::outputs;
 
 /// The column by which a table of this program is known.
 pub(super) const FIRST_COLUMN: &str = "quantity";
@@ -29,10 +30,9 @@ pub(super) fn write(path: &Path, report: &TargetReport) -> Result<(), DesignErro
         .with(FIRST_COLUMN, |_| report.quantity)
         .with("unit", |_| report.quantity_unit)
         .with("value", |tried| tried.value)
-        .with("maf_per_year", |tried| tried.risk.per_year)
-        .with("at_most_per_year", |tried| tried.risk.at_most_per_year)
-        .with("lower_tail_share", |tried| tried.risk.lower_tail_share)
-        .with("upper_tail_share", |tried| tried.risk.upper_tail_share)
+        .each(FREQUENCIES.into_iter().chain(TAIL_SHARES), |columns, (name, of)| {
+            columns.with(name, |tried| of(&tried.risk))
+        })
         .with("target_per_year", |_| report.target_per_year)
         .with("is_met", |tried| tried.is_met);
     if let Some(uncertain) = &report.uncertainty {
