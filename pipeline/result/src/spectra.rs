@@ -1,6 +1,6 @@
 //! The uniform risk spectra of a result, and what was fitted to them.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use uplift_job::Array;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
@@ -175,24 +175,35 @@ impl Fit {
 }
 
 /// One spectrum, named by what it is of.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spectrum<'a> {
     /// Site.
     pub site: &'a str,
-    /// Measure.
+    /// Measure, by its label where it is serialized.
+    #[serde(rename = "im", serialize_with = "label")]
     pub measure: IntensityMeasure,
     /// Probability of exceedance in the years of the study.
     pub poe: f64,
     /// Displacements over the strengths of the result, m; infinite where censored.
     pub u_m: &'a [f64],
-    /// What kind of ordinate each is.
+    /// What kind of ordinate each is, in a word where it is serialized.
+    #[serde(serialize_with = "words")]
     pub flags: &'a [OrdinateFlag],
     /// Share of the risk of each that comes from below the first stripe, 0 to 1.
     pub lower_tail_share: &'a [f64],
     /// Share of the risk of each that comes from above the last stripe, 0 to 1.
     pub upper_tail_share: &'a [f64],
     /// Its coefficients.
+    #[serde(skip)]
     pub fit: Fit,
+}
+
+fn label<S: Serializer>(measure: &IntensityMeasure, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(measure.label())
+}
+
+fn words<S: Serializer>(flags: &[OrdinateFlag], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(flags.iter().map(|flag| flag.word()))
 }
 
 impl StoredSpectra {

@@ -14,17 +14,18 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
 use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
 use sha2::{Digest, Sha256};
 use uplift_alarms::alarms;
 use uplift_engine::checkpoint::oscillator_key;
 use uplift_inputs::load_uniform_risk;
-use uplift_job::JobError;
 use uplift_job::alarm::{Alarm, Severity};
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::study_run::RunOptions;
+use uplift_job::{Array, JobError};
 use uplift_labelled::hexadecimal;
-use uplift_result::ResultFile;
+use uplift_result::{MeasureSpectra, ResultFile, Spectrum, StoredConsistency, StoredSpectra};
 use uplift_studies::uniform_risk::Inputs;
 use uplift_study::{AnyStudy, Study, StudyError, UniformRiskStudy};
 use uplift_uniform_risk::{BandOf, Displacement, DisplacementOptions, DisplacementReport, displacements};
@@ -92,12 +93,9 @@ pub struct VariantReport {
     pub values: Vec<Option<String>>,
     /// Whether the records are synthetic.
     pub synthetic: bool,
-    /// Years that the probabilities refer to.
-    pub years: f64,
-    /// Strengths of its spectra.
-    pub strengths: Vec<f64>,
     /// Its spectra.
-    pub spectra: Vec<VariantSpectrum>,
+    #[serde(flatten)]
+    pub spectra: VariantSpectra,
     /// Displacements with their confidence bands, of its smallest probability by each measure.
     pub displacements: Vec<Displacement>,
     /// What the bands by each measure take for independent, with the measure: `records` or `earthquakes`.
@@ -109,25 +107,46 @@ pub struct VariantReport {
     pub alarms: Vec<Alarm>,
 }
 
-/// A uniform risk spectrum of a variant.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct VariantSpectrum {
-    /// The site.
-    pub site: String,
-    /// `PGV` or `PGA`.
-    pub im: &'static str,
-    /// Probability of exceedance.
-    pub poe: f64,
-    /// Displacements over the strengths of the variant, m; infinite where censored.
-    pub u_m: Vec<f64>,
-    /// What kind of ordinate each is: `regular`, `no exceedance`, `censored`.
-    pub flags: Vec<&'static str>,
-    /// Share of the risk of each that comes from below the first stripe, 0 to 1.
-    pub lower_tail_share: Vec<f64>,
-    /// Share of the risk of each that comes from above the last stripe, 0 to 1.
-    pub upper_tail_share: Vec<f64>,
-    /// The repaired displacements, m; none without a repair.
-    pub repaired_m: Option<Vec<f64>>,
+/// The uniform risk spectra of a variant, with the repaired ones.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VariantSpectra {
+    /// Those of records that count alike.
+    pub plain: StoredSpectra,
+    /// The repaired displacements of each measure `[site, poe, strength]`, m; none without a repair.
+    pub repaired_m: Vec<Option<Array<3>>>,
+}
+
+impl VariantSpectra {
+    fn read(file: &ResultFile, consistency: &[StoredConsistency]) -> Result<Self, UpliftError> {
+        let plain = file.spectra()?;
+        let repaired_m = |own: &MeasureSpectra| consistency.iter().find(|of| of.scaled_to == own.measure)?.u_m.clone();
+        Ok(Self { repaired_m: plain.measures.iter().map(repaired_m).collect(), plain })
+    }
+
+    /// Every spectrum with its repaired displacements, by measure, then site, then probability.
+    pub fn rows(&self) -> impl Iterator<Item = (Spectrum<'_>, Option<&[f64]>)> {
+        let repaired_m = self.plain.measures.iter().zip(&self.repaired_m).flat_map(|(own, repaired_m)| {
+            own.fits.blocks::<2>().map(move |(at, _)| repaired_m.as_ref().map(|u_m| u_m.block(at)))
+        });
+        self.plain.rows().zip(repaired_m)
+    }
+}
+
+impl Serialize for VariantSpectra {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Row<'a> {
+            #[serde(flatten)]
+            spectrum: Spectrum<'a>,
+            repaired_m: Option<&'a [f64]>,
+        }
+        let rows: Vec<Row<'_>> = self.rows().map(|(spectrum, repaired_m)| Row { spectrum, repaired_m }).collect();
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("years", &self.plain.years)?;
+        map.serialize_entry("strengths", &self.plain.strengths)?;
+        map.serialize_entry("spectra", &rows)?;
+        map.end()
+    }
 }
 
 /// A variant that is ready to be run.
@@ -337,25 +356,7 @@ impl VariantReport {
     /// What the file at `result` has.
     fn new(name: String, result: PathBuf, keys: &[String], asked: &Variant) -> Result<Self, UpliftError> {
         let file = ResultFile::open(&result)?;
-        let axes = file.axes()?;
-        let spectra = file.spectra()?;
         let consistency = file.consistency()?;
-        let repaired = |row: &uplift_result::Spectrum<'_>| {
-            let of = consistency.iter().find(|of| of.scaled_to == row.measure)?;
-            let site = axes.sites.iter().position(|site| site == row.site)?;
-            let poe = axes.poes.iter().position(|poe| poe.to_bits() == row.poe.to_bits())?;
-            Some(of.u_m.as_ref()?.block([site, poe]).to_vec())
-        };
-        let row = |row: uplift_result::Spectrum<'_>| VariantSpectrum {
-            site: row.site.to_owned(),
-            im: row.measure.label(),
-            poe: row.poe,
-            u_m: row.u_m.to_vec(),
-            flags: row.flags.iter().map(|flag| flag.word()).collect(),
-            lower_tail_share: row.lower_tail_share.to_vec(),
-            upper_tail_share: row.upper_tail_share.to_vec(),
-            repaired_m: repaired(&row),
-        };
         let with_bands = |repaired: bool| {
             let is_there = |measure| consistency.iter().any(|of| of.scaled_to == measure && of.u_m.is_some());
             let measures = file.measures().into_iter().filter(|&measure| !repaired || is_there(measure));
@@ -374,12 +375,10 @@ impl VariantReport {
             name,
             values: keys.iter().map(|key| asked.value(key).map(str::to_owned)).collect(),
             synthetic: file.is_synthetic()?,
-            years: axes.years,
-            spectra: spectra.rows().map(row).collect(),
+            spectra: VariantSpectra::read(&file, &consistency)?,
             displacements: all(&plain),
             band_of: plain.iter().map(|of| (of.measure.label(), of.band_of)).collect(),
             repaired: all(&repaired),
-            strengths: axes.strengths,
             result,
         })
     }

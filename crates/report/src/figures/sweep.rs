@@ -1,6 +1,7 @@
 //! The spectra of variants of a study over each other.
 
-use uplift::sweep::{SweepReport, VariantReport, VariantSpectrum};
+use uplift::result::Spectrum;
+use uplift::sweep::{SweepReport, VariantReport};
 use uplift::text::risk_in_words;
 use uplift_plot::{Axis, Figure, Panel, Series, Tone};
 
@@ -12,10 +13,10 @@ const TOLD_APART: usize = 7;
 /// A panel for each measure and site: the spectra of all variants for the rarest risk of each.
 pub fn sweep_figure(report: &SweepReport) -> Figure {
     let mut places: Vec<(&'static str, &str, bool)> = Vec::new();
-    for spectrum in report.variants.iter().flat_map(|variant| &variant.spectra) {
+    for (spectrum, repaired_m) in report.variants.iter().flat_map(|variant| variant.spectra.rows()) {
         for repaired in [false, true] {
-            let place = (spectrum.im, spectrum.site.as_str(), repaired);
-            if (!repaired || spectrum.repaired_m.is_some()) && !places.contains(&place) {
+            let place = (spectrum.measure.label(), spectrum.site, repaired);
+            if (!repaired || repaired_m.is_some()) && !places.contains(&place) {
                 places.push(place);
             }
         }
@@ -23,9 +24,9 @@ pub fn sweep_figure(report: &SweepReport) -> Figure {
     let of = report.variants.len();
     let panel = |&(im, site, repaired): &(&str, &str, bool)| {
         let line = |(step, variant): (usize, &VariantReport)| {
-            let spectrum = rarest(variant, im, site)?;
-            let u_m = if repaired { spectrum.repaired_m.as_ref()? } else { &spectrum.u_m };
-            let points = variant.strengths.iter().copied().zip(u_m.iter().copied()).collect();
+            let (spectrum, repaired_m) = rarest(variant, im, site)?;
+            let u_m = if repaired { repaired_m? } else { spectrum.u_m };
+            let points = variant.spectra.plain.strengths.iter().copied().zip(u_m.iter().copied()).collect();
             let tone = if of <= TOLD_APART { Tone::Distinct(step) } else { Tone::Shade { step, of } };
             Some(Series::sampled(&variant.name, points, tone))
         };
@@ -35,8 +36,8 @@ pub fn sweep_figure(report: &SweepReport) -> Figure {
     };
     let panels: Vec<Panel> = places.iter().map(panel).collect();
     let risk = report.variants.first().and_then(|variant| {
-        let spectrum = variant.spectra.iter().min_by(|a, b| a.poe.total_cmp(&b.poe))?;
-        Some(risk_in_words(spectrum.poe, variant.years))
+        let spectra = &variant.spectra.plain;
+        Some(risk_in_words(spectra.poes.iter().copied().min_by(f64::total_cmp)?, spectra.years))
     });
     let synthetic = report.variants.iter().any(|variant| variant.synthetic);
     let title = format!("Variants of {}", report.title);
@@ -45,8 +46,8 @@ pub fn sweep_figure(report: &SweepReport) -> Figure {
     Figure::new("comparison", title, caption, panels).with_remark(remark(synthetic))
 }
 
-/// The spectrum of a variant by a measure at a site for its smallest probability.
-fn rarest<'a>(variant: &'a VariantReport, im: &str, site: &str) -> Option<&'a VariantSpectrum> {
-    let own = variant.spectra.iter().filter(|spectrum| spectrum.im == im && spectrum.site == site);
-    own.min_by(|a, b| a.poe.total_cmp(&b.poe))
+/// The spectrum of a variant by a measure at a site for its smallest probability, with its repaired displacements, m.
+fn rarest<'a>(variant: &'a VariantReport, im: &str, site: &str) -> Option<(Spectrum<'a>, Option<&'a [f64]>)> {
+    let own = variant.spectra.rows().filter(|(own, _)| own.measure.label() == im && own.site == site);
+    own.min_by(|(a, _), (b, _)| a.poe.total_cmp(&b.poe))
 }

@@ -1,10 +1,12 @@
 //! All spectra of all variants in one table, a row an ordinate.
 
-use uplift_job::outputs;
+use polars::prelude::Column;
 use uplift_job::table::{ColumnsOf, write_table};
-use uplift_result::{BandKind, urs};
+use uplift_job::{JobError, outputs};
+use uplift_result::{BandKind, Spectrum, urs};
+use uplift_studies::uniform_risk::spectra_table;
 
-use super::{SweepReport, VariantReport, VariantSpectrum};
+use super::{SweepReport, VariantReport};
 use crate::error::UpliftError;
 
 /// The column by which a table of this program is known.
@@ -16,34 +18,42 @@ pub(super) fn write(report: &SweepReport, digest: &str) -> Result<(), UpliftErro
         report.variants.len(),
         report.study.display()
     ));
-    let rows = report.variants.iter().flat_map(|variant| {
-        let of_spectrum = move |spectrum| (0..variant.strengths.len()).map(move |at| (variant, spectrum, at));
-        variant.spectra.iter().flat_map(of_spectrum)
-    });
-    let has_repaired = report.variants.iter().flat_map(|of| &of.spectra).any(|of| of.repaired_m.is_some());
-    let columns = ColumnsOf::new(rows)
-        .with(FIRST_COLUMN, |(variant, ..)| variant.name.as_str())
-        .each(report.keys.iter().enumerate(), |columns, (place, key)| {
-            columns.with(key.as_str(), |(variant, ..)| variant.values[place].as_deref())
+    let has_repaired = report.variants.iter().any(|of| of.spectra.repaired_m.iter().any(Option::is_some));
+    let mut columns: Vec<Column> = Vec::new();
+    for variant in &report.variants {
+        let own = variant_columns(report, variant, has_repaired);
+        if columns.is_empty() {
+            columns = own;
+        } else {
+            let mut both = columns.iter_mut().zip(&own);
+            both.try_for_each(|(all, own)| all.append(own).map(drop)).map_err(|e| JobError::input(e.to_string()))?;
+        }
+    }
+    Ok(write_table(&report.table, &line, columns)?)
+}
+
+/// A row an ordinate of a variant: its spectra as the table beside its result has them, and what is compared.
+fn variant_columns(report: &SweepReport, variant: &VariantReport, has_repaired: bool) -> Vec<Column> {
+    let strengths = variant.spectra.plain.strengths.len();
+    let rows = variant.spectra.rows().flat_map(|row| (0..strengths).map(move |at| (row, at)));
+    let mut columns = ColumnsOf::new(rows)
+        .with(FIRST_COLUMN, |_| variant.name.as_str())
+        .each(report.keys.iter().zip(&variant.values), |columns, (key, value)| {
+            columns.with(key.as_str(), |_| value.as_deref())
         })
-        .with("site", |(_, spectrum, _)| spectrum.site.as_str())
-        .with("im", |(_, spectrum, _)| spectrum.im)
-        .with("poe", |(_, spectrum, _)| spectrum.poe)
-        .with("years", |(variant, ..)| variant.years)
-        .with("strength", |(variant, _, at)| variant.strengths[at])
-        // a censored ordinate is inf, as in the tables beside a result
-        .with(urs::U_M.name, |(_, spectrum, at)| spectrum.u_m[at])
-        .with("over_first", |(variant, spectrum, at)| over_first(&report.variants[0], variant, spectrum, at))
+        .with("over_first", |((spectrum, _), at)| over_first(report, variant, &spectrum, at))
         .each(has_repaired.then(|| BandKind::REPAIRED.column(urs::U_M.name)), |columns, name| {
-            let repaired_m = |spectrum: &VariantSpectrum, at: usize| Some(spectrum.repaired_m.as_ref()?[at]);
-            columns.with(name, |(_, spectrum, at)| repaired_m(spectrum, at).filter(|u_m| !u_m.is_nan()))
+            columns.with(name, |((_, repaired_m), at)| Some(repaired_m?[at]).filter(|u_m| !u_m.is_nan()))
         })
-        .with(urs::FLAG.name, |(_, spectrum, at)| spectrum.flags[at])
-        // zero has no sign in a table
-        .with(urs::LOWER_TAIL_SHARE.name, |(_, spectrum, at)| spectrum.lower_tail_share[at] + 0.0)
-        .with(urs::UPPER_TAIL_SHARE.name, |(_, spectrum, at)| spectrum.upper_tail_share[at] + 0.0)
-        .with("cautions", |(variant, ..)| kinds(variant).join("; "));
-    Ok(write_table(&report.table, &line, columns.build())?)
+        .with("cautions", |_| kinds(variant).join("; "))
+        .build();
+    let mut spectra = spectra_table(&variant.spectra.plain);
+    let beside = spectra.iter().position(|column| column.name() == urs::U_M.name).map_or(0, |place| place + 1);
+    let (flags, keys) = (spectra.split_off(beside), 1 + report.keys.len());
+    columns.splice(keys..keys, spectra);
+    let last = columns.len() - 1;
+    columns.splice(last..last, flags);
+    columns
 }
 
 /// Kinds of what is to be seen to before the numbers of a variant are used.
@@ -51,17 +61,17 @@ fn kinds(variant: &VariantReport) -> Vec<&'static str> {
     variant.alarms.iter().map(|alarm| alarm.kind).collect()
 }
 
-/// An ordinate over that of the `first` variant at the same site, measure, risk and strength; none where that variant
-/// has no such ordinate, and of two that are 0 or censored.
-fn over_first(first: &VariantReport, variant: &VariantReport, spectrum: &VariantSpectrum, at: usize) -> Option<f64> {
-    let is_same = |own: &&VariantSpectrum| {
-        own.site == spectrum.site && own.im == spectrum.im && own.poe.to_bits() == spectrum.poe.to_bits()
+/// An ordinate over that of the first variant at the same site, measure, risk and strength; none where that variant has
+/// no such ordinate, and of two that are 0 or censored.
+fn over_first(report: &SweepReport, variant: &VariantReport, spectrum: &Spectrum<'_>, at: usize) -> Option<f64> {
+    let (first, own) = (&report.variants.first()?.spectra.plain, &variant.spectra.plain);
+    let is_same = |of: &Spectrum<'_>| {
+        of.site == spectrum.site && of.measure == spectrum.measure && of.poe.to_bits() == spectrum.poe.to_bits()
     };
-    if first.years.to_bits() != variant.years.to_bits() {
+    if first.years.to_bits() != own.years.to_bits() {
         return None;
     }
-    let own = first.spectra.iter().find(is_same)?;
-    let strength = variant.strengths[at].to_bits();
+    let strength = own.strengths[at].to_bits();
     let place = first.strengths.iter().position(|value| value.to_bits() == strength)?;
-    Some(spectrum.u_m[at] / own.u_m[place]).filter(|ratio| !ratio.is_nan())
+    Some(spectrum.u_m[at] / first.rows().find(is_same)?.u_m[place]).filter(|ratio| !ratio.is_nan())
 }
