@@ -145,25 +145,17 @@ impl Answer {
         let deviation = |site: usize| findings[site]?.diagnosis.deviation.as_ref();
         let repaired = |site: usize| findings[site]?.repaired();
         let sites = question.sites.len();
-        let rates = [sites, DEVIATION_RATES];
+        let by_rate = |of: &dyn Fn(usize) -> Option<[f64; DEVIATION_RATES]>| {
+            Array::from_fn([sites, DEVIATION_RATES], |[site, rate]| of(site).map_or(f64::NAN, |values| values[rate]))
+        };
         StoredConsistency {
             scaled_to,
             other,
-            rate_per_year: Array::from_fn(rates, |[site, rate]| {
-                findings[site].map_or(f64::NAN, |finding| finding.range.rates::<DEVIATION_RATES>()[rate])
-            }),
-            site_level: Array::from_fn(rates, |[site, rate]| {
-                deviation(site).map_or(f64::NAN, |own| own.site_levels[rate])
-            }),
-            implied_level: Array::from_fn(rates, |[site, rate]| {
-                deviation(site).map_or(f64::NAN, |own| own.implied_levels[rate])
-            }),
-            repaired_level: repairs.map(|_| {
-                Array::from_fn(rates, |[site, rate]| {
-                    let own = repaired(site).and_then(|repaired| repaired.diagnosis.deviation.as_ref());
-                    own.map_or(f64::NAN, |own| own.implied_levels[rate])
-                })
-            }),
+            rate_per_year: by_rate(&|site| Some(findings[site]?.range.rates())),
+            site_level: by_rate(&|site| Some(deviation(site)?.site_levels)),
+            implied_level: by_rate(&|site| Some(deviation(site)?.implied_levels)),
+            repaired_level: repairs
+                .map(|_| by_rate(&|site| Some(repaired(site)?.diagnosis.deviation.as_ref()?.implied_levels))),
             bias: (0..sites).map(|site| deviation(site).map_or(f64::NAN, |own| own.bias)).collect(),
             max: (0..sites).map(|site| deviation(site).map_or(f64::NAN, |own| own.max)).collect(),
             verdict: (0..sites)
