@@ -10,10 +10,10 @@
 //! the runs above a level are the first ones. The order is the same at all stripes but where these have records of
 //! their own, which count by `m_j` times their share there.
 
-use crate::exponent::{Exponents, KNOTS, Knots};
-use crate::scratch::{Scratch, check};
 use uplift_risk::RiskError;
 
+use crate::exponent::{Exponents, KNOTS, Knots};
+use crate::scratch::{Scratch, check};
 use crate::{ConsistencyError, Miss, Nearest, NoRepair, Reach, ScaledAnalysis};
 
 /// Rates at which the implied hazard is fitted to the site's.

@@ -19,10 +19,6 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use minijinja::{Environment, Value, context};
 use serde::Serialize;
-
-use differences::{differences, names};
-use drawn::DrawnFigure;
-use structures::AskedStructure;
 use uplift::alarms::{Alarm, alarms};
 use uplift::bootstrap::resampled;
 use uplift::events::Events;
@@ -35,6 +31,9 @@ use uplift_plot::{Figure, html};
 
 use crate::figures::{FigureSource, together};
 use crate::report::ReportOptions;
+use differences::{differences, names};
+use drawn::DrawnFigure;
+use structures::AskedStructure;
 
 /// What every page begins with: its style, and how a table is written.
 pub(crate) const STYLE: &str = include_str!("page/report.css");

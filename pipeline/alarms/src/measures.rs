@@ -1,15 +1,15 @@
 //! Spectra of one site and probability by PGV and by PGA that disagree, and not because one of the curves is wrong: the
 //! demand is one, and two numbers for it are one too many.
 
-use uplift_motion::IntensityMeasure;
-
-use super::evidence::{Evidence, Scope};
-use super::{consistency, curves};
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, RESULT, Severity};
 use uplift_job::text::{per_cent, rounded, short, two_digits};
+use uplift_motion::IntensityMeasure;
 use uplift_result::{MeasureSpectra, StoredBands};
 use uplift_risk::{COMPARED_FROM_M, MEASURES_APART, MEASURES_APART_DECISIVE};
+
+use super::evidence::{Evidence, Scope};
+use super::{consistency, curves};
 
 /// The spectrum of one measure, with its band.
 #[derive(Debug, Clone, Copy)]

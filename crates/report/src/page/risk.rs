@@ -1,15 +1,16 @@
 //! What the report shows of uniform risk spectra.
 
-use super::consistency::consistency;
-use super::displacements::{Row, rows};
-use super::{Content, Part, TitledTable, drawn};
-use crate::figures::{Extent, FigureSource};
 use uplift::UpliftError;
 use uplift::influence::{level_of_share, rank_records};
 use uplift::result::{ResultFile, StoredSpectra};
 use uplift::text::{
     Table, TableOf, kind_of_risks, metres, nearest, risk_in_words, risk_name, spectrum_words, two_digits,
 };
+
+use super::consistency::consistency;
+use super::displacements::{Row, rows};
+use super::{Content, Part, TitledTable, drawn};
+use crate::figures::{Extent, FigureSource};
 
 /// Strengths in the tables of displacements.
 const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
