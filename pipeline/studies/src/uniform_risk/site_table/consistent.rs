@@ -3,7 +3,7 @@
 use uplift_result::{BandKind, SITE_CONSISTENCY};
 
 use super::layout::{cell, number};
-use super::shape::{Shape, SiteValues, SpectrumArray};
+use super::shape::{Shape, SiteValues};
 
 /// Position of the verdict, a text, among the numbers of [`SITE_CONSISTENCY`].
 const VERDICT: usize = 2;
@@ -12,7 +12,7 @@ const VERDICT: usize = 2;
 pub(super) fn columns() -> Vec<String> {
     let mut columns: Vec<String> = SITE_CONSISTENCY.quantities.iter().map(|own| own.name.to_owned()).collect();
     columns.insert(VERDICT, "verdict".to_owned());
-    columns.extend(Shape::fits(BandKind::REPAIRED).map(SpectrumArray::column));
+    columns.extend(Shape::fits(BandKind::REPAIRED).map(|own| own.column()));
     columns.push("no_repair".to_owned());
     columns
 }

@@ -102,14 +102,14 @@ impl SiteTableLayout {
     }
 
     pub(super) fn spectra_columns(&self) -> Vec<String> {
-        let mut own: Vec<String> = self.shape.ordinates().map(SpectrumArray::column).collect();
+        let mut own: Vec<String> = self.shape.ordinates.iter().map(SpectrumArray::column).collect();
         own.insert(FLAG, SITE_FLAGS.quantities[0].name.to_owned());
         OF_SPECTRUM.into_iter().chain([STRENGTH.name]).map(str::to_owned).chain(own).collect()
     }
 
     pub(super) fn coefficient_columns(&self, carried: &[String]) -> Vec<String> {
         let mut columns = OF_SPECTRUM.map(str::to_owned).to_vec();
-        columns.extend(Shape::fits(BandKind::PLAIN).map(SpectrumArray::column));
+        columns.extend(Shape::fits(BandKind::PLAIN).map(|own| own.column()));
         columns.extend([regression::BOUND_ACTIVE.name, PROBLEM].map(str::to_owned));
         if self.shape.is_repaired {
             columns.extend(consistent::columns());
@@ -152,10 +152,14 @@ impl SiteTableLayout {
             let head = format!("{place},{},{:?},{:?}", names.label, names.poe, self.years);
             let flags = spectrum.iter().flat_map(|spectrum| &spectrum.flags);
             for (place, (strength, flag)) in self.strengths.iter().zip(flags).enumerate() {
-                let numbers = self.shape.ordinates().map(|own| number(own.value(values, at, place)));
-                let mut cells: Vec<String> = numbers.collect();
-                cells.insert(FLAG, flag.word().to_owned());
-                let _ = writeln!(text.spectra, "{head},{strength:?},{}", cells.join(","));
+                let _ = write!(text.spectra, "{head},{strength:?}");
+                for (column, own) in self.shape.ordinates.iter().enumerate() {
+                    let _ = write!(text.spectra, ",{}", number(own.value(values, at, place)));
+                    if column + 1 == FLAG {
+                        let _ = write!(text.spectra, ",{}", flag.word());
+                    }
+                }
+                text.spectra.push('\n');
             }
             let fit = spectrum.map(|spectrum| spectrum.fit).filter(|fit| fit.curve().is_some());
             let numbers = Shape::fits(BandKind::PLAIN).map(|own| number(own.value(values, at, 0)));

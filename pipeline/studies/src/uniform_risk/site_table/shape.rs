@@ -18,7 +18,7 @@ pub(in crate::uniform_risk) const PROBLEM: &str = SITE_PROBLEMS.quantities[0].na
 const NO_EXPONENTIAL: &str = "the spectrum is not a decaying exponential: its coefficients mean nothing one by one";
 
 /// What there is of each site.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub(super) struct Shape {
     pub(super) measures: usize,
     pub(super) poes: usize,
@@ -29,6 +29,8 @@ pub(super) struct Shape {
     has_spread: bool,
     /// Whether there are repaired spectra beside the plain ones.
     pub(super) is_repaired: bool,
+    /// Every array of floats over the strengths.
+    pub(super) ordinates: Vec<SpectrumArray>,
 }
 
 /// A quantity of plain or repaired spectra.
@@ -54,14 +56,19 @@ pub(super) struct SiteValues<'a> {
 
 impl Shape {
     pub(super) fn new(study: &UniformRiskStudy, list: &SiteList, strengths: Vec<usize>) -> Self {
-        Self {
+        let mut shape = Self {
             measures: list.exports.len(),
             poes: study.risk.poe.len(),
             strengths,
             has_bands: study.site_table.as_ref().is_some_and(|table| table.bands),
             has_spread: !list.branches.is_empty(),
             is_repaired: study.consistency.repair == Repair::Weights,
-        }
+            ordinates: Vec::new(),
+        };
+        // the spread is of the plain spectra alone
+        let spreads = SpectrumArray::all(BandKind::PLAIN, &SITE_SPREADS).filter(|_| shape.has_spread);
+        shape.ordinates = shape.kinds().flat_map(|kind| shape.spectra(kind)).chain(spreads).collect();
+        shape
     }
 
     /// The kinds of spectra.
@@ -74,12 +81,6 @@ impl Shape {
         SpectrumArray::all(kind, &SITE_SPECTRA).chain(SpectrumArray::all(kind, &SITE_BANDS).filter(|_| self.has_bands))
     }
 
-    /// Every array of floats over the strengths; the spread is of the plain spectra alone.
-    pub(super) fn ordinates(&self) -> impl Iterator<Item = SpectrumArray> {
-        let spreads = SpectrumArray::all(BandKind::PLAIN, &SITE_SPREADS).filter(|_| self.has_spread);
-        self.kinds().flat_map(|kind| self.spectra(kind)).chain(spreads)
-    }
-
     /// The coefficients of a kind.
     pub(super) fn fits(kind: BandKind) -> impl Iterator<Item = SpectrumArray> {
         SpectrumArray::all(kind, &SITE_FITS)
@@ -87,7 +88,7 @@ impl Shape {
 
     /// Every array of floats of the spectra.
     pub(super) fn floats(&self) -> impl Iterator<Item = SpectrumArray> {
-        self.ordinates().chain(self.kinds().flat_map(Self::fits))
+        self.ordinates.iter().copied().chain(self.kinds().flat_map(Self::fits))
     }
 
     /// The arrays of consistency.
@@ -123,32 +124,32 @@ impl SpectrumArray {
     }
 
     /// Its name in a table.
-    pub(super) fn column(self) -> String {
+    pub(super) fn column(&self) -> String {
         self.kind.column(&self.name())
     }
 
     /// Its name in the file.
-    pub(super) fn name(self) -> String {
+    pub(super) fn name(&self) -> String {
         self.quantity.name(self.names())
     }
 
     /// What stands for the names in its declaration.
-    pub(super) fn names(self) -> Names<'static> {
+    pub(super) fn names(&self) -> Names<'static> {
         if self.kind.is_repaired { &REPAIRED_SITE_NAMES } else { &SITE_NAMES }
     }
 
     /// Its spectra among those of a site.
-    fn spectra<'a>(self, site: &'a SiteValues<'_>) -> &'a [Option<SiteSpectrum>] {
+    fn spectra<'a>(&self, site: &'a SiteValues<'_>) -> &'a [Option<SiteSpectrum>] {
         if self.kind.is_repaired { &site.repaired } else { &site.plain }
     }
 
     /// Its value in the spectrum at a position among those of a site, at the place of a strength.
-    pub(super) fn value(self, site: &SiteValues<'_>, spectrum: usize, place: usize) -> Option<f64> {
+    pub(super) fn value(&self, site: &SiteValues<'_>, spectrum: usize, place: usize) -> Option<f64> {
         self.quantity.number(self.spectra(site)[spectrum].as_ref()?, place)
     }
 
     /// All its values of a site; NaN where there is no spectrum.
-    pub(super) fn values(self, site: &SiteValues<'_>, shape: &Shape) -> Vec<f64> {
+    pub(super) fn values(&self, site: &SiteValues<'_>, shape: &Shape) -> Vec<f64> {
         let places = if self.quantity.axes.contains(&STRENGTH.name) { shape.strengths.len() } else { 1 };
         let all = |spectrum| (0..places).map(move |place| self.value(site, spectrum, place).unwrap_or(f64::NAN));
         (0..self.spectra(site).len()).flat_map(all).collect()
