@@ -1,6 +1,7 @@
 //! `uplift bootstrap`, `influence` and `measures`: what they say, what they leave behind, and how they stop and go on.
 
 use serde_json::Value;
+use uplift::text::two_digits;
 use uplift_labelled::LabelledReader;
 
 use crate::common::{self, SmallStudy, array, real_records, repository, same_bits};
@@ -25,7 +26,8 @@ fn the_widest_band_is_of_the_table_above() {
             .lines()
             .find_map(|line| line.strip_prefix("Widest of these bands: "))
             .unwrap_or_else(|| panic!("{said}"));
-        let (site, strength) = told.split_once(';').unwrap().0.split_once(", strength ").unwrap();
+        let (site, rest) = told.split_once(", strength ").unwrap();
+        let strength = rest.split_once(", ").unwrap().0;
         let of_all = said.lines().find_map(|line| line.strip_prefix("  4 records: ")).unwrap();
         let heading = said.lines().find(|line| line.starts_with("site ")).unwrap();
         let mut widest = (0.0, String::new());
@@ -36,10 +38,11 @@ fn the_widest_band_is_of_the_table_above() {
                 let found = &json["displacements"][0];
                 let Some(u_m) = found["u_m"].as_f64() else { continue };
                 let limits = [0, 1].map(|end| found["band_m"][end].as_f64().unwrap_or(f64::INFINITY));
-                let [lower, upper] = limits.map(|limit_m| 100.0 * (limit_m / u_m - 1.0));
-                if upper - lower >= widest.0 {
-                    let end = if upper.is_finite() { format!("{upper:+.0} %") } else { "overturning".to_owned() };
-                    widest = (upper - lower, format!("{name} {shown} {lower:+.0} % to {end}"));
+                let [lower, upper] = limits.map(two_digits);
+                let width = (limits[1] - limits[0]) / u_m;
+                if width >= widest.0 {
+                    let end = if limits[1].is_finite() { format!("{upper} m") } else { "overturning".to_owned() };
+                    widest = (width, format!("{name} {shown} {lower} to {end}"));
                 }
             }
         }
@@ -498,9 +501,13 @@ fn measures_are_compared() {
     let study = SmallStudy::new();
     study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
     let text = study.uplift(&["measures", "r.h5"]).ok().stdout;
-    // PGV or PGA, and what to type
-    let first = text.lines().next().unwrap();
-    assert!(first.starts_with("Use P") && first.contains(": uplift spectrum r.h5 --measure p"), "{text}");
+    // PGV or PGA, that its records miss the site's hazard, and what to type
+    let mut lines = text.lines();
+    let first = lines.next().unwrap();
+    assert!(first.contains(" scatters least, but do not use it unrepaired: its records have "), "{text}");
+    assert_eq!(lines.next(), Some("See why: uplift consistency r.h5"), "{text}");
+    // marks are explained before they are used
+    assert!(text.find("\n+ has no hazard curve").unwrap() < text.find("Best for ").unwrap(), "{text}");
     assert!(
         text.contains("\nBest for the displacement: ")
             && text.contains("\nBest for initiation: ")

@@ -138,14 +138,25 @@ fn a_design_has_the_frame_beside_its_proxy() {
     let said = study.uplift(&[&["design", "free.toml", "--urs", "r.h5", "--report", "s.html"], &ask[..]].concat()).ok();
     let (first, rest) = said.stdout.split_once('\n').unwrap();
     let differ = models[0]["check"]["satisfied"] != design["rules"][0]["from_spectrum"]["satisfied"];
-    assert_eq!(first.contains("verdicts differ"), differ, "{first}");
+    // the verdict on the frame, both numbers and by how much, then its proxy
+    let [capacity, required] =
+        [&design["structure"]["capacity_m"], &models[0]["check"]["required_capacity_m"]].map(number);
+    let word = |is_satisfied: bool| if is_satisfied { "satisfied" } else { "NOT satisfied" };
+    let own = word(models[0]["check"]["satisfied"] == true);
+    let by_how_much = if capacity < required { "short" } else { "to spare" };
+    let margin = ((100.0 * capacity).round() - (100.0 * required).round()).abs() / 100.0;
+    let answer =
+        format!("wobbling frame: requires {required:.2} m, capacity {capacity:.2} m, {margin:.2} m {by_how_much}");
+    assert!(first.starts_with(&format!("Verdict   free by PGV: {own}")) && first.ends_with(&answer), "{first}");
+    let proxy = if differ { word(own != "satisfied") } else { own };
+    assert!(rest.starts_with(&format!("          proxy by PGV: {proxy}; the frame moves ")), "{rest}");
     assert!(rest.contains("wobbling frame") && rest.contains("\nequal energy‡ "), "{rest}");
     assert!(rest.contains("\n‡ demand rises with the required capacity\n") && !rest.contains('†'), "{rest}");
     // by which measure stands in the first line
     assert!(first.starts_with("Verdict   free by PGV: "), "{first}");
     let settings = design["own_oscillator"].as_str().unwrap();
     let command = format!("run study.toml {settings} -o r-free.h5");
-    assert!(rest.contains(&format!("          for its oscillator's spectrum: uplift {command}\n")), "{rest}");
+    assert!(rest.contains(&format!("          spectrum of this structure's oscillator: uplift {command}\n")), "{rest}");
     study.uplift(&command.split(' ').collect::<Vec<_>>()).ok();
     let own = ["design", "free.toml", "--urs", "r-free.h5", "--site", "Here", "--spectrum-only", "--json"];
     assert_eq!(study.uplift(&own).json()["other_oscillator"], false);
@@ -245,7 +256,13 @@ fn a_column_that_is_pulled_back_is_told_by_its_capacity() {
     let own = of_model("oscillator")["per_year"].to_string();
     let width = ["target", "dr.toml", "--urs", "r.h5", "--site", "Here", "--overturning", &own, "--vary", "width"];
     let safe = study.uplift(&width).ok().stdout;
-    assert!(safe.contains("\nLimit     the wobbling frame passes its limit, tendon yield at 0.75 m, "), "{safe}");
+    let (first, rest) = safe.split_once('\n').unwrap();
+    assert!(first.starts_with("Safe width against overturning alone"), "{safe}");
+    assert!(rest.starts_with("Limit     the wobbling frame passes its limit, tendon yield at 0.75 m, "), "{safe}");
+    // and the command that searches for it is one
+    let command = rest.lines().nth(1).unwrap().trim().strip_prefix("uplift ").unwrap();
+    assert!(command.contains(" --exceed 0.7"), "{command}");
+    assert!(study.uplift(&command.split(' ').collect::<Vec<_>>()).ok().stdout.contains("exceeding 0.7"));
 }
 
 /// Overturning of the frame is that of `risk`, at every site.

@@ -310,10 +310,10 @@ fn by_its_proxy_a_frame_is_not_shaken() {
     assert!(!ask(&frame(0.6), &["--vary", "width"]).contains("proxy"));
     let alone = ask(&wobbles, &["--vary", "width", "--proxy"]);
     assert!(alone.lines().next().unwrap().ends_with(", by its proxy alone") && !alone.contains("wobbl"), "{alone}");
-    // no columns have another strength by itself
+    // the strength of columns follows from their size
     let strength = ask(&wobbles, &["--vary", "strength"]);
     assert!(
-        strength.contains("by its proxy alone") && strength.contains("Frame     left out: no columns"),
+        strength.contains("by its proxy alone") && strength.contains("Frame     left out: columns get strength"),
         "{strength}"
     );
 }

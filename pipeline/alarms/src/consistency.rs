@@ -3,6 +3,7 @@
 
 use uplift_consistency::Verdict;
 use uplift_job::alarm::{Alarm, Case, RESULT, Severity};
+use uplift_job::text::risk_name;
 use uplift_result::StoredConsistency;
 use uplift_uniform_risk::MANY_FAILED;
 
@@ -11,10 +12,14 @@ use super::evidence::{Evidence, Scope};
 
 pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let mut cases = Vec::new();
+    // of one risk the number is its own, and no mean
+    let at = scope.poe.map_or_else(String::new, |poe| {
+        format!(" at {}", risk_name(evidence.spectra.poes[poe], evidence.spectra.years))
+    });
     for consistency in &evidence.consistency {
         for (site, name) in evidence.spectra.sites.iter().enumerate() {
             if let Some(times) = missed(evidence, scope, consistency, site) {
-                cases.push(case(consistency, site, name, times));
+                cases.push(case(consistency, site, (name, &at), times));
             }
         }
     }
@@ -132,7 +137,7 @@ fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
 }
 
 /// `times` the level of the other measure do the records bring.
-fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) -> Case {
+fn case(consistency: &StoredConsistency, site: usize, (name, at): (&str, &str), times: f64) -> Case {
     let StoredConsistency { scaled_to, other, .. } = consistency;
     let (scaled_to, other) = (scaled_to.label(), other.label());
     let is_repaired = consistency.is_repaired(site);
@@ -140,7 +145,7 @@ fn case(consistency: &StoredConsistency, site: usize, name: &str, times: f64) ->
         severity: if is_repaired { Severity::Note } else { Severity::Caution },
         badness: times.ln().abs(),
         subject: format!("{name} by {scaled_to}"),
-        what: format!("scaled records have {} times the site's {other}", in_words(consistency, site, times)),
+        what: format!("scaled records have {} times the site's {other}{at}", in_words(consistency, site, times)),
         what_to_do: remedy(consistency, site),
     }
 }

@@ -4,8 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
-/// What stands for the result in a command of [`Alarm::what_to_do`] until a face names it: an alarm is the same wherever
-/// the file lies.
+/// What stands for the result in a command of [`Alarm::what_to_do`] until a face names it: an alarm is the same
+/// wherever the file lies.
 pub const RESULT: &str = "RESULT";
 
 /// How much depends on it, the worst first.

@@ -9,4 +9,4 @@ mod write;
 
 pub use job::{EfficiencyOptions, efficiency};
 pub use of_measure::{Covariate, MeasureEfficiency, covariates, efficiency_by};
-pub use report::{EfficiencyReport, EfficiencyRow, Trend};
+pub use report::{EfficiencyReport, EfficiencyRow, Miss, Trend};

@@ -129,7 +129,11 @@ pub(super) fn warning(alarm: &Alarm, result: Option<&Path>) -> String {
 
 fn warnings(alarms: &[Alarm], result: Option<&Path>, terminal: &Terminal) -> Vec<String> {
     let is_told = |alarm: &&Alarm| !terminal.is_quiet() || alarm.severity == Severity::Mistake;
-    alarms.iter().filter(is_told).map(|alarm| warning(alarm, result)).collect()
+    let also = |alarm: &Alarm| {
+        let is_shown = terminal.shows_details() && !alarm.also.is_empty();
+        if is_shown { format!("\n    Also: {}", alarm.also.join("; ")) } else { String::new() }
+    };
+    alarms.iter().filter(is_told).map(|alarm| warning(alarm, result) + &also(alarm)).collect()
 }
 
 /// What to type, with the name of the `result`, where it is known.

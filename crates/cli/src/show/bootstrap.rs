@@ -4,7 +4,7 @@ use std::io::Write;
 
 use uplift::bootstrap::{BootstrapReport, Initiation, MANY_FAILED, ReferenceRow};
 use uplift::result::{MeasureBands, StoredJointBands};
-use uplift::text::{Table, per_cent, risk_in_words, risk_name};
+use uplift::text::{Table, per_cent, risk_in_words, risk_name, two_digits};
 
 use uplift::uniform_risk::{Displacement, DisplacementReport};
 
@@ -188,17 +188,13 @@ fn print_sizes(out: &mut impl Write, report: &BootstrapReport, shown: &Displacem
     let (site_name, at) = (&widest.site, widest.strength);
     writeln!(
         out,
-        "\nWidest of these bands: {site_name}, strength {at}; limits in per cent of the displacement, by the number of \
-         records"
+        "\nWidest of these bands: {site_name}, strength {at}, {} m; its limits by the number of records",
+        two_digits(widest.u_m)
     )?;
     for (size, count) in report.sizes.iter().enumerate() {
         let [lower, upper] = inferred.truth_m.each_ref().map(|limits| limits.block([site, poe, size])[strength]);
-        let [lower, upper] = [lower, upper].map(|limit_m| 100.0 * (limit_m / widest.u_m - 1.0));
-        if upper.is_finite() {
-            writeln!(out, "  {count} records: {lower:+.0} % to {upper:+.0} %")?;
-        } else {
-            writeln!(out, "  {count} records: {lower:+.0} % to overturning")?;
-        }
+        let upper = if upper.is_finite() { format!("{} m", two_digits(upper)) } else { "overturning".to_owned() };
+        writeln!(out, "  {count} records: {} to {upper}", two_digits(lower))?;
     }
     Ok(())
 }

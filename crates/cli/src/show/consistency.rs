@@ -7,7 +7,7 @@ use uplift::consistency::{ConsistencyReport, ConsistencyRow, RepairRow, Verdict}
 use uplift::text::{Table, per_cent, risk_name, risks_in_words};
 
 use super::alarms::{DETAILS, print_shown, warning};
-use super::{print_more, shown_path};
+use super::{print_more, shown_path, typed_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -18,7 +18,8 @@ pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal)
         writeln!(out, "{}", report.note)?;
         return Ok(());
     }
-    print_answer(out, report)?;
+    writeln!(out, "{}{}\n", answer(report), remedy(report).unwrap_or_default())?;
+    print_table(out, report)?;
     if terminal.shows_details() {
         print_details(out, report)?;
     }
@@ -29,8 +30,50 @@ pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal)
     if more_warnings(report) > 0 { Ok(()) } else { print_more(out, terminal) }
 }
 
+/// How many spectra were repaired; before a repair by which measure scaled records fit the hazard of the other one, and
+/// by what factor they miss it at the worst site.
+fn answer(report: &ConsistencyReport) -> String {
+    if report.rows.iter().any(|row| row.repair.is_some()) {
+        let repaired = report.rows.iter().filter(is_repaired).count();
+        let why = if repaired == 0 { " (no weights match both hazard curves)" } else { "" };
+        return format!("{repaired} of {} spectra repaired{why}", report.rows.len());
+    }
+    let several = report.rows.iter().any(|row| row.site != report.rows[0].site);
+    let of_measure = report.rows.chunk_by(|a, b| a.scaled_to == b.scaled_to);
+    let clause = |rows: &[ConsistencyRow]| {
+        let (scaled_to, shows) = (rows[0].scaled_to, rows[0].shows);
+        let misses = rows.iter().filter(|row| row.verdict != Some("consistent"));
+        let worst = misses.filter_map(|row| Some((row, miss(row)?))).max_by(|(_, a), (_, b)| a.total_cmp(b));
+        match worst {
+            Some((row, times)) => {
+                let site = if several { format!("{}, ", row.site) } else { String::new() };
+                let verdict = row.verdict.unwrap_or_default();
+                format!("records scaled to {scaled_to} are {times:.2} times off the site's {shows} ({site}{verdict})")
+            }
+            None if rows.iter().any(|row| row.verdict.is_none()) => format!("no verdict by {scaled_to}"),
+            None => format!("records scaled to {scaled_to} fit the site's {shows}"),
+        }
+    };
+    let clauses: Vec<String> = of_measure.map(clause).collect();
+    let text = clauses.join("; ");
+    text[..1].to_uppercase() + &text[1..]
+}
+
+/// How many times too high or too low the level of the other measure is: on average, or where that decides at the
+/// worst rate.
+fn miss(row: &ConsistencyRow) -> Option<f64> {
+    let bias = row.bias?;
+    Some(decisive(row).unwrap_or(bias.max(1.0 / bias)))
+}
+
+/// How many times the level is off at the worst rate, where the mean alone would have another verdict.
+fn decisive(row: &ConsistencyRow) -> Option<f64> {
+    let decides = row.bias.is_some_and(|bias| row.verdict != Some(Verdict::from_bias(bias, 0.0).key()));
+    most_off(row).filter(|_| decides)
+}
+
 /// How far each set of scaled records is from the site's hazard of the other measure.
-fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
+fn print_table(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     let is_repaired = report.rows.iter().any(|row| row.repair.is_some());
     let repair = |row: &ConsistencyRow| match row.repair.as_ref() {
         Some(RepairRow { failed: None, least_effective: Some(least), .. }) => {
@@ -41,16 +84,14 @@ fn print_answer(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
     };
     let table = Table::of(&report.rows)
         .left("site", |row| &row.site)
-        .left("records scaled to", |row| row.scaled_to)
-        .right("level over the site's", |row| {
-            // where the bias alone would have another verdict
-            let decides = row.bias.is_some_and(|bias| row.verdict != Some(Verdict::from_bias(bias, 0.0).key()));
-            let at_one_rate = most_off(row).filter(|_| decides && !is_repaired);
-            let at_one_rate = at_one_rate.map_or_else(String::new, |most| format!(", {most:.2} times off at one rate"));
+        .left("scaled to", |row| row.scaled_to)
+        .right("times the site's level", |row| {
+            let at_one_rate = decisive(row).filter(|_| !is_repaired);
+            let at_one_rate = at_one_rate.map_or_else(String::new, |most| format!(" (worst rate: {most:.2} off)"));
             format!("{} {}{at_one_rate}", row.shows, number(row.bias, 2))
         })
         .right("verdict", |row| row.verdict.unwrap_or("-"))
-        .when(is_repaired, |table| table.right("repaired, effective records", repair));
+        .when(is_repaired, |table| table.right("effective records", repair));
     writeln!(out, "{table}")?;
     if is_repaired {
         return Ok(());
@@ -76,22 +117,31 @@ fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(),
     Ok(())
 }
 
-/// What to do next, and where everything is.
+/// Whether weights repair the records of a row.
+fn is_repaired(row: &&ConsistencyRow) -> bool {
+    row.repair.as_ref().is_some_and(|repair| repair.failed.is_none())
+}
+
+/// What to type behind or below the answer.
+fn remedy(report: &ConsistencyReport) -> Option<String> {
+    let result = typed_path(report.result.as_ref()?);
+    if let Some(repaired) = report.rows.iter().find(is_repaired) {
+        // without a word spectra are by the first measure
+        let is_first = report.rows.first().is_some_and(|first| first.scaled_to == repaired.scaled_to);
+        let measure = if is_first { String::new() } else { format!(" --measure {}", repaired.scaled_to) };
+        return Some(format!(": uplift spectrum {result} --repaired{measure}"));
+    }
+    let is_missed = |row: &ConsistencyRow| row.verdict == Some("inconsistent") && row.repair.is_none();
+    report.rows.iter().any(is_missed).then(|| format!("\nRepair: uplift consistency {result} --repair"))
+}
+
+/// Warnings, and where everything is.
 fn print_end(out: &mut impl Write, report: &ConsistencyReport, terminal: &Terminal) -> Result<(), CommandError> {
     let Some(result) = report.result.as_ref().map(|result| shown_path(result).display()) else { return Ok(()) };
     if !terminal.shows_details() {
         print_warnings(out, report)?;
     }
     writeln!(out)?;
-    let is_repaired = |row: &&ConsistencyRow| row.repair.as_ref().is_some_and(|repair| repair.failed.is_none());
-    if let Some(repaired) = report.rows.iter().find(is_repaired) {
-        // without a word spectra are by the first measure
-        let is_first = report.rows.first().is_some_and(|first| first.scaled_to == repaired.scaled_to);
-        let measure = if is_first { String::new() } else { format!(" --measure {}", repaired.scaled_to) };
-        writeln!(out, "Repaired spectra: uplift spectrum {result} --repaired{measure}")?;
-    } else if report.rows.iter().any(|row| row.verdict == Some("inconsistent") && row.repair.is_none()) {
-        writeln!(out, "Repair: uplift consistency {result} --repair")?;
-    }
     writeln!(out, "Result   /consistency in {result}")?;
     if let Some(path) = &report.table {
         writeln!(out, "Table    {}", shown_path(path).display())?;
@@ -128,8 +178,8 @@ pub(super) fn consistency_lines(report: &ConsistencyReport) -> Vec<String> {
         let (site, scaled_to, shows) = (&row.site, row.scaled_to, row.shows);
         lines.push(match (row.bias, row.verdict) {
             (Some(bias), Some(verdict)) => {
-                let at_one_rate =
-                    most_off(row).map_or_else(String::new, |most| format!(", and {most:.2} times off at one rate"));
+                let at_one_rate = most_off(row)
+                    .map_or_else(String::new, |most| format!(", and miss it {most:.2} times at the worst rate"));
                 format!(
                     "{site} by {scaled_to}: the records have {bias:.2} times the site's {shows}{at_one_rate}: \
                      {verdict} (uplift consistency)"

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::efficiency::{EfficiencyReport, EfficiencyRow, Trend};
+use uplift::efficiency::{EfficiencyReport, EfficiencyRow, Miss, Trend};
 use uplift::text::{Table, nearest, rounded};
 use uplift_motion::IntensityMeasure;
 
@@ -117,7 +117,24 @@ impl Shown<'_> {
         let own: Vec<&[EfficiencyRow]> = self.measures.iter().filter(|rows| !rows[0].is_told()).copied().collect();
         if let (2.., Some((name, measure, others))) = (own.len(), self.winner(&own, |row| row.dispersion_level)) {
             let result = typed_path(&self.report.stored.path);
-            writeln!(out, "Use {name}{others}: uplift spectrum {result} --measure {measure}")?;
+            match self.report.misses.iter().find(|miss| miss.scaled_to == measure) {
+                None => writeln!(out, "Use {name}{others}: uplift spectrum {result} --measure {measure}")?,
+                Some(Miss { other, site, times, is_repaired, .. }) => {
+                    writeln!(
+                        out,
+                        "{name} scatters least, but do not use it unrepaired: its records have {times:.1} times the \
+                         {other} of {site}"
+                    )?;
+                    if *is_repaired {
+                        writeln!(out, "Use: uplift spectrum {result} --repaired --measure {measure}")?;
+                    } else {
+                        writeln!(out, "See why: uplift consistency {result}")?;
+                    }
+                }
+            }
+        }
+        if let Some(told) = self.rows().find(|row| row.is_told()) {
+            writeln!(out, "+ has no hazard curve in this study: from the runs scaled to {}", told.scaled_to)?;
         }
         for (what, of) in [
             ("the displacement", (|row| row.dispersion_level) as fn(&EfficiencyRow) -> f64),
@@ -147,9 +164,6 @@ impl Shown<'_> {
         writeln!(out, "\n{table}")?;
         if let Some(first) = self.report.stored.measures.first() {
             writeln!(out, "displacement: all measures in the runs scaled to {}", first.measure.label())?;
-        }
-        if self.rows().any(EfficiencyRow::is_told) {
-            writeln!(out, "+ has no hazard curve in this study: in the same runs throughout")?;
         }
         if self.report.stored.records.len() < 30 {
             writeln!(out, "With {} records only strong trends are found.", self.report.stored.records.len())?;

@@ -32,7 +32,9 @@ pub(crate) fn print_plan(plan: &Plan, terminal: &Terminal) -> Result<(), Command
     if terminal.shows_details() {
         print_details(&mut out, plan)?;
     }
-    let warnings: Vec<_> = head.alarms.iter().map(|alarm| warning(alarm, None)).collect();
+    // this is the command that some name
+    let own = |alarm| warning(alarm, None).replace("(uplift check)", "as proposed");
+    let warnings: Vec<_> = head.alarms.iter().map(own).collect();
     print_lines(&mut out, &warnings, terminal.shows_details() || terminal.is_quiet())?;
     if let Plan::UniformRisk(plan) = plan {
         for proposal in plan.levels.iter().filter_map(|check| check.proposal.as_ref()) {

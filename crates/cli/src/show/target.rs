@@ -1,14 +1,15 @@
 //! A target risk as an engineer reads it.
 
 use std::io::Write;
+use std::path::Path;
 
 use uplift::structure::{LimitEvent, TargetBand, TargetFrame, TargetReport};
 use uplift::text::{self, Table, per_cent, short, thousands};
 
 use super::alarms::print_warnings;
-use super::structure::{fewer_levels, print_notes, print_structure, rate, record_set, risk_cells};
+use super::structure::{fewer_levels, measure_option, print_notes, print_structure, rate, record_set, risk_cells};
 use super::uncertainty::{kind_in_words, print_quantities};
-use super::{print_more, shown_path};
+use super::{print_more, shown_path, typed_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -37,9 +38,14 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         format!(" (90 % band {below}{} to {upper}, by {})", short(band.value[0]), band.of)
     });
     let best = format!("best estimate {}{band}", unit(value.to_string()));
+    let alone = if report.frame.as_ref().is_some_and(|frame| frame.passes_limit_above(*target_per_year)) {
+        " against overturning alone"
+    } else {
+        ""
+    };
     match &report.frame {
         Some(frame) if frame.wobbling().is_safe => {
-            writeln!(out, "Safe {quantity} {safe} by wobbling frame and proxy; {best} of the proxy")?;
+            writeln!(out, "Safe {quantity}{alone} {safe} by wobbling frame and proxy; {best} of the proxy")?;
         }
         Some(frame) => {
             let needs = if frame.safe_value.is_finite() {
@@ -49,7 +55,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
             };
             writeln!(
                 out,
-                "Safe {quantity}: the wobbling frame {needs}, its proxy {safe}; at {} {}",
+                "Safe {quantity}{alone}: the wobbling frame {needs}, its proxy {safe}; at {} {}",
                 unit(frame.value.to_string()),
                 how_often(frame, *target_per_year)
             )?;
@@ -152,15 +158,31 @@ fn print_limit(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame)
     let (Some(limit), Some(beyond)) = (&frame.limit, &frame.beyond_limit) else { return Ok(()) };
     let [per_year, ..] = risk_cells(&beyond.risk);
     let at = format!("{} {}", frame.value, report.quantity_unit);
-    let is_more = beyond.risk.per_year > report.target_per_year;
-    let more = if is_more { ", more often than the target" } else { "" };
-    // where tendons yield depends on the value that is sought
-    let size_by_it = if limit.event == LimitEvent::Capacity { ": --exceed capacity" } else { "" };
-    let (limit, at) = (limit.in_words(), at.trim_end());
-    Ok(writeln!(
+    let is_more = frame.passes_limit_above(report.target_per_year);
+    let more = if is_more { ", more often than the target; search for it:" } else { "" };
+    let (limit_in_words, at) = (limit.in_words(), at.trim_end());
+    writeln!(
         out,
-        "Limit     the wobbling frame passes its limit, {limit}, {per_year} per year at {at}{more}{size_by_it}"
-    )?)
+        "Limit     the wobbling frame passes its limit, {limit_in_words}, {per_year} per year at {at}{more}"
+    )?;
+    if is_more {
+        let exceeded = match limit.event {
+            LimitEvent::Capacity => "capacity".to_owned(),
+            // where tendons yield at the value found
+            LimitEvent::TendonYields | LimitEvent::TendonFails => short(limit.displacement_m),
+        };
+        let [structure, result, site] =
+            [&report.structure.file, &report.source.result, Path::new(&report.site)].map(typed_path);
+        writeln!(
+            out,
+            "          uplift target {structure} --urs {result} --site {site} {} --vary {} --exceed {exceeded} \
+             --per-year {}",
+            measure_option(report.im),
+            report.quantity,
+            report.target_per_year
+        )?;
+    }
+    Ok(())
 }
 
 fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {

@@ -24,22 +24,27 @@ impl DesignReport {
     }
 
     /// Whether the structure satisfies both rules and its own demand, by each measure where they differ:
-    /// `satisfied by PGV, partly satisfied by PGA; safety factor 2.5 (Eq. 3.15)`.
+    /// `satisfied by PGV, NOT satisfied by PGA; safety factor 2.5 (Eq. 3.15)`.
     pub fn verdict(&self) -> String {
         let others = self.by_other_measures.iter().map(|of| (of.im.to_owned(), verdict_of_rules(&of.rules, None)));
-        let by_measure: Vec<(String, &str)> =
+        let by_measure: Vec<(String, String)> =
             std::iter::once((self.spectrum_words(), verdict_of_rules(&self.rules, self.own_check)))
                 .chain(others)
                 .filter_map(|(measure, verdict)| Some((measure, verdict?)))
                 .collect();
         let Some((_, first)) = by_measure.first() else { return "no rule applies".to_owned() };
         let verdict = if by_measure.iter().all(|(_, verdict)| verdict == first) {
-            (*first).to_owned()
+            first.clone()
         } else {
             let each = by_measure.iter().map(|(measure, verdict)| format!("{verdict} by {measure}"));
             each.collect::<Vec<_>>().join(", ")
         };
         format!("{verdict}; safety factor {} (Eq. 3.15)", self.required_safety_factor)
+    }
+
+    /// The verdict on the proxy of a frame: `satisfied`; none where no rule applies.
+    pub fn verdict_on_proxy(&self) -> Option<String> {
+        verdict_of_rules(&self.rules, self.own_check)
     }
 
     /// The verdicts by the spectrum's measure: `by PGV: satisfied by equal displacement (requires 0.48 m); NOT
@@ -96,10 +101,16 @@ impl DesignReport {
     }
 }
 
-/// What the rules, and the structure's own demand, say together; none where none applies.
-fn verdict_of_rules(rules: &[RuleOutcome], own: Option<OwnCheck>) -> Option<&'static str> {
-    let checks = rules.iter().filter_map(RuleOutcome::check).map(|check| check.satisfied);
-    let mut checks = checks.chain(own.map(|own| own.satisfied));
-    let first = checks.next()?;
-    Some(if checks.any(|satisfied| satisfied != first) { "partly satisfied" } else { verdict_word(first) })
+/// What the rules, and the structure's own demand, say together: where they differ, `partly satisfied (by equal
+/// displacement, NOT by equal energy)`; none where none applies.
+fn verdict_of_rules(rules: &[RuleOutcome], own: Option<OwnCheck>) -> Option<String> {
+    let checks = rules.iter().filter_map(|outcome| Some((outcome.check()?.satisfied, outcome.rule.words())));
+    let (met, missed): (Vec<_>, Vec<_>) =
+        checks.chain(own.map(|own| (own.satisfied, "its own demand"))).partition(|(satisfied, _)| *satisfied);
+    let names = |of: &[(bool, &str)]| of.iter().map(|(_, name)| *name).collect::<Vec<_>>().join(" and ");
+    match [met.is_empty(), missed.is_empty()] {
+        [true, true] => None,
+        [false, false] => Some(format!("partly satisfied (by {}, NOT by {})", names(&met), names(&missed))),
+        [_, satisfied] => Some(verdict_word(satisfied).to_owned()),
+    }
 }

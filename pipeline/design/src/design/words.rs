@@ -30,10 +30,9 @@ pub(super) fn require_zero_stiffness(source: &StudyOfResult) -> Result<(), Desig
 
 /// Why there is no repaired spectrum of a site.
 pub(super) fn not_repaired(source: &StudyOfResult, place: Place<'_>) -> DesignError {
-    JobError::input(format!(
-        "{}: has no repaired spectrum of {} by {}: `uplift consistency {} --repair --details` computes it, or says \
-         why there is none",
-        source.path.display(),
+    JobError::Usage(format!(
+        "--repaired: the result has no repaired spectrum of {} by {}: `uplift consistency {} --repair --details` \
+         computes it, or says why there is none",
         place.name,
         place.measure.measure().label(),
         typed_path(&source.path)

@@ -129,6 +129,13 @@ impl TargetFrameModel {
     }
 }
 
+impl TargetFrame {
+    /// Whether the wobbling frame passes its limit more often than the target, which is of overturning alone.
+    pub fn passes_limit_above(&self, target_per_year: f64) -> bool {
+        self.limit.is_some() && self.beyond_limit.is_some_and(|beyond| beyond.risk.per_year > target_per_year)
+    }
+}
+
 /// Where and by what a frame is judged.
 pub(super) struct FrameTarget<'a> {
     pub(super) structure: &'a Structure,
@@ -243,7 +250,7 @@ impl FrameTarget<'_> {
 
 /// Why a frame is left out where strength or capacity vary.
 pub(super) const NO_COLUMNS: &str =
-    "no columns have another strength or capacity alone: vary width, size or tendon-stiffness";
+    "columns get strength and capacity from their size: vary width, size or tendon-stiffness";
 
 /// The value to try after those of these upper limits, `(value, 1/yr)`, ascending; none where enough are tried.
 fn next_value(rates: &[(f64, f64)], target_per_year: f64, near: f64) -> Option<f64> {

@@ -89,7 +89,12 @@ pub struct TargetOptions {
     #[arg(long)]
     pub measure: Option<IntensityMeasure>,
     /// Quantity to vary
-    #[arg(long = "vary", value_parser = one_of(&Quantity::ALL, Quantity::key))]
+    #[arg(
+        long = "vary",
+        value_name = "strength|size|width|capacity|tendon-stiffness",
+        hide_possible_values = true,
+        value_parser = one_of(&Quantity::ALL, Quantity::key)
+    )]
     pub quantity: Quantity,
     /// Target annual rate of overturning, e.g. 2e-4
     #[arg(

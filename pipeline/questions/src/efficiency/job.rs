@@ -13,7 +13,7 @@ use uplift_uniform_risk::{StoredStripes, StudyOfResult};
 
 use super::factors_to_reach::FactorsToReach;
 use super::of_measure::{covariates, efficiency_by, efficiency_restated};
-use super::report::EfficiencyReport;
+use super::report::{EfficiencyReport, misses};
 use super::restated::{Measured, restated};
 use super::write::{efficiency_path, write_efficiency};
 use crate::error::QuestionsError;
@@ -109,7 +109,8 @@ pub fn efficiency(
         }
     }
     write_efficiency(&locked, (&stored, &file.efficiency()?), &covariates, &measures)?;
-    Ok(EfficiencyReport::new(stored, &covariates, &measures, up_to_m))
+    let misses = misses(&file.consistency()?, &stored.sites);
+    Ok(EfficiencyReport::new(stored, &covariates, &measures, up_to_m, misses))
 }
 
 /// Those of the measures `wanted` that can be had, of each record.

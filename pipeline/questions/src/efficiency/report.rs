@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use uplift_job::text::finite;
-use uplift_result::StoredTrend;
+use uplift_result::{StoredConsistency, StoredTrend};
 use uplift_uniform_risk::StoredStripes;
+use uplift_uniform_risk::consistency::Verdict;
 
 use super::of_measure::{Covariate, MeasureEfficiency, rank};
 use super::write::efficiency_path;
@@ -26,9 +27,43 @@ pub struct EfficiencyReport {
     /// The largest displacement at which measures are compared, m, of each strength; none where there is none.
     #[serde(skip)]
     pub up_to_m: Vec<Option<f64>>,
+    /// Measures whose scaled records miss the hazard of the other one.
+    #[serde(skip)]
+    pub misses: Vec<Miss>,
     /// The table beside it.
     #[serde(skip)]
     pub table: PathBuf,
+}
+
+/// Where the records scaled to a measure miss the site's hazard of the other one most.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Miss {
+    /// The measure, `pgv`.
+    pub scaled_to: &'static str,
+    /// The other measure, `PGA`.
+    pub other: &'static str,
+    /// The site.
+    pub site: String,
+    /// The mean level of the scaled records over that of the site.
+    pub times: f64,
+    /// Whether weights repair it.
+    pub is_repaired: bool,
+}
+
+/// Those of each measure that is inconsistent at one of the `sites`.
+pub(super) fn misses(consistency: &[StoredConsistency], sites: &[String]) -> Vec<Miss> {
+    let of_measure = |of: &StoredConsistency| {
+        let missed = (0..sites.len()).filter(|&site| of.verdict[site] == Verdict::Inconsistent.key());
+        let worst = missed.max_by(|&a, &b| of.bias[a].ln().abs().total_cmp(&of.bias[b].ln().abs()))?;
+        Some(Miss {
+            scaled_to: of.scaled_to.key(),
+            other: of.other.label(),
+            site: sites[worst].clone(),
+            times: of.bias[worst],
+            is_repaired: of.is_repaired(worst),
+        })
+    };
+    consistency.iter().filter_map(of_measure).collect()
 }
 
 /// Efficiency and sufficiency of one measure at one strength; NaN where there is no such number.
@@ -84,6 +119,7 @@ impl EfficiencyReport {
         covariates: &[Covariate],
         measures: &[MeasureEfficiency],
         up_to_m: Vec<Option<f64>>,
+        misses: Vec<Miss>,
     ) -> Self {
         let row = |MeasureEfficiency { own: of, .. }: &MeasureEfficiency, index: usize| EfficiencyRow {
             im: of.measure.label(),
@@ -103,6 +139,7 @@ impl EfficiencyReport {
                 .collect(),
             covariates: covariates.iter().map(|covariate| covariate.key).collect(),
             up_to_m,
+            misses,
             table: efficiency_path(&stored.path),
             stored,
         }

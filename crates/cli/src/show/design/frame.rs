@@ -18,18 +18,40 @@ pub(super) fn print_verdicts(
 ) -> Result<(), CommandError> {
     let (name, by) = (&report.structure.name, report.spectrum_words());
     let wobbling = frame.wobbling();
-    let how_far = match report.frame_over_proxy() {
-        Some(ratio) => format!("the frame moves {ratio:.1} times as far as its proxy"),
-        None if wobbling.demand_m.is_infinite() => "the wobbling frame overturns more often than the target".to_owned(),
-        None => "its proxy has no demand to compare with".to_owned(),
+    let unsafe_upper_limits = report.unsafe_upper_limits();
+    let verdict = |whose: &str, is_satisfied: bool| {
+        let word = verdict_word(is_satisfied);
+        let is_unsafe = unsafe_upper_limits.iter().any(|(of, _)| *of == whose);
+        if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
     };
-    match (report.verdicts_differ(), wobbling.check) {
-        (Some(true), _) => writeln!(out, "Verdict   {name} by {by}: verdicts differ; {how_far}")?,
-        (Some(false), Some(check)) => {
-            let verdict = verdict_word(check.satisfied);
-            writeln!(out, "Verdict   {name} by {by}: {verdict} by frame and proxy; {how_far}")?;
+    let answer = match (wobbling.check, report.structure.capacity_m) {
+        (Some(check), Some(capacity_m)) if check.required_capacity_m.is_finite() => {
+            let (verdict, required_m) = (verdict(wobbling.model, check.satisfied), check.required_capacity_m);
+            // of the numbers as they are printed
+            let [has_cm, needs_cm] = [capacity_m, required_m].map(|of_m| (100.0 * of_m).round());
+            let margin_m = (has_cm - needs_cm) / 100.0;
+            let by_how_much = if margin_m < 0.0 { "short" } else { "to spare" };
+            format!(
+                "{verdict} by the {}: requires {required_m:.2} m, capacity {capacity_m:.2} m, {:.2} m {by_how_much}",
+                wobbling.model,
+                margin_m.abs()
+            )
         }
-        _ => writeln!(out, "Verdict   {name} by {by}: no capacity, the force does not fall; {how_far}")?,
+        (Some(check), _) => {
+            format!("{}: the {} overturns more often than the target", verdict_word(check.satisfied), wobbling.model)
+        }
+        _ => "no capacity, the force does not fall".to_owned(),
+    };
+    writeln!(out, "Verdict   {name} by {by}: {answer}")?;
+    let of_proxy = report.verdict_on_proxy().map(|verdict| format!("proxy by {by}: {verdict}"));
+    let how_far = match report.frame_over_proxy() {
+        Some(ratio) => Some(format!("the frame moves {ratio:.1} times as far as its proxy")),
+        None if wobbling.demand_m.is_infinite() => None,
+        None => Some("the proxy has no demand to compare with".to_owned()),
+    };
+    let second: Vec<String> = of_proxy.into_iter().chain(how_far).collect();
+    if !second.is_empty() {
+        writeln!(out, "          {}", second.join("; "))?;
     }
     for (im, verdict) in report.verdicts_by_other_measures() {
         writeln!(out, "          {verdict}; frame not computed: {}", measure_option(im))?;
@@ -40,12 +62,6 @@ pub(super) fn print_verdicts(
         writeln!(out, "Capacity  {capacity_m:.2} m; safety factor {factor}")?;
     }
     let dash = || "-".to_owned();
-    let unsafe_upper_limits = report.unsafe_upper_limits();
-    let verdict = |whose: &str, is_satisfied: bool| {
-        let word = verdict_word(is_satisfied);
-        let is_unsafe = unsafe_upper_limits.iter().any(|(of, _)| *of == whose);
-        if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
-    };
     let limit = frame.governing_limit();
     // where passing the limit tells how often the frame fails, that and not overturning
     let risk = |beyond: Option<LimitRisk>, overturning: &EventRisk, bands: Option<&DemandBands>| {
@@ -124,7 +140,10 @@ pub(super) fn print_own_spectrum(out: &mut impl Write, report: &DesignReport) ->
     let name = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let own = result.with_file_name(format!("{}-{}.h5", name(result), name(&report.structure.file)));
     let (study, own) = (typed(study_file), typed_path(&own));
-    Ok(writeln!(out, "          for its oscillator's spectrum: uplift run {study}{kept} {settings} -o {own}")?)
+    Ok(writeln!(
+        out,
+        "          spectrum of this structure's oscillator: uplift run {study}{kept} {settings} -o {own}"
+    )?)
 }
 
 /// A capacity that is required, m.
