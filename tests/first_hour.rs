@@ -85,6 +85,21 @@ fn an_import_names_the_option_for_the_unit() {
     }
     let said = study.uplift(&["records", "import", "downloads", "-o", "m.csv"]).stderr;
     assert!(said.contains("does not say its unit") && said.contains("--unit"), "{said}");
+    // where the unit is not known, the values are to be converted
+    let import = ["records", "import", "downloads", "-o", "m.csv", "--unit"];
+    study
+        .write("downloads/a_H1.txt", &format!("accel in mg\n# dt = 0.01 s\n{}", samples.concat().replace(" 0.01", "")));
+    let said = study.uplift(&[&import[..], &["m/s2"]].concat()).stderr;
+    assert!(said.contains("unknown acceleration unit in \"accel in mg\""), "{said}");
+    assert!(said.contains("Convert the values and correct the line"), "{said}");
+}
+
+#[test]
+fn a_mistyped_command_is_answered_with_the_nearest() {
+    let study = SmallStudy::new();
+    study.uplift(&["rn", "study.toml"]).fails(2, &["there is no command `rn`: did you mean `run`?"]);
+    // a search names what it can vary
+    study.uplift(&["target", "pier.toml", "--urs", "r.h5"]).fails(2, &["--vary <strength|size|width|capacity|tendon-"]);
 }
 
 #[test]

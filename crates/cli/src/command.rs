@@ -18,10 +18,11 @@ mod validate;
 
 use std::fmt::Write as _;
 
-use clap::error::{ContextKind, ErrorKind};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use uplift_instructions::InstructionSet;
+use uplift_study::did_you_mean;
 
 use crate::error::CommandError;
 use crate::terminal::{Form, Terminal, tell};
@@ -231,6 +232,14 @@ pub(crate) fn typed() -> Arguments {
             }
             // that such an option could be meant as a value
             error.remove(ContextKind::Suggested);
+        }
+        if let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) {
+            let program = program();
+            let names: Vec<&str> = program.get_subcommands().map(clap::Command::get_name).collect();
+            if let Some(hint) = did_you_mean(word, &names) {
+                tell(&format!("uplift: there is no command `{word}`: {hint}"));
+                std::process::exit(error.exit_code())
+            }
         }
         error.exit()
     })

@@ -201,7 +201,8 @@ pub enum MotionError {
     },
     /// The head names a unit that is not known.
     #[error(
-        "{name}, line {line}: unknown acceleration unit in \"{text}\"; known units: {}",
+        "{name}, line {line}: unknown acceleration unit in \"{text}\"; known units: {}. Convert the values and \
+         correct the line",
         AccelerationUnit::ACCEPTED
     )]
     HeaderUnit {

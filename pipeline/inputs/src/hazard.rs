@@ -285,7 +285,7 @@ impl SiteReader<'_> {
         {
             if count > 0 {
                 self.notes.push(format!(
-                    "site {}, {}: {count} {what} of the hazard curve were dropped: they give no annual rate",
+                    "site {}, {}: {what} of the hazard curve are left out ({count}): they give no annual rate",
                     self.site,
                     self.measure.label()
                 ));

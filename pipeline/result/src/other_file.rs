@@ -5,6 +5,7 @@ use std::path::Path;
 
 use uplift_atomic_file::FileError;
 use uplift_job::JobError;
+use uplift_job::lock::ResultLock;
 use uplift_labelled::LabelledError;
 use uplift_study::{Structure, Study};
 
@@ -18,7 +19,9 @@ pub(super) fn no_result(path: &Path, error: LabelledError) -> ResultError {
         LabelledError::File(FileError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {
             let mut checkpoint = path.as_os_str().to_owned();
             checkpoint.push(".part");
-            Some(if Path::new(&checkpoint).exists() {
+            Some(if let Some(holder) = ResultLock::holder(path) {
+                format!("{holder} is computing it now; `uplift status {name}` shows how far it is")
+            } else if Path::new(&checkpoint).exists() {
                 format!("its run was interrupted: repeat it to resume it; `uplift status {name}` shows how far it is")
             } else {
                 "there is no such file: `uplift run STUDY.toml` writes results, results/STUDY.h5 by default".to_owned()

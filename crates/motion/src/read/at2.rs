@@ -262,7 +262,7 @@ mod tests {
         assert_eq!(
             message(&file("ACCELERATION TIME SERIES IN UNITS OF FT/S2", POINTS, VALUES)),
             "RSN1.AT2, line 3: unknown acceleration unit in \"ACCELERATION TIME SERIES IN UNITS OF FT/S2\"; known \
-             units: g, m/s2, cm/s2, gal"
+             units: g, m/s2, cm/s2, gal. Convert the values and correct the line"
         );
         assert!(message(&file("ACCELERATION IN UNITS OF", POINTS, VALUES)).contains("unknown acceleration unit"));
 
