@@ -19,6 +19,7 @@ mod own_frame;
 mod pairs;
 mod report;
 mod risk;
+mod risk_columns;
 mod rules;
 mod sensitivity;
 mod shaken;

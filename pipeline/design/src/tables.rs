@@ -7,29 +7,13 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_job::outputs;
 use uplift_job::table::{ColumnsOf, write_table};
-use uplift_uniform_risk::EventRisk;
 
 use super::certainty::Bands;
 use super::overturning::{CollapseReport, OverturningReport, SiteRisk};
 use super::uncertain::{UncertainFinding, UncertaintyReport};
 use crate::error::DesignError;
+use crate::risk_columns::{FREQUENCIES, TAIL_SHARES};
 use uncertain::add_limits;
-
-/// A column of the tables of risks: its name, and what it has of a risk.
-type RiskColumn = (&'static str, fn(&EventRisk) -> Option<f64>);
-
-/// How often something happens.
-pub(super) const FREQUENCIES: [RiskColumn; 2] = [
-    ("maf_per_year", |risk| Some(risk.per_year)),
-    // where no run shows it, the frequency that it has at most: a count of none is no proof of never
-    ("at_most_per_year", |risk| risk.at_most_per_year),
-];
-
-/// How much of it comes from outside the levels.
-pub(super) const TAIL_SHARES: [RiskColumn; 2] = [
-    ("lower_tail_share", |risk| Some(risk.lower_tail_share)),
-    ("upper_tail_share", |risk| Some(risk.upper_tail_share)),
-];
 
 /// The table of risks beside that of the fragility.
 pub(super) fn risk_path(fragility: &Path) -> PathBuf {

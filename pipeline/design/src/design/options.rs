@@ -44,8 +44,8 @@ pub struct DesignOptions {
     /// Say what a small change of the strength and rounding make of the numbers, with 16 times the analyses.
     #[arg(skip)]
     pub sensitivity: bool,
-    /// Every shard of the structure's own analysis, as [`design_shard`](super::design_shard) wrote them with the same `sensitivity`; none to
-    /// compute it here.
+    /// Every shard of the structure's own analysis, as [`design_shard`](super::design_shard) wrote them with the same
+    /// `sensitivity`; none to compute it here.
     #[arg(skip)]
     pub shards: Vec<PathBuf>,
 }

@@ -27,7 +27,8 @@ pub struct OverturningOptions {
     /// CSV file of the collapse fragility to write; the risk goes to one that ends in .risk.csv beside it.
     #[arg(skip)]
     pub table: Option<PathBuf>,
-    /// Every shard of the analyses, as [`overturning_shard`](super::overturning_shard) wrote them; none to compute them here.
+    /// Every shard of the analyses, as [`overturning_shard`](super::overturning_shard) wrote them; none to compute them
+    /// here.
     #[arg(skip)]
     pub shards: Vec<PathBuf>,
     /// Whether existing files are overwritten.

@@ -7,7 +7,7 @@ use uplift_job::table::{ColumnsOf, write_table};
 
 use super::TargetReport;
 use crate::error::DesignError;
-use crate::tables::{FREQUENCIES, TAIL_SHARES};
+use crate::risk_columns::{FREQUENCIES, TAIL_SHARES};
 use crate::uncertain::PERCENTILES;
 
 /// The column by which a table of this program is known.

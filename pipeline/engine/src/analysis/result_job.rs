@@ -34,8 +34,8 @@ impl Work<'_> {
         Ok((results, checkpoint))
     }
 
-    /// The checkpoint beside `result`. Where no file can be written there, or another job has it, this one goes on without,
-    /// and says so.
+    /// The checkpoint beside `result`. Where no file can be written there, or another job has it, this one goes on
+    /// without, and says so.
     fn checkpoint_beside(&self, result: &Path, events: &dyn Events) -> Checkpoint {
         let path = path_beside(result, &self.title, "part");
         let opened = ResultLock::acquire(&path)
