@@ -139,7 +139,7 @@ impl Motion {
     fn value(&self, measure: IntensityMeasure, combination: Combination, gravity_m_s2: f64) -> PyResult<f64> {
         let Some(other) = &self.other else {
             if combination == Combination::GeometricMean {
-                return Ok(measure.of_component(&self.shaking, gravity_m_s2));
+                return Ok(measure.component_value(&self.shaking, gravity_m_s2));
             }
             let name = &self.name;
             let message = format!("record {name}: {combination} needs both components: give pairs of records");
@@ -147,7 +147,7 @@ impl Motion {
         };
         let (h1, h2) = ((*self.shaking).clone(), (**other).clone());
         let pair = RecordPair { id: self.name.clone(), h1, h2, metadata: std::collections::BTreeMap::new() };
-        measure.of_combined(combination, &pair, gravity_m_s2).map_err(from_motion)
+        measure.combined_value(combination, &pair, gravity_m_s2).map_err(from_motion)
     }
 }
 

@@ -262,7 +262,7 @@ impl Record {
 
 impl Record {
     fn value(&self, measure: IntensityMeasure) -> f64 {
-        measure.of_component(&self.accelerogram, self.gravity_m_s2)
+        measure.component_value(&self.accelerogram, self.gravity_m_s2)
     }
 
     fn read(recording: Recording, name: String, gravity_m_s2: f64) -> Self {

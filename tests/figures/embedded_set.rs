@@ -13,7 +13,7 @@ type Measure<'a> = &'a dyn Fn(&RecordPair) -> f64;
 type Row = (&'static str, usize, Box<dyn Fn(&RecordPair) -> f64>);
 
 fn pgv_over_pga(pair: &RecordPair) -> f64 {
-    let of = |measure: IntensityMeasure| measure.of_pair(pair, STANDARD_GRAVITY_M_S2);
+    let of = |measure: IntensityMeasure| measure.pair_value(pair, STANDARD_GRAVITY_M_S2);
     of(IntensityMeasure::Pgv) / of(IntensityMeasure::Pga)
 }
 
@@ -29,7 +29,7 @@ fn quantiles(set: &[RecordPair], measure: Measure<'_>) -> [f64; 5] {
 /// Rows of the first table.
 fn measures() -> [Row; 8] {
     let meta = |key: &'static str| move |pair: &RecordPair| pair.metadata[key].parse().unwrap_or(f64::NAN);
-    let peak = |measure: IntensityMeasure| move |pair: &RecordPair| measure.of_pair(pair, STANDARD_GRAVITY_M_S2);
+    let peak = |measure: IntensityMeasure| move |pair: &RecordPair| measure.pair_value(pair, STANDARD_GRAVITY_M_S2);
     [
         ("pgv-over-pga", 0, Box::new(pgv_over_pga)),
         ("d5-75", 1, Box::new(mean_of(Accelerogram::d5_75_s))),
@@ -60,7 +60,7 @@ fn statistics(source: &str, set: &[RecordPair]) -> Vec<(String, String)> {
 fn demands_m(set: &[RecordPair], strength: f64, measure: IntensityMeasure, level: f64) -> [f64; 3] {
     let oscillator = Oscillator::zsbe(strength).unwrap();
     let peak_m = |pair: &RecordPair| {
-        let scale = scale_factor(level, measure.of_pair(pair, STANDARD_GRAVITY_M_S2)).unwrap();
+        let scale = scale_factor(level, measure.pair_value(pair, STANDARD_GRAVITY_M_S2)).unwrap();
         let excitation = Excitation::new(pair.h1.dt_s(), pair.h1.acceleration_m_s2()).unwrap();
         respond(&oscillator, &excitation.scaled(scale).unwrap(), FreeVibration::FirstPeak).peak_displacement_m
     };

@@ -57,7 +57,7 @@ struct Run {
 fn runs() -> Vec<Run> {
     let mut runs = Vec::new();
     for pair in generate(&SyntheticSetOptions::default()).unwrap().iter().step_by(3) {
-        let pgv_cm_s = IntensityMeasure::Pgv.of_pair(pair, STANDARD_GRAVITY_M_S2);
+        let pgv_cm_s = IntensityMeasure::Pgv.pair_value(pair, STANDARD_GRAVITY_M_S2);
         let excitation = Excitation::new(pair.h1.dt_s(), pair.h1.acceleration_m_s2()).unwrap();
         for strength in [0.05, 0.1, 0.2, 0.3, 0.5, 0.8] {
             let oscillator = Oscillator::zsbe(strength).unwrap();

@@ -55,8 +55,8 @@ impl Motion {
     /// Its measure, unscaled, in the unit of the measure.
     pub(crate) fn intensity(&self, measure: IntensityMeasure, gravity_m_s2: f64) -> f64 {
         match self {
-            Self::OfPair(pair, _) => measure.of_pair(pair, gravity_m_s2),
-            Self::Alone(_, accelerogram, _) => measure.of_component(accelerogram, gravity_m_s2),
+            Self::OfPair(pair, _) => measure.pair_value(pair, gravity_m_s2),
+            Self::Alone(_, accelerogram, _) => measure.component_value(accelerogram, gravity_m_s2),
         }
     }
 }

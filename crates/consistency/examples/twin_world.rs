@@ -47,8 +47,8 @@ impl Scaled {
         levels: Vec<f64>,
     ) -> Result<Self, Box<dyn Error>> {
         let row = |(pair, record): (usize, &RecordPair)| SetRecord {
-            scaled_to: own.of_pair(record, G),
-            other: other.of_pair(record, G),
+            scaled_to: own.pair_value(record, G),
+            other: other.pair_value(record, G),
             pair,
             event: None,
             seismology: Seismology::default(),
@@ -56,7 +56,7 @@ impl Scaled {
         let set = RecordSet::new(pairs.iter().enumerate().map(row).collect())?;
         let records = pairs
             .iter()
-            .map(|pair| StripeRecord { id: &pair.id, accelerogram: &pair.h1, intensity: own.of_pair(pair, G) })
+            .map(|pair| StripeRecord { id: &pair.id, accelerogram: &pair.h1, intensity: own.pair_value(pair, G) })
             .collect();
         let systems: Vec<System> = STRENGTHS
             .into_iter()
@@ -64,7 +64,7 @@ impl Scaled {
             .collect::<Result<_, _>>()?;
         let peaks = analyse(&Plan::stripes(records, &systems, &levels, true)?, &Unwatched)?;
         let demand = |strength| -> Result<PooledDemand, Box<dyn Error>> {
-            Ok(PooledDemand::new(&Stripes::new(&levels, &peaks.of_system_m(strength))?)?)
+            Ok(PooledDemand::new(&Stripes::new(&levels, &peaks.system_m(strength))?)?)
         };
         let demands = (0..STRENGTHS.len()).map(demand).collect::<Result<_, _>>()?;
         Ok(Self { set, levels, demands })

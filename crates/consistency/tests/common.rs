@@ -108,7 +108,7 @@ pub(crate) fn record_set(pairs: &[RecordPair], scaled_to: ScaledTo) -> RecordSet
         let next = events.len();
         let event = pair.metadata.get("event").map(|event| *events.entry(event.clone()).or_insert(next));
         let number = |key: &str| pair.metadata.get(key).and_then(|text| text.parse().ok());
-        let value = |measure: IntensityMeasure| measure.of_pair(pair, STANDARD_GRAVITY_M_S2);
+        let value = |measure: IntensityMeasure| measure.pair_value(pair, STANDARD_GRAVITY_M_S2);
         records.push(SetRecord {
             scaled_to: value(scaled_to.measure()),
             other: value(scaled_to.other()),
@@ -131,14 +131,14 @@ pub(crate) fn demands_m(pairs: &[RecordPair], scaled_to: ScaledTo, strengths: &[
         .map(|pair| StripeRecord {
             id: &pair.id,
             accelerogram: &pair.h1,
-            intensity: scaled_to.measure().of_pair(pair, STANDARD_GRAVITY_M_S2),
+            intensity: scaled_to.measure().pair_value(pair, STANDARD_GRAVITY_M_S2),
         })
         .collect();
     let systems: Vec<System> =
         strengths.iter().map(|&strength| System::Oscillator(Oscillator::zsbe(strength).unwrap())).collect();
     let levels = scaled_to.levels();
     let peaks = analyse(&Plan::stripes(records, &systems, &levels, true).unwrap(), &Unwatched).unwrap();
-    (0..strengths.len()).map(|index| peaks.of_system_m(index)).collect()
+    (0..strengths.len()).map(|index| peaks.system_m(index)).collect()
 }
 
 /// Demands of one oscillator, pooled.

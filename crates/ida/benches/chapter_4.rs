@@ -25,7 +25,7 @@ fn one_record(criterion: &mut Criterion) {
     let pair = &pairs()[0];
     let excitation = Excitation::new(pair.h1.dt_s(), pair.h1.acceleration_m_s2()).unwrap();
     let ground = GroundMotion::new(excitation);
-    let pgv = IntensityMeasure::Pgv.of_pair(pair, G);
+    let pgv = IntensityMeasure::Pgv.pair_value(pair, G);
     let mut group = criterion.benchmark_group("one record, 15 levels");
     group.throughput(Throughput::Elements((15 * pair.h1.len()) as u64));
     for strength in [0.05, 0.3, 1.0] {
@@ -58,7 +58,7 @@ fn thinned_grid(criterion: &mut Criterion) {
         .map(|pair| StripeRecord {
             id: &pair.id,
             accelerogram: &pair.h1,
-            intensity: IntensityMeasure::Pgv.of_pair(pair, G),
+            intensity: IntensityMeasure::Pgv.pair_value(pair, G),
         })
         .collect();
     let plan = Plan::stripes(records, &systems, &levels, true).unwrap();

@@ -60,7 +60,7 @@ pub fn complete(
             if !shard.contains(row) {
                 return Ok(());
             }
-            let (motion, system) = axes.of_row(row);
+            let (motion, system) = axes.motion_and_system(row);
             let (of_motion, shaken) = (&plan.motions()[motion], plan.system(motion, system));
             let missing: Vec<usize> = (0..axes.scales).filter(|scale| !known[*scale]).collect();
             if missing.is_empty() {

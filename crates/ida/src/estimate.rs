@@ -32,7 +32,7 @@ pub fn estimate(plan: &Plan<'_>, budget: Duration) -> Estimate {
     let mut spent = Duration::ZERO;
     let (mut timed, mut seen) = (0, 0);
     while timed < axes.rows() && (seen < LEAST_ROWS || start.elapsed() < budget) {
-        let (motion, system) = axes.of_row(spread(timed, axes.rows()));
+        let (motion, system) = axes.motion_and_system(spread(timed, axes.rows()));
         // one azimuth stands for all
         let Some(ground) = plan.grounds_of(motion).next() else { break };
         let azimuths = u32::try_from(plan.histories_per_peak()).unwrap_or(u32::MAX);

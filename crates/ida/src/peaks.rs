@@ -35,7 +35,7 @@ impl Axes {
     }
 
     /// Motion and system of a row.
-    pub fn of_row(self, row: usize) -> (usize, usize) {
+    pub fn motion_and_system(self, row: usize) -> (usize, usize) {
         (row / self.systems, row % self.systems)
     }
 
@@ -99,7 +99,7 @@ impl Peaks {
     ///
     /// # Panics
     /// If the system is out of range, which is a bug of the caller.
-    pub fn of_system_m(&self, system: usize) -> Vec<f64> {
+    pub fn system_m(&self, system: usize) -> Vec<f64> {
         (0..self.axes.motions).flat_map(|motion| self.row_m(motion, system).iter().copied()).collect()
     }
 

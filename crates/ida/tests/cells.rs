@@ -99,7 +99,7 @@ fn any_division_and_any_known_rows_give_the_same_bits() {
     let plan = case.plan();
     let whole = analyse(&plan, &Unwatched).unwrap();
     assert!(whole.displacement_m().iter().any(|value| value.is_infinite()));
-    assert!((0..4).all(|system| whole.of_system_m(system).iter().any(|&value| value > 0.0 && value.is_finite())));
+    assert!((0..4).all(|system| whole.system_m(system).iter().any(|&value| value > 0.0 && value.is_finite())));
     let split = (1_u64..21, prop::collection::vec(any::<bool>(), 12), 1_usize..4);
     proptest!(ProptestConfig::with_cases(32), |((count, known, threads) in split)| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -109,7 +109,7 @@ fn any_division_and_any_known_rows_give_the_same_bits() {
             for row in (0..12).filter(|row| known[*row]) {
                 let at = row * 5..row * 5 + 5;
                 let (displacement_m, impacts) = (&whole.displacement_m()[at.clone()], &whole.impacts()[at]);
-                let (motion, system) = plan.axes().of_row(row);
+                let (motion, system) = plan.axes().motion_and_system(row);
                 let fits = cells.set_row(&AnalysisRow { motion, system, displacement_m, impacts });
                 prop_assert!(fits);
             }

@@ -41,7 +41,7 @@ fn each_element_is_the_single_run_it_stands_for() {
                 let excitation = Excitation::new(accelerogram.dt_s(), accelerogram.acceleration_m_s2()).unwrap();
                 let scaled = excitation.scaled(level / (0.3 + 0.1 * i as f64)).unwrap();
                 let single = respond(oscillator, &scaled, FreeVibration::FirstPeak);
-                let (found, exact) = (peaks.of_system_m(j)[i * 6 + k], single.peak_displacement_m);
+                let (found, exact) = (peaks.system_m(j)[i * 6 + k], single.peak_displacement_m);
                 assert!((found - exact).abs() <= 1e-6 * exact, "record {i} strength {j} level {k}: {found} {exact}");
             }
         }

@@ -81,7 +81,7 @@ fn azimuths_deg(azimuths: u8) -> impl Iterator<Item = f64> {
 
 impl Component {
     /// The records that a pair yields, in order.
-    pub fn of_pair(self, drawn: Drawn) -> Vec<Direction> {
+    pub fn directions(self, drawn: Drawn) -> Vec<Direction> {
         use Horizontal::{H1, H2};
         match self {
             Self::H1 => vec![Direction::Component(H1)],
@@ -191,16 +191,16 @@ mod tests {
     fn what_a_pair_yields() {
         let component = |which| Direction::Component(which);
         for chance in [H1, H2].map(drawn) {
-            assert_eq!(Component::H1.of_pair(chance), [component(H1)]);
-            assert_eq!(Component::H2.of_pair(chance), [component(H2)]);
-            assert_eq!(Component::Both.of_pair(chance), [component(H1), component(H2)]);
-            assert_eq!(Component::Random.of_pair(chance), [component(chance.horizontal)]);
-            assert_eq!(Component::Rotated(Rotation::Random).of_pair(chance), [Direction::Azimuth(12.34)]);
+            assert_eq!(Component::H1.directions(chance), [component(H1)]);
+            assert_eq!(Component::H2.directions(chance), [component(H2)]);
+            assert_eq!(Component::Both.directions(chance), [component(H1), component(H2)]);
+            assert_eq!(Component::Random.directions(chance), [component(chance.horizontal)]);
+            assert_eq!(Component::Rotated(Rotation::Random).directions(chance), [Direction::Azimuth(12.34)]);
             let each = Component::Rotated(Rotation::Each { azimuths: 4 });
-            assert_eq!(each.of_pair(chance), [0.0, 45.0, 90.0, 135.0].map(Direction::Azimuth));
+            assert_eq!(each.directions(chance), [0.0, 45.0, 90.0, 135.0].map(Direction::Azimuth));
             let worst = Component::Rotated(Rotation::Percentile { azimuths: 4, percentile: 100 });
             for asked in [Component::H1, Component::Both, Component::Random, each, worst] {
-                assert_eq!(asked.of_pair(chance).len(), asked.records_per_pair());
+                assert_eq!(asked.directions(chance).len(), asked.records_per_pair());
             }
         }
     }

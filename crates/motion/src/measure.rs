@@ -132,15 +132,15 @@ mod tests {
     fn measures_by_hand() {
         // PGA 4 and 9 m/s², PGV 4·0.5 = 2 and 9·0.25·2 = 4.5 m/s.
         let pair = pair(vec![4.0, 4.0], vec![-9.0, -9.0, -9.0]);
-        assert_eq!(IntensityMeasure::Pga.of_pair(&pair, 10.0), 0.6);
-        assert_eq!(IntensityMeasure::Pgv.of_pair(&pair, 10.0), 300.0);
+        assert_eq!(IntensityMeasure::Pga.pair_value(&pair, 10.0), 0.6);
+        assert_eq!(IntensityMeasure::Pgv.pair_value(&pair, 10.0), 300.0);
         assert_eq!(scale_factor(75.0, 300.0).unwrap(), 0.25);
     }
 
     #[test]
     fn nothing_to_scale() {
         let silent = pair(vec![1.0; 3], vec![0.0; 3]);
-        let measure = IntensityMeasure::Pgv.of_pair(&silent, 9.81);
+        let measure = IntensityMeasure::Pgv.pair_value(&silent, 9.81);
         assert!(scale_factor(10.0, measure).is_err());
         for (level, im) in [
             (1.0, -1.0),
@@ -176,14 +176,14 @@ mod tests {
             let further = [IntensityMeasure::Sa(half), IntensityMeasure::Pgd, IntensityMeasure::Arias];
             for measure in IntensityMeasure::OF_CHAPTER_4.into_iter().chain(further) {
                 let [level_amplitude, amplitude] =
-                    [level, measure.of_pair(&unscaled, 9.81)].map(|value| measure.amplitude(value));
+                    [level, measure.pair_value(&unscaled, 9.81)].map(|value| measure.amplitude(value));
                 let factor = scale_factor(level_amplitude, amplitude).unwrap();
                 let scaled = RecordPair {
                     h1: unscaled.h1.scaled(factor).unwrap(),
                     h2: unscaled.h2.scaled(factor).unwrap(),
                     ..unscaled.clone()
                 };
-                prop_assert!((measure.of_pair(&scaled, 9.81) / level - 1.0).abs() < 1e-12);
+                prop_assert!((measure.pair_value(&scaled, 9.81) / level - 1.0).abs() < 1e-12);
             }
         }
     }

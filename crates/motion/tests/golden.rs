@@ -97,8 +97,8 @@ fn peaks_of_the_manifest() {
         note("PGA h2", roundings(pair.h2.pga_m_s2() / g, &row["pga2_g"]), id);
         note("PGV h1", roundings(100.0 * pair.h1.pgv_m_s(), &row["pgv1_cms"]), id);
         note("PGV h2", roundings(100.0 * pair.h2.pgv_m_s(), &row["pgv2_cms"]), id);
-        let pga = IntensityMeasure::Pga.of_pair(&pair, g);
-        let pgv = IntensityMeasure::Pgv.of_pair(&pair, g);
+        let pga = IntensityMeasure::Pga.pair_value(&pair, g);
+        let pgv = IntensityMeasure::Pgv.pair_value(&pair, g);
         note("PGA geomean", roundings(pga, &row["geomean_pga_g"]), id);
         note("PGV geomean", roundings(pgv, &row["geomean_pgv_cms"]), id);
         // The manifest gives the longer of the two components, and counts in whole samples: each

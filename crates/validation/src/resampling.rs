@@ -26,7 +26,7 @@ const FEWEST: u32 = 100;
 /// How to resample.
 #[derive(Clone, Copy)]
 pub struct Resampling<'a> {
-    /// Replicates, fewer of very large samples ([`Resampling::of_values`]).
+    /// Replicates, fewer of very large samples ([`Resampling::replicates_for`]).
     pub replicates: u32,
     /// Seed.
     pub seed: u64,
@@ -42,7 +42,7 @@ impl Default for Resampling<'_> {
 
 impl Resampling<'_> {
     /// The replicates of a sample of so many values: beyond 20 000 values as many as draw 2·10⁸ together, but 100.
-    pub fn of_values(&self, values: usize) -> u32 {
+    pub fn replicates_for(&self, values: usize) -> u32 {
         if values <= MANY {
             return self.replicates;
         }
@@ -88,7 +88,7 @@ pub struct Bands {
 pub fn bands(measured: &[f64], computed: &[f64], resampling: Resampling) -> Result<Bands, ValidationError> {
     check(measured, computed)?;
     let mut found = [Vec::new(), Vec::new(), Vec::new()];
-    let replicates = resampling.of_values(measured.len());
+    let replicates = resampling.replicates_for(measured.len());
     for replicate in 0..replicates {
         resampling.go_on()?;
         let mut stream = Stream::new(MOTIONS, resampling.seed, replicate);
@@ -113,7 +113,7 @@ pub fn median_ratio_band(
     resampling: Resampling,
 ) -> Result<Option<Quantiles>, ValidationError> {
     let mut found = Vec::new();
-    let replicates = resampling.of_values(measured.len().max(computed.len()));
+    let replicates = resampling.replicates_for(measured.len().max(computed.len()));
     for replicate in 0..replicates {
         resampling.go_on()?;
         let mut stream = Stream::new(MOTIONS, resampling.seed, replicate);
@@ -140,7 +140,7 @@ pub fn permutation_p(measured: &[f64], computed: &[f64], resampling: Resampling)
     };
     let observed = distance(measured.to_vec(), computed.to_vec())?;
     let mut as_large = 1_u32;
-    let replicates = resampling.of_values(measured.len());
+    let replicates = resampling.replicates_for(measured.len());
     for replicate in 0..replicates {
         resampling.go_on()?;
         let mut stream = Stream::new(SWAPS, resampling.seed, replicate);
@@ -224,7 +224,7 @@ mod tests {
     #[test]
     fn very_large_samples_have_fewer_replicates() {
         let usual = Resampling::default();
-        let of = [10, 20_000, 200_000, 1_000_000_000].map(|values| usual.of_values(values));
+        let of = [10, 20_000, 200_000, 1_000_000_000].map(|values| usual.replicates_for(values));
         assert_eq!(of, [10_000, 10_000, 1000, 100]);
     }
 

@@ -80,7 +80,7 @@ pub(super) fn without_repair(evidence: &Evidence, scope: &Scope) -> Option<Alarm
 }
 
 /// What limits the trust in repaired spectra.
-pub(super) fn of_repair(evidence: &Evidence, scope: &Scope) -> impl Iterator<Item = Alarm> {
+pub(super) fn repair_alarms(evidence: &Evidence, scope: &Scope) -> impl Iterator<Item = Alarm> {
     few_effective(evidence, scope).into_iter().chain(failing_samples(evidence, scope))
 }
 

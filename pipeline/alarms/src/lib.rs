@@ -88,7 +88,7 @@ pub fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, Ala
     alarms.extend(hazard::alarms(&evidence, scope));
     alarms.extend(levels::alarms(&evidence, scope)?);
     if scope.repaired {
-        alarms.extend(consistency::of_repair(&evidence, scope));
+        alarms.extend(consistency::repair_alarms(&evidence, scope));
     } else {
         alarms.extend(measures::alarms(&evidence, scope));
         alarms.extend(consistency::alarms(&evidence, scope));
@@ -119,7 +119,7 @@ fn spectra_alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, Alar
     alarms.extend(consistency::without_repair(evidence, scope));
     // of the whole result, or of what is asked by repaired spectra: plain ones have nothing to do with weights
     if scope.repaired || *scope == Scope::default() {
-        alarms.extend(consistency::of_repair(evidence, scope));
+        alarms.extend(consistency::repair_alarms(evidence, scope));
     }
     Ok(alarms)
 }

@@ -98,7 +98,7 @@ fn side<'a>(spectra: &'a MeasureSpectra, bands: Option<(&'a StoredBands, usize)>
     let band = || {
         let (bands, poe) = bands?;
         let size = (0..bands.sizes.len()).max_by_key(|&size| bands.sizes[size])?;
-        let of_measure = bands.of(spectra.measure)?;
+        let of_measure = bands.by_measure(spectra.measure)?;
         let [lower, _, upper] = &of_measure.plain.limits_m;
         // what all records there could be have; in results made before it was known, what resamples have
         let [lower, upper] =

@@ -72,7 +72,7 @@ impl Bands {
     }
 
     /// What to say behind the quoted band of whom it is; nothing of one by record.
-    pub fn of_whom(&self) -> &'static str {
+    pub fn by_whom(&self) -> &'static str {
         if self.quoted_by_earthquake().is_some() { " by earthquake" } else { "" }
     }
 
@@ -199,7 +199,7 @@ mod tests {
             (Some([0.9, 2.1]), [1.0, 2.0], ""),
             (Some([0.5, 2.5]), [0.5, 2.5], " by earthquake"),
         ] {
-            assert_eq!((bands(by_earthquake).quoted(), bands(by_earthquake).of_whom()), (quoted, words));
+            assert_eq!((bands(by_earthquake).quoted(), bands(by_earthquake).by_whom()), (quoted, words));
         }
     }
 }

@@ -30,7 +30,7 @@ use uplift_uniform_risk::{EventRisk, OneRisk, SpectraOfResult, StudyOfResult, at
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
 use super::opening::{Place, job_name, records_and_pairs, restitution};
-use super::own_frame::{OwnFrame, STOPPED, of_frame};
+use super::own_frame::{OwnFrame, STOPPED, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use super::rules::{MeasureVerdict, OwnCheck, RuleDemands, apply_rules, verdicts_by_curve};
@@ -98,7 +98,7 @@ pub fn design(
         }
         None => (None, None, None, None),
     };
-    notes.extend(frame.as_ref().map(|_| of_frame(structure)));
+    notes.extend(frame.as_ref().map(|_| what_frames_leave_out(structure)));
     if structure.uncertainty.is_some() && uncertainty.is_none() {
         notes.push(without_uncertainty(options, &source));
     }

@@ -155,7 +155,7 @@ pub fn frame_risk(
     let hazard = Hazard::from_file(&file, &source, (measure, site))?;
     let counted = PooledDemand::new(&Stripes::new(levels, own_m)?)?;
     let bands = rate_bands(&counted, (&hazard, None), scatter, OVERTURNING_M)?;
-    let limit = FrameLimit::of(structure, &analysis.frame);
+    let limit = FrameLimit::from_frame(structure, &analysis.frame);
     let of_limit =
         |limit: FrameLimit| LimitRisk::new(&counted, (&hazard, None), scatter, (limit.displacement_m, years));
     let beyond_limit = limit.map(of_limit).transpose()?;

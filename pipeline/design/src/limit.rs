@@ -51,7 +51,7 @@ pub struct FrameLimit {
 
 impl FrameLimit {
     /// Of the `frame` of a structure; none of one that has neither.
-    pub(super) fn of(structure: &Structure, frame: &RockingFrame) -> Option<Self> {
+    pub(super) fn from_frame(structure: &Structure, frame: &RockingFrame) -> Option<Self> {
         let events = frame.columns().events();
         let first = |kind| events.iter().find(|event| event.event == kind).map(|event| event.state.displacement_m);
         let all = [

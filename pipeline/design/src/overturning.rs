@@ -26,7 +26,7 @@ use super::hazard::Hazard;
 use super::limit::{FrameLimit, LimitRisk};
 use super::lognormal::lognormal_bands;
 use super::opening::{check_tables, job_name, site_index};
-use super::own_frame::{FrameLevels, FramePeaks, of_frame};
+use super::own_frame::{FrameLevels, FramePeaks, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{OVERTURNING_M, own_risk};
 use super::tables::{risk_path, write_tables};
@@ -88,10 +88,10 @@ pub fn overturning(
         found.push((measure, models.iter().zip(analysed.by_ref()).map(of_model).collect::<Result<_, _>>()?));
     }
     let peaks = analysis.frame_peaks(&mut analysed);
-    let of_frame = peaks.iter().zip(&weighed).map(|(peaks, at)| at.of_frame(peaks, limit));
+    let of_frame = peaks.iter().zip(&weighed).map(|(peaks, at)| at.frame_collapses(peaks, limit));
     let of_frame = of_frame.collect::<Result<Vec<_>, _>>()?;
     notes.extend(notes_on(models, &found));
-    notes.extend(analysis.frame.as_ref().map(|_| self::of_frame(structure)));
+    notes.extend(analysis.frame.as_ref().map(|_| what_frames_leave_out(structure)));
     let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
     let uncertainty = uncertain
         .as_ref()
@@ -215,7 +215,7 @@ impl<'a> AtSites<'a> {
     }
 
     /// The same of a frame at the levels of these positions among those of the measure.
-    fn of_frame(
+    fn frame_collapses(
         &self,
         (_, levels, peaks): &(&SpectraOfResult, &FrameLevels, FramePeaks),
         limit: Option<FrameLimit>,

@@ -31,7 +31,7 @@ use crate::error::DesignError;
 const LEVELS: usize = 28;
 
 /// What the models of a frame leave out.
-pub(super) fn of_frame(structure: &Structure) -> String {
+pub(super) fn what_frames_leave_out(structure: &Structure) -> String {
     format!(
         "{}, and its deck does not turn; the planar one is shaken by one component alone, which is \
          unconservative (Section 6.2.3)",
@@ -182,7 +182,7 @@ impl OwnFrame {
         let (restitution, restitution_from) =
             own.map_or_else(|| (frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
         Ok(Self {
-            limit: FrameLimit::of(structure, &frame),
+            limit: FrameLimit::from_frame(structure, &frame),
             wobbling: vec![wobbling(&frame, structure)],
             planar: vec![planar(&frame, restitution)],
             restitution_from: [

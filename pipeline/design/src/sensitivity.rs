@@ -71,7 +71,7 @@ impl RuleRanges {
     }
 
     /// That of `rule`.
-    pub fn of(&self, rule: Rule) -> Noisy {
+    pub fn by_rule(&self, rule: Rule) -> Noisy {
         match rule {
             Rule::EqualDisplacement => self.equal_displacement,
             Rule::EqualEnergy => self.equal_energy,

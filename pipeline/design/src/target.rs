@@ -34,7 +34,7 @@ pub use trial::LevelShare;
 use super::certainty::Scatter;
 use super::hazard::Hazard;
 use super::opening::{Place, check_tables};
-use super::own_frame::{OwnFrame, STOPPED, of_frame};
+use super::own_frame::{OwnFrame, STOPPED, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use crate::error::DesignError;
@@ -126,7 +126,7 @@ pub fn target(
     let safe_value = safe_value.max(value);
     let judged = FrameTarget { structure, options, place, of_records, target_per_year, years };
     let (frame, falls) = judged.judge(&mut trials, [safe_value, value, range[1]])?;
-    notes.extend(frame.as_ref().map(|_| of_frame(structure)));
+    notes.extend(frame.as_ref().map(|_| what_frames_leave_out(structure)));
     let by_proxy = wobbles && frame.is_none();
     notes.extend(assumptions(&file, by_proxy));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;

@@ -61,7 +61,7 @@ pub(crate) fn demand(site: &str, options: &ExportOptions, events: &dyn Events) -
     let rate_per_year = stored.targets_per_year[poe];
     let level = file.site_curve(site, measure)?.im_at_rate_extrapolated(rate_per_year, study.risk.extrapolate)?;
     let systems = match &structure {
-        None => of_strengths(&stored, measure, &all_numbers(&asked.strength))?,
+        None => oscillators(&stored, measure, &all_numbers(&asked.strength))?,
         Some(structure) => {
             let name = structure.file.file_stem().unwrap_or_default().to_string_lossy();
             let found = limit_stripes(structure, &options.result, &asked.limits(Some(measure)), events)?.into_iter();
@@ -112,7 +112,7 @@ pub(crate) fn demand(site: &str, options: &ExportOptions, events: &dyn Events) -
 }
 
 /// Oscillators of the `strengths` by one measure.
-fn of_strengths(
+fn oscillators(
     stored: &StoredStripes,
     measure: IntensityMeasure,
     strengths: &[f64],

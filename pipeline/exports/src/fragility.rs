@@ -73,7 +73,7 @@ pub(crate) fn fragility(
     let fragilities = match &structure {
         None => {
             let [displacements_m, strengths] = [&asked.displacement_m, &asked.strength].map(|of| all_numbers(of));
-            of_displacements(&stored, (&displacements_m, &strengths), &measures, &units)
+            displacement_fragilities(&stored, (&displacements_m, &strengths), &measures, &units)
         }
         Some(structure) => {
             let found = limit_stripes(structure, &options.result, &asked.limits(asked.measure), events)?;
@@ -112,7 +112,7 @@ pub(crate) fn fragility(
 }
 
 /// Of each of the `strengths` by each of the `measures`.
-fn of_displacements(
+fn displacement_fragilities(
     stored: &StoredStripes,
     (displacements_m, strengths): (&[f64], &[f64]),
     measures: &[IntensityMeasure],

@@ -46,7 +46,7 @@ pub fn input_checksums(
 pub fn motion_keys(records: &[Record]) -> Vec<String> {
     // structures of a motion follow each other: it is hashed once
     let of_motions = records.chunk_by(share_motion).flat_map(|same| {
-        let key = of_motion(&same[0]);
+        let key = motion_checksum(&same[0]);
         same.iter().map(move |record| match &record.structure {
             Some(structure) => structure.key_with(&key),
             None => key.clone(),
@@ -56,7 +56,7 @@ pub fn motion_keys(records: &[Record]) -> Vec<String> {
 }
 
 /// SHA-256 of the motion of a record, hexadecimal; of all motions and the percentile where it is one.
-fn of_motion(record: &Record) -> String {
+fn motion_checksum(record: &Record) -> String {
     let first = motion_key(&record.accelerogram);
     match record.direction {
         Direction::Percentile { percentile, .. } if !record.other_azimuths.is_empty() => {

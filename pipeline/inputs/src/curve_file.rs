@@ -40,7 +40,7 @@ pub(super) fn read_converted(
 ) -> Result<(CsvCurve, bool), String> {
     let read = read_path(path, &csv_options(file)).map_err(|error| with_remedy(&error, study, site, file))?;
     let curve = read.curve.in_field_units(study.gravity_m_s2).map_err(|error| error.to_string())?;
-    let converted = of_the_records_definition(study, file.measure, &curve)
+    let converted = by_the_records_definition(study, file.measure, &curve)
         .map_err(|reason| format!("{}: {reason}", path.display()))?;
     let is_defined = converted.is_some();
     Ok((CsvCurve { curve: converted.unwrap_or(curve), ..read }, is_defined))
@@ -66,7 +66,7 @@ fn csv_options(file: &CurveFile) -> CsvOptions {
 
 /// The curve for the definition of the measure that the records are combined by; none where the definition of the curve
 /// is not known.
-pub(super) fn of_the_records_definition(
+pub(super) fn by_the_records_definition(
     study: &UniformRiskStudy,
     measure: IntensityMeasure,
     curve: &HazardCurve,

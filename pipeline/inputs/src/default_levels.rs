@@ -6,7 +6,7 @@ use uplift_hazard::{Extrapolation, HazardCurve};
 use uplift_study::{AnyStudy, MeasurePlan, Study, StudyError, UniformRiskStudy, usual_top_level};
 
 use super::curve_file::{are_interchanged, curve_of};
-use super::other_unit::of_outside;
+use super::other_unit::from_outside;
 
 /// At how many times the first default level a curve may begin: one that begins later is more likely of another unit,
 /// and is refused.
@@ -59,7 +59,7 @@ fn shortened(study: &UniformRiskStudy, plan: &MeasurePlan) -> Option<MeasurePlan
             *first * LATER_WITHIN < curve.first().im
                 || end * SHORTER_WITHIN < *last
                 || usual_top_level(plan.measure).is_some_and(|(_, usual)| !usual.contains(end))
-                || of_outside(study, (&site.name, file), plan, curve).is_some()
+                || from_outside(study, (&site.name, file), plan, curve).is_some()
                 || are_interchanged(study, &site.name, file, plan).unwrap_or(false)
         };
         // most curves cut nothing, and whether they are doubtful takes further files to say

@@ -13,7 +13,7 @@ use uplift_study::{
 };
 
 use super::curve_file::{are_interchanged, read_converted, stripe_weights};
-use super::other_unit::{curve_line, of_outside};
+use super::other_unit::{curve_line, from_outside};
 use crate::error::InputsError;
 
 /// The hazard of one site in one measure.
@@ -331,7 +331,7 @@ impl SiteReader<'_> {
                      are, {reason}"
                 );
             }
-            if let Some(other_unit) = of_outside(self.study, (self.site, self.file), plan, curve) {
+            if let Some(other_unit) = from_outside(self.study, (self.site, self.file), plan, curve) {
                 // who reads a curve in another unit is not helped by an extrapolation of it
                 let key = levels_key(self.measure);
                 return format!("{name}: {other_unit}; if not, use a longer curve or leave levels out of {key}");

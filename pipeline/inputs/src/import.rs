@@ -21,7 +21,7 @@ use serde::Serialize;
 
 pub use measured::PairMeasures;
 pub(crate) use name::sequence_number;
-pub use warnings::of_pair as warnings_of_pair;
+pub use warnings::pair_warnings;
 pub(crate) use warnings::unusual_peaks;
 pub use warnings::{Remarks, Warning};
 

@@ -131,7 +131,7 @@ fn of_file(file: &CurveFile, gravity_m_s2: f64) -> impl Iterator<Item = OtherUni
 
 /// What is said where levels of `plan` lie far outside the `curve` of a `site`, which is read from `file`: that they,
 /// or the curve, would fit in another unit. None where no unit is better.
-pub(super) fn of_outside(
+pub(super) fn from_outside(
     study: &UniformRiskStudy,
     (site, file): (&str, &CurveFile),
     plan: &MeasurePlan,
@@ -189,7 +189,7 @@ pub fn unit_that_covers(
     curve: &HazardCurve,
 ) -> Option<String> {
     let plan = study.measures.iter().find(|plan| plan.measure == measure)?;
-    of_outside(study, (site, file_of(study, site, measure)?), plan, curve)
+    from_outside(study, (site, file_of(study, site, measure)?), plan, curve)
 }
 
 /// What to do where the curve of PGA of a site is `too_high` times what goes with its curve of PGV, and another unit of

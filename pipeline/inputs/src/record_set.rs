@@ -127,8 +127,8 @@ fn read_set(
     notes.extend(alike(&pairs));
     let twice = places.note(&pairs, study.records.duplicates);
     notes.extend(twice.iter().flatten().cloned());
-    notes.extend(of_unusual_peak(&pairs, study.gravity_m_s2));
-    notes.extend(of_unequal_length(&pairs, study));
+    notes.extend(unusual_peak(&pairs, study.gravity_m_s2));
+    notes.extend(unequal_length(&pairs, study));
     let of_pairs = |pair| counted(pairs.len(), pair);
     let pairs_in_words = match pairs.iter().filter(|pair| is_made(pair)).count() {
         made if made == pairs.len() || (made == 0 && synthetic) => of_pairs("synthetic pair"),
@@ -204,7 +204,7 @@ fn added(study: &UniformRiskStudy) -> Option<Added> {
 }
 
 /// Records that may not be synchronised, where that matters.
-fn of_unequal_length(pairs: &[CheckedPair], study: &UniformRiskStudy) -> Option<String> {
+fn unequal_length(pairs: &[CheckedPair], study: &UniformRiskStudy) -> Option<String> {
     let Added { wrong, .. } = added(study)?;
     let unequal: Vec<&str> =
         pairs.iter().filter(|(pair, _)| pair.h1.len() != pair.h2.len()).map(|(pair, _)| pair.id.as_str()).collect();
@@ -221,7 +221,7 @@ fn of_unequal_length(pairs: &[CheckedPair], study: &UniformRiskStudy) -> Option<
 }
 
 /// Records whose unit is probably not what it is taken for: the first, and how many more.
-pub(super) fn of_unusual_peak(pairs: &[CheckedPair], gravity_m_s2: f64) -> Option<String> {
+pub(super) fn unusual_peak(pairs: &[CheckedPair], gravity_m_s2: f64) -> Option<String> {
     let told = |(pair, _): &CheckedPair| {
         let motions = [&pair.h1, &pair.h2];
         let pga_g = motions.map(|motion| motion.pga_m_s2() / gravity_m_s2);
@@ -308,7 +308,7 @@ fn analysis_records(
     let mut records = Vec::new();
     let further_of = |(pair, _): &CheckedPair| -> Result<BTreeMap<IntensityMeasure, f64>, MotionError> {
         let of_pair = |&measure: &IntensityMeasure| {
-            Ok((measure, measure.of_combined(study.records.intensity, pair, study.gravity_m_s2)?))
+            Ok((measure, measure.combined_value(study.records.intensity, pair, study.gravity_m_s2)?))
         };
         further.iter().map(of_pair).collect()
     };
@@ -343,7 +343,7 @@ fn analysis_records(
             continue;
         }
         let measured = measured?;
-        let directions = component.of_pair(drawn(study.seed, &pair.id));
+        let directions = component.directions(drawn(study.seed, &pair.id));
         for direction in &directions {
             let id = if directions.len() > 1 { format!("{}:{direction}", pair.id) } else { pair.id.clone() };
             let mut motions = match pair.along(*direction) {

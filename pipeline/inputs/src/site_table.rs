@@ -18,7 +18,7 @@ use uplift_risk::StripeWeights;
 pub use self::export::SharedCurve;
 use self::export::{Index, Read, Row, Stream, reason_of};
 pub use self::places::ListedSite;
-use super::curve_file::{of_the_records_definition, stripe_weights};
+use super::curve_file::{by_the_records_definition, stripe_weights};
 use crate::error::InputsError;
 use uplift_job::JobError;
 use uplift_job::checksum::checksum_of_file;
@@ -81,7 +81,7 @@ impl SiteExport {
     /// A curve of another definition without a conversion, for instance; as the reason for a table.
     pub fn curve(&self, study: &UniformRiskStudy, exported: &HazardCurve) -> Result<HazardCurve, String> {
         let curve = exported.in_field_units(study.gravity_m_s2).map_err(|error| reason_of(&error))?;
-        Ok(of_the_records_definition(study, self.measure, &curve)?.unwrap_or(curve))
+        Ok(by_the_records_definition(study, self.measure, &curve)?.unwrap_or(curve))
     }
 
     /// What each stripe of the study weighs at a site with this [`curve`](Self::curve).

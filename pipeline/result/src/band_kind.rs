@@ -64,7 +64,7 @@ impl BandKind {
     }
 
     /// The bands of this kind of a measure.
-    pub fn of(self, bands: &MeasureBands) -> Option<BandsOfKind<'_>> {
+    pub fn select(self, bands: &MeasureBands) -> Option<BandsOfKind<'_>> {
         let (own, inferred, failed) = match &bands.repaired {
             _ if !self.is_repaired => (&bands.plain, &bands.inferred, None),
             repaired => repaired.as_ref().map(|own| (&own.bands, &own.inferred, Some(&own.failed)))?,

@@ -5,7 +5,7 @@ use uplift_bootstrap::{Interval, Unit};
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
-use super::declared::{Names, group, of_measure};
+use super::declared::{Names, group, measure_names};
 use super::layout::attribute::bootstrap as attribute;
 use super::layout::axis::{POE, RECORD, REPLICATE, SAMPLE_SIZE, SITE, STRENGTH};
 use super::layout::limit_names;
@@ -252,7 +252,7 @@ impl StoredDraws {
 
 impl StoredBands {
     /// Position of the samples with as many records as a set of `records`; the largest where there are none.
-    pub fn of_set(&self, records: usize) -> usize {
+    pub fn place_of_set(&self, records: usize) -> usize {
         self.sizes.iter().position(|&size| size as usize == records).unwrap_or_else(|| self.largest())
     }
 
@@ -271,7 +271,7 @@ impl StoredBands {
     }
 
     /// The bands of `measure`.
-    pub fn of(&self, measure: IntensityMeasure) -> Option<&MeasureBands> {
+    pub fn by_measure(&self, measure: IntensityMeasure) -> Option<&MeasureBands> {
         self.measures.iter().find(|bands| bands.measure == measure)
     }
 
@@ -408,7 +408,7 @@ impl StoredResult {
 
     /// Whether there are bands of repaired spectra.
     pub fn has_repaired_bands(&self) -> bool {
-        self.measures().into_iter().any(|own| FAILED_SAMPLES.is_in(self, &of_measure(own)))
+        self.measures().into_iter().any(|own| FAILED_SAMPLES.is_in(self, &measure_names(own)))
     }
 
     /// The draws of the bands; none before `uplift bootstrap`.

@@ -8,7 +8,7 @@ use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::Ordinate;
 
-use super::declared::{Group, Quantity, group, of_measure};
+use super::declared::{Group, Quantity, group, measure_names};
 use super::extend::sign;
 use super::layout::axis::{self, KNOT, POE, RATE, RECORD, SITE, STRENGTH, STRIPE_LEVEL};
 use super::spectra::{Fit, Fits, regression};
@@ -218,7 +218,7 @@ impl ConsistencyGroup<'_> {
 
     fn write_measure(&self, writer: &mut LabelledWriter, own: &MeasureConsistency<'_>) -> Result<(), LabelledError> {
         let stored = &own.stored;
-        let (measure, level) = (stored.scaled_to, STRIPE_LEVEL.of_measure(stored.scaled_to));
+        let (measure, level) = (stored.scaled_to, STRIPE_LEVEL.for_measure(stored.scaled_to));
         let names = consistency_names(measure, stored.other);
         let [sites, poes] = stored.ratio.shape();
         let lengths = [
@@ -262,7 +262,7 @@ impl StoredResult {
     pub fn stored_consistency(&self) -> Result<Vec<StoredConsistency>, ResultError> {
         let mut found = Vec::new();
         for scaled_to in self.measures() {
-            let arrays = self.reader.children(&CONSISTENCY.of_measure(scaled_to)).unwrap_or_default();
+            let arrays = self.reader.children(&CONSISTENCY.for_measure(scaled_to)).unwrap_or_default();
             for other in arrays.iter().filter_map(|name| name.strip_suffix("_site")?.parse().ok()) {
                 found.push(self.consistency_of(scaled_to, other)?);
             }
@@ -272,7 +272,7 @@ impl StoredResult {
 
     /// Whether there are spectra of weighted records.
     pub fn has_repair(&self) -> bool {
-        self.measures().into_iter().any(|own| REPAIRED_SPECTRA.is_in(self, &of_measure(own)))
+        self.measures().into_iter().any(|own| REPAIRED_SPECTRA.is_in(self, &measure_names(own)))
     }
 
     fn consistency_of(
@@ -283,7 +283,7 @@ impl StoredResult {
         let axes = self.stored_axes()?;
         let (sites, poes, strengths) = (axes.sites.len(), axes.poes.len(), axes.strengths.len());
         let rates = self.reader.axis::<u32>(RATE.name)?.len();
-        let level = STRIPE_LEVEL.of_measure(scaled_to);
+        let level = STRIPE_LEVEL.for_measure(scaled_to);
         let levels = self.reader.axis::<f64>(&level)?.len();
         let lengths = [(SITE.name, sites), (RATE.name, rates), (POE.name, poes)];
         let by_poe = [(SITE.name, sites), (POE.name, poes)];
@@ -322,7 +322,7 @@ impl StoredResult {
     /// The coefficients of the repaired spectra.
     fn repaired_fits(&self, scaled_to: IntensityMeasure, by_poe: [(&str, usize); 2]) -> Result<Fits, ResultError> {
         let mut fits = Fits::from_fn(by_poe.map(|(_, length)| length), |_| Fit::NONE);
-        REPAIRED_FITS.read(self, &of_measure(scaled_to), &by_poe, &mut fits)?;
+        REPAIRED_FITS.read(self, &measure_names(scaled_to), &by_poe, &mut fits)?;
         // it is nowhere below: where it is held it is exactly there
         Ok(fits.map(|fit| Fit { bound_active: fit.c2_m <= 0.0, ..*fit }))
     }

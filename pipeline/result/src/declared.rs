@@ -10,7 +10,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_risk::OrdinateFlag;
 
 use super::layout::names::named;
-pub use super::layout::names::{Names, of_measure};
+pub use super::layout::names::{Names, measure_names};
 use super::stored_result::StoredResult;
 use crate::error::ResultError;
 
@@ -309,8 +309,8 @@ impl<T> Group<T> {
     }
 
     /// The group of one measure.
-    pub fn of_measure(&self, measure: IntensityMeasure) -> String {
-        self.group(&of_measure(measure))
+    pub fn for_measure(&self, measure: IntensityMeasure) -> String {
+        self.group(&measure_names(measure))
     }
 
     /// Those of its arrays that tables and exports have.

@@ -262,7 +262,12 @@ pub struct StoredMotions {
 
 impl StoredMotions {
     /// Peak displacements under the motion at `motion` over the abscissas, m; the set of `place` does not matter.
-    pub fn of_motion_m(&self, place: SpectrumPlace, line: usize, motion: usize) -> impl Iterator<Item = f64> {
+    pub fn motion_displacements_m(
+        &self,
+        place: SpectrumPlace,
+        line: usize,
+        motion: usize,
+    ) -> impl Iterator<Item = f64> {
         let abscissas = self.u_m.block([place.scaling, place.scaled_by, line]);
         abscissas.chunks_exact(self.names.len()).map(move |motions| motions[motion])
     }

@@ -4,7 +4,7 @@ use uplift_fragility::Dispersion;
 use uplift_motion::IntensityMeasure;
 use uplift_regression::Line;
 
-use super::declared::{group, of_measure};
+use super::declared::{group, measure_names};
 use super::file::ResultFile;
 use super::layout::attribute::efficiency::SCALED_TO;
 use super::layout::axis::STRENGTH;
@@ -112,7 +112,7 @@ impl ResultFile {
         let strengths = self.axes()?.strengths.len();
         let lengths = &[(STRENGTH.name, strengths)];
         let of = |measure: IntensityMeasure| {
-            let names = of_measure(measure);
+            let names = measure_names(measure);
             let trend = |covariate: String| {
                 let mut trend = StoredTrend::new(&covariate, &vec![None; strengths]);
                 TRENDS.read(self, &[names[0], ("<covariate>", &covariate)], lengths, &mut trend)?;

@@ -99,7 +99,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn levels(&self) -> Result<Vec<(IntensityMeasure, Vec<f64>)>, ResultError> {
-        let of = |measure| Ok((measure, self.reader.axis::<f64>(&axis::STRIPE_LEVEL.of_measure(measure))?));
+        let of = |measure| Ok((measure, self.reader.axis::<f64>(&axis::STRIPE_LEVEL.for_measure(measure))?));
         self.measures().into_iter().map(of).collect()
     }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use uplift_study::Kind;
 
-use super::declared::of_measure;
+use super::declared::measure_names;
 use super::file::ResultFile;
 use super::kept_groups::added;
 use super::layout::attribute::{self, Attribute, root};
@@ -163,7 +163,7 @@ impl ResultFile {
         let mut measures = self.measures_in(PEAKS.root());
         measures.sort_by_key(|measure| measure.key());
         for measure in measures {
-            analyses.push((measure.label(), attribute::stripes::ANALYSES.read(reader, &of_measure(measure))?));
+            analyses.push((measure.label(), attribute::stripes::ANALYSES.read(reader, &measure_names(measure))?));
         }
         let sites =
             reader.exists(&axis::path(axis::SITE.name)).then(|| reader.axis::<String>(axis::SITE.name)).transpose()?;

@@ -3,7 +3,7 @@
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
-use super::declared::{group, of_measure};
+use super::declared::{group, measure_names};
 use super::file::ResultFile;
 use super::layout::axis::{BIN, POE, RECORD, SITE, STRENGTH};
 use crate::error::ResultError;
@@ -54,7 +54,7 @@ group! {
 impl ResultFile {
     /// Whether `uplift influence` left something, of the probabilities of the study.
     pub fn has_influence(&self) -> bool {
-        self.measures().iter().any(|&measure| DISAGGREGATION.is_in(self, &of_measure(measure)))
+        self.measures().iter().any(|&measure| DISAGGREGATION.is_in(self, &measure_names(measure)))
     }
 
     /// The influence on the spectra of each measure of a result of uniform risk; none before `uplift influence`.
@@ -66,9 +66,9 @@ impl ResultFile {
         let (site, poe) = ((SITE.name, axes.sites.len()), (POE.name, axes.poes.len()));
         let (record, strength) = ((RECORD.name, axes.records.len()), (STRENGTH.name, axes.strengths.len()));
         let of = |measure: IntensityMeasure| {
-            let bin = BIN.of_measure(measure);
+            let bin = BIN.for_measure(measure);
             let bins = self.reader.axis::<f64>(&bin)?;
-            let names = of_measure(measure);
+            let names = measure_names(measure);
             let shares = DISAGGREGATION.read_array("share", self, &names, [site, poe, strength, (&bin, bins.len())])?;
             let without_m = INFLUENCE
                 .is_in(self, &names)
@@ -76,7 +76,7 @@ impl ResultFile {
                 .transpose()?;
             Ok(StoredInfluence { measure, without_m, bins, shares })
         };
-        let has = |measure: &IntensityMeasure| DISAGGREGATION.is_in(self, &of_measure(*measure));
+        let has = |measure: &IntensityMeasure| DISAGGREGATION.is_in(self, &measure_names(*measure));
         self.measures().into_iter().filter(has).map(of).collect()
     }
 }

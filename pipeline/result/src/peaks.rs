@@ -3,7 +3,7 @@
 use uplift_job::Array;
 use uplift_motion::IntensityMeasure;
 
-use super::declared::{group, of_measure};
+use super::declared::{group, measure_names};
 use super::layout::axis::{RECORD, SITE, STRENGTH, STRIPE_LEVEL, THRESHOLD};
 use super::stored_result::{RiskAxes, StoredResult};
 use crate::error::ResultError;
@@ -66,7 +66,7 @@ pub struct SetsOfLevels {
 impl StoredResult {
     /// The measures with stripes, PGV first.
     pub fn measures(&self) -> Vec<IntensityMeasure> {
-        let is_there = |measure: &IntensityMeasure| PEAKS.is_in(self, &of_measure(*measure));
+        let is_there = |measure: &IntensityMeasure| PEAKS.is_in(self, &measure_names(*measure));
         self.measures_in(PEAKS.root()).into_iter().filter(is_there).collect()
     }
 
@@ -75,11 +75,11 @@ impl StoredResult {
     /// # Errors
     /// A file that is damaged.
     pub fn peaks(&self, axes: &RiskAxes, measure: IntensityMeasure) -> Result<StoredPeaks, ResultError> {
-        let level = STRIPE_LEVEL.of_measure(measure);
+        let level = STRIPE_LEVEL.for_measure(measure);
         let levels = self.reader.axis::<f64>(&level)?;
         let lengths =
             [(RECORD.name, axes.records.len()), (STRENGTH.name, axes.strengths.len()), (level.as_str(), levels.len())];
-        let edp_m = PEAKS.read_array("edp_m", self, &of_measure(measure), lengths)?;
+        let edp_m = PEAKS.read_array("edp_m", self, &measure_names(measure), lengths)?;
         let shares = self.shares_of_levels(axes.records.len(), measure, levels.len())?;
         Ok(StoredPeaks { levels, edp_m, shares })
     }
@@ -94,7 +94,7 @@ impl StoredResult {
         measure: IntensityMeasure,
         levels: usize,
     ) -> Result<Option<SetsOfLevels>, ResultError> {
-        let (names, level) = (of_measure(measure), STRIPE_LEVEL.of_measure(measure));
+        let (names, level) = (measure_names(measure), STRIPE_LEVEL.for_measure(measure));
         if !FACTORS.is_in(self, &names) {
             return Ok(None);
         }
@@ -111,7 +111,7 @@ impl StoredResult {
         measure: IntensityMeasure,
         levels: usize,
     ) -> Result<Option<Vec<f64>>, ResultError> {
-        let (names, level) = (of_measure(measure), STRIPE_LEVEL.of_measure(measure));
+        let (names, level) = (measure_names(measure), STRIPE_LEVEL.for_measure(measure));
         let lengths = [(level.as_str(), levels), (RECORD.name, records)];
         SHARES
             .is_in(self, &names)

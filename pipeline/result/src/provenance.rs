@@ -59,7 +59,7 @@ impl Provenance {
 
     /// The same of the result at `path`, of a study that says `study_toml`, once all inputs are known.
     #[must_use]
-    pub fn of_result(mut self, path: &Path, study_toml: &str) -> Self {
+    pub fn with_result(mut self, path: &Path, study_toml: &str) -> Self {
         self.result = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         self.study_digest = study_digest(study_toml, &self.input_checksums);
         self

@@ -7,7 +7,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_structure::UncertainQuantity;
 use uplift_study::Kind;
 
-use super::declared::{group, of_measure};
+use super::declared::{group, measure_names};
 use super::file::ResultFile;
 use super::layout::attribute::stripes::OSCILLATOR_KEY;
 use super::layout::axis::RECORD;
@@ -139,7 +139,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn oscillator_key(&self, measure: IntensityMeasure) -> Result<String, ResultError> {
-        Ok(OSCILLATOR_KEY.read(&self.reader, &of_measure(measure))?)
+        Ok(OSCILLATOR_KEY.read(&self.reader, &measure_names(measure))?)
     }
 
     /// What a result of uniform risk knows of its records.

@@ -183,7 +183,7 @@ impl ShakeTable {
     }
 
     /// The tests of a level with their excitations.
-    pub fn of_level(&self, level: usize) -> impl Iterator<Item = (&Excitation, &TableTest)> {
+    pub fn tests_at_level(&self, level: usize) -> impl Iterator<Item = (&Excitation, &TableTest)> {
         let count = self.excitations.len();
         self.excitations.iter().zip(&self.tests[level * count..(level + 1) * count])
     }

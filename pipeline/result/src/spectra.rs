@@ -7,7 +7,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_regression::{Exponential, ExponentialFit};
 use uplift_risk::OrdinateFlag;
 
-use super::declared::{Group, Quantity, of_measure, quantity};
+use super::declared::{Group, Quantity, measure_names, quantity};
 use super::layout::attribute::{Attribute, precision as attribute};
 use super::layout::axis;
 use super::stored_result::{RiskAxes, StoredResult};
@@ -249,7 +249,7 @@ impl MeasureSpectra {
     /// # Errors
     /// Whatever keeps the file from being written.
     pub fn write_spectra(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
-        urs::GROUP.write(writer, &of_measure(self.measure), &self.lengths(), self)
+        urs::GROUP.write(writer, &measure_names(self.measure), &self.lengths(), self)
     }
 
     /// Writes their coefficients into the group of their measure.
@@ -257,7 +257,7 @@ impl MeasureSpectra {
     /// # Errors
     /// Whatever keeps the file from being written.
     pub fn write_coefficients(&self, writer: &mut LabelledWriter) -> Result<(), LabelledError> {
-        regression::GROUP.write(writer, &of_measure(self.measure), &self.lengths(), &self.fits)
+        regression::GROUP.write(writer, &measure_names(self.measure), &self.lengths(), &self.fits)
     }
 }
 
@@ -265,7 +265,7 @@ impl StoredResult {
     /// How well the records know the spectra, a sentence a measure; none in older results, and where nothing can be
     /// said.
     pub fn precision(&self) -> Vec<String> {
-        let words = |measure: IntensityMeasure| attribute::PRECISION.read(&self.reader, &of_measure(measure)).ok();
+        let words = |measure: IntensityMeasure| attribute::PRECISION.read(&self.reader, &measure_names(measure)).ok();
         self.measures().into_iter().filter_map(words).collect()
     }
 
@@ -273,7 +273,7 @@ impl StoredResult {
     /// the records tell it one by one, and as their earthquakes tell it. None where no two pairs are known to share an
     /// earthquake, and in older results.
     pub fn half_widths(&self, measure: IntensityMeasure) -> Option<[f64; 2]> {
-        let width = |attribute: &Attribute<f64>| attribute.read(&self.reader, &of_measure(measure)).ok();
+        let width = |attribute: &Attribute<f64>| attribute.read(&self.reader, &measure_names(measure)).ok();
         Some([width(&attribute::HALF_WIDTH)?, width(&attribute::HALF_WIDTH_BY_EVENT)?])
     }
 
@@ -288,8 +288,8 @@ impl StoredResult {
         for measure in self.measures_in(urs::GROUP.root()) {
             let mut spectra = MeasureSpectra::empty(measure, shape);
             let lengths = spectra.lengths();
-            regression::GROUP.read(self, &of_measure(measure), &lengths, &mut spectra.fits)?;
-            urs::GROUP.read(self, &of_measure(measure), &lengths, &mut spectra)?;
+            regression::GROUP.read(self, &measure_names(measure), &lengths, &mut spectra.fits)?;
+            urs::GROUP.read(self, &measure_names(measure), &lengths, &mut spectra)?;
             measures.push(spectra);
         }
         let RiskAxes { strengths, poes, years, sites, .. } = axes;

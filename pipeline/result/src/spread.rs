@@ -4,7 +4,7 @@ use uplift_job::Array;
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
 
-use super::declared::{Group, group, of_measure};
+use super::declared::{Group, group, measure_names};
 use super::file::ResultFile;
 use super::layout::axis::{BRANCH, POE, STRENGTH, STRUCTURE};
 use crate::error::ResultError;
@@ -146,7 +146,7 @@ impl BranchSpectra {
         (measure, site, axis): (IntensityMeasure, &str, &str),
     ) -> Result<(), LabelledError> {
         BRANCH.write_texts(writer, &[("<branches>", axis)], &self.names)?;
-        let names = [of_measure(measure)[0], ("<site>", site), ("<branches>", axis)];
+        let names = [measure_names(measure)[0], ("<site>", site), ("<branches>", axis)];
         BRANCH_WEIGHTS.write_array(writer, &names, &self.weights)?;
         self.write(writer, (&EPISTEMIC_SPECTRA, &EPISTEMIC), SpreadOver::HazardCurves, (measure, site, axis))
     }
@@ -180,7 +180,7 @@ impl BranchSpectra {
         over: SpreadOver,
         (measure, site, axis): (IntensityMeasure, &str, &str),
     ) -> Result<(), LabelledError> {
-        let own = [of_measure(measure)[0], ("<site>", site), ("<branches>", axis)];
+        let own = [measure_names(measure)[0], ("<site>", site), ("<branches>", axis)];
         let names = [&own[..], &over.names()].concat();
         spectra.write_array(writer, &names, self.spectra_m.values())?;
         spread.write(writer, &names, &lengths(self.spread.mean_m.shape()), &self.spread)
@@ -218,7 +218,7 @@ impl ResultFile {
         site: &str,
         poe: usize,
     ) -> Result<Vec<(f64, Vec<f64>)>, ResultError> {
-        let names = [of_measure(measure)[0], ("<site>", site)];
+        let names = [measure_names(measure)[0], ("<site>", site)];
         if self.is_asked() || !EPISTEMIC_SPECTRA.is_in(self, &names) {
             return Ok(Vec::new());
         }
@@ -253,7 +253,7 @@ impl ResultFile {
         for measure in self.measures() {
             for over in SpreadOver::ALL {
                 for (site, name) in axes.sites.iter().enumerate() {
-                    let names = [of_measure(measure)[0], ("<site>", name)];
+                    let names = [measure_names(measure)[0], ("<site>", name)];
                     if over.group().is_in(self, &names) {
                         let mut spread = Spread { mean_m: nan(), fractiles_m: FRACTILES.map(|_| nan()) };
                         over.group().read(self, &names, &lengths([poes, strengths]), &mut spread)?;

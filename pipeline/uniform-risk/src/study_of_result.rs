@@ -8,7 +8,7 @@ use uplift_inputs::{RecordSet, motion_keys, read_measured, read_with_pairs};
 use uplift_job::events::Silent;
 use uplift_job::{Array, JobError};
 use uplift_motion::{IntensityMeasure, RecordPair};
-use uplift_result::declared::of_measure;
+use uplift_result::declared::measure_names;
 use uplift_result::{ResultFile, StoredRecords, urs};
 use uplift_risk::StripeWeights;
 use uplift_study::{MeasurePlan, UniformRiskStudy};
@@ -83,7 +83,7 @@ impl StudyOfResult {
                     plan: plan.clone(),
                     u_m: own
                         .ok_or_else(|| {
-                            file.damaged(urs::GROUP.path(&urs::U_M, &of_measure(plan.measure)) + " is missing")
+                            file.damaged(urs::GROUP.path(&urs::U_M, &measure_names(plan.measure)) + " is missing")
                         })?
                         .u_m
                         .clone(),

@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let mut peaks_m = Vec::new();
         for pair in &pairs {
             for level in levels_cm_s {
-                let factor = scale_factor(level, IntensityMeasure::Pgv.of_pair(pair, G))?;
+                let factor = scale_factor(level, IntensityMeasure::Pgv.pair_value(pair, G))?;
                 peaks_m.push(peak_slip_m(friction, &pair.h1, factor));
             }
         }

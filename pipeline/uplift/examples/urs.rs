@@ -12,7 +12,7 @@ use uplift_risk::{PooledDemand, RiskCurve, StripeWeights};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // your own records are `Accelerogram::new(dt_s, acceleration_m_s2)`, or files: `uplift_motion::read_path`
     let pairs = generate(&SyntheticSetOptions { pairs: 20, ..SyntheticSetOptions::default() })?;
-    let pgv_cm_s = |pair| IntensityMeasure::Pgv.of_pair(pair, G);
+    let pgv_cm_s = |pair| IntensityMeasure::Pgv.pair_value(pair, G);
     let records = pairs
         .iter()
         .map(|pair| StripeRecord { id: &pair.id, accelerogram: &pair.h1, intensity: pgv_cm_s(pair) })
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let weights = StripeWeights::from_hazard(&hazard, &levels_cm_s, Extrapolation::Refuse)?;
     let target_per_year = rate_from_probability(0.1, 50.0)?;
     for (index, strength) in strengths.iter().enumerate() {
-        let demand = PooledDemand::new(&Stripes::new(&levels_cm_s, &peaks.of_system_m(index))?)?;
+        let demand = PooledDemand::new(&Stripes::new(&levels_cm_s, &peaks.system_m(index))?)?;
         let ordinate = RiskCurve::new(&demand, &weights)?.exact_ordinate(target_per_year)?;
         println!("strength {strength:4.2}: {:.4} m with 10 % in 50 years", ordinate.displacement_m);
     }

@@ -71,7 +71,7 @@ fn print_figures(
     )?;
     let places = report.stored.sites.iter().enumerate();
     let places = places.flat_map(|site| report.sizes.iter().enumerate().map(move |size| (site, size)));
-    let table = Table::of(places)
+    let table = Table::from_rows(places)
         .left("site", |((_, name), (index, _))| if index == 0 { name.as_str() } else { "" })
         .right("records", |(_, (_, size))| size)
         .each(&report.bands, |table, bands| {

@@ -82,7 +82,7 @@ fn print_table(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), C
         Some(_) => "none".to_owned(),
         None => "-".to_owned(),
     };
-    let table = Table::of(&report.rows)
+    let table = Table::from_rows(&report.rows)
         .left("site", |row| &row.site)
         .left("scaled to", |row| row.scaled_to)
         .right("times the site's level", |row| {
@@ -232,7 +232,7 @@ fn print_levels(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), 
         let words = |(least, records)| format!("{} of {records}", number(Some(least), 0));
         row.repair.as_ref().and_then(of).map_or_else(|| format!("- of {}", report.records), words)
     };
-    let table = Table::of(&report.rows)
+    let table = Table::from_rows(&report.rows)
         .left("site", |row| &row.site)
         .right("scaled to", |row| row.scaled_to)
         .right("shows", |row| row.shows)
@@ -252,7 +252,7 @@ fn print_earthquakes(out: &mut impl Write, report: &ConsistencyReport) -> Result
         return Ok(());
     }
     let is_repaired = report.rows.iter().any(|row| row.repair.is_some());
-    let table = Table::of(&report.earthquakes)
+    let table = Table::from_rows(&report.earthquakes)
         .left("site", |row| &row.site)
         .right("scaled to", |row| row.scaled_to)
         .right("risk", |row| risk_name(row.poe, report.years))
@@ -279,7 +279,7 @@ fn print_scale_factors(out: &mut impl Write, report: &ConsistencyReport) -> Resu
         report.events.map_or_else(|| "unknown number".to_owned(), |events| events.to_string())
     )?;
     let targets = report.rows.iter().flat_map(|row| row.targets.iter().enumerate().map(move |of| (row, of)));
-    let table = Table::of(targets)
+    let table = Table::from_rows(targets)
         .left("site", |(row, (index, _))| if index == 0 { row.site.as_str() } else { "" })
         .right("scaled to", |(row, (index, _))| if index == 0 { row.scaled_to } else { "" })
         .right("probability", |(_, (_, target))| per_cent(target.poe))
@@ -299,7 +299,7 @@ fn print_two_sided(out: &mut impl Write, report: &ConsistencyReport) -> Result<(
         "\nBoth analyses together, factors of the level: location, which other records can correct, and spread, which\n\
          no single set avoids"
     )?;
-    let table = Table::of(&report.two_sided)
+    let table = Table::from_rows(&report.two_sided)
         .left("site", |row| &row.site)
         .right("location", |row| format!("{:.2}", row.location.exp()))
         .right("spread", |row| format!("{:.2}", row.spread.exp()));
@@ -320,7 +320,7 @@ fn print_agreement(out: &mut impl Write, report: &ConsistencyReport) -> Result<(
         Some((count, mean, least, most)) => format!("{mean:.2} ({least:.2} to {most:.2}, {count} ordinates)"),
         None => "-".to_owned(),
     };
-    let table = Table::of(&report.agreement)
+    let table = Table::from_rows(&report.agreement)
         .left("site", |row| row.site.as_deref().unwrap_or("all sites"))
         .right("as they are", |row| shown(&row.plain))
         .right("repaired", |row| shown(&row.repaired));

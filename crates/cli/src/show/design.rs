@@ -90,8 +90,8 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     }
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();
-        let of_whom = bands.map_or("", |bands| bands.demand_m.of_whom());
-        let demand = demand_in_words(exact.demand_m, bands.map(|bands| bands.demand_m.quoted()), of_whom);
+        let by_whom = bands.map_or("", |bands| bands.demand_m.by_whom());
+        let demand = demand_in_words(exact.demand_m, bands.map(|bands| bands.demand_m.quoted()), by_whom);
         let is_block = report.structure.kind == BLOCK;
         let whose = match report.structure.restitution {
             Some(restitution) if is_block => format!("the equivalent oscillator, restitution {restitution}"),
@@ -209,15 +209,16 @@ fn print_rules(out: &mut impl Write, report: &DesignReport) -> Result<(), Comman
     if let Some(Sensitivity { rounding, .. }) = report.exact.as_ref().and_then(|exact| exact.sensitivity.as_ref()) {
         let dash = || "-".to_owned();
         let exact_demand = |of: &RuleOutcome, check: &RuleCheck| match rounding.rule_demands_m {
-            Some(demands) => demands.of(of.rule).marked(metres_or_overturns),
+            Some(demands) => demands.by_rule(of.rule).marked(metres_or_overturns),
             None => metres_or_overturns(check.demand_m),
         };
-        let error =
-            |of: &RuleOutcome| rounding.rule_errors.map(|errors| errors.of(of.rule).marked(relative_error_in_words));
+        let error = |of: &RuleOutcome| {
+            rounding.rule_errors.map(|errors| errors.by_rule(of.rule).marked(relative_error_in_words))
+        };
         let spectral = |of: &RuleOutcome, shown: &dyn Fn(f64) -> String| {
             of.from_spectrum.as_ref().map_or_else(dash, |check| shown(check.demand_m))
         };
-        let table = Table::of(&report.rules)
+        let table = Table::from_rows(&report.rules)
             .left("rule", |of| of.rule.words())
             .right("from the spectrum, m", |of| spectral(of, &metres_or_overturns))
             .right("error", |of| spectral(of, &|demand_m| rounding.error_of(demand_m).marked(relative_error_in_words)))
@@ -368,7 +369,11 @@ fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], sensitivity: &Sensit
     row("demand on the structure, m".to_owned(), [noise.demand_m, rounding.demand_m], &metres_or_overturns);
     if let (Some(noisy), Some(rounding)) = (noise.rule_errors, rounding.rule_errors) {
         for &RuleOutcome { rule, .. } in rules {
-            row(format!("error of {}", rule.words()), [noisy.of(rule), rounding.of(rule)], &relative_error_in_words);
+            row(
+                format!("error of {}", rule.words()),
+                [noisy.by_rule(rule), rounding.by_rule(rule)],
+                &relative_error_in_words,
+            );
         }
     }
     if let (Some(noisy), Some(rounded)) = (noise.beyond_capacity_per_year, rounding.beyond_capacity_per_year) {
@@ -398,8 +403,8 @@ fn print_rounding(out: &mut impl Write, rules: &[RuleOutcome], rounding: &Demand
     for outcome in rules {
         let rule = outcome.rule.words();
         let of_spectrum = outcome.from_spectrum.as_ref().map(|check| rounding.error_of(check.demand_m));
-        let [demand, error] =
-            [rounding.rule_demands_m, rounding.rule_errors].map(|ranges| ranges.map(|ranges| ranges.of(outcome.rule)));
+        let [demand, error] = [rounding.rule_demands_m, rounding.rule_errors]
+            .map(|ranges| ranges.map(|ranges| ranges.by_rule(outcome.rule)));
         tell(&format!("error of {rule} from the spectrum"), of_spectrum, relative_error_in_words);
         tell(&format!("{rule} from the exact demand, m"), demand, metres_or_overturns);
         tell(&format!("error of {rule} from the exact demand"), error, relative_error_in_words);

@@ -25,7 +25,7 @@ pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<
         report.percentiles[middle],
         if report.head.synthetic { " (synthetic records)" } else { "" }
     )?;
-    let table = Table::of(&report.spectra)
+    let table = Table::from_rows(&report.spectra)
         .left("record set", |spectra| &spectra.record_set)
         .right("scaling", |spectra| &spectra.scaling)
         .right("by", |spectra| spectra.scaled_by)

@@ -56,7 +56,7 @@ fn label(row: &EfficiencyRow) -> String {
 impl Shown<'_> {
     /// A table with a row a measure and a column a strength shown.
     fn table(&self, cell: impl Fn(&EfficiencyRow) -> String) -> Table {
-        Table::of(&self.measures)
+        Table::from_rows(&self.measures)
             .left("measure", |rows| label(&rows[0]))
             .each(&self.strengths, |table, &at| {
                 table.right(format!("{:.3}", self.report.stored.strengths[at]), |rows| cell(&rows[at]))
@@ -156,7 +156,7 @@ impl Shown<'_> {
             let names: Vec<&str> = with.map(|name| &**name).collect();
             if names.is_empty() { "none".to_owned() } else { names.join(", ") }
         };
-        let table = Table::of(&self.measures)
+        let table = Table::from_rows(&self.measures)
             .left("measure", |rows| label(&rows[0]))
             .right("scatter, displacement", |rows| mean(rows, |row| row.dispersion_level))
             .right("scatter, initiation", |rows| mean(rows, |row| row.dispersion_initiation))

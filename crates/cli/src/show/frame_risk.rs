@@ -41,8 +41,8 @@ pub(crate) fn print_frame_risk(report: &FrameRiskReport, terminal: &Terminal) ->
 fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
     let [frame, proxies @ ..] = &report.demands[..] else { return Ok(()) };
     let Banded { value, lower, upper } = frame.demand_m;
-    let of_whom = if frame.band_of == Some("earthquakes") { " by earthquake" } else { "" };
-    let demand = demand_in_words(value, Some([lower, upper]), of_whom);
+    let by_whom = if frame.band_of == Some("earthquakes") { " by earthquake" } else { "" };
+    let demand = demand_in_words(value, Some([lower, upper]), by_whom);
     let name = &report.structure.name;
     if is_block(report) && frame.model != WOBBLING {
         writeln!(out, "Demand       {demand} on {name} itself, restitution {:.4}", report.planar_restitution)?;
@@ -107,7 +107,7 @@ fn print_demands(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
     let is_repaired = report.demands.iter().any(|demand| demand.repaired_m.is_some());
     let error =
         |demand: &ModelDemand, shown: fn(&Banded) -> String| demand.error.as_ref().map_or("-".to_owned(), shown);
-    let table = Table::of(&report.demands)
+    let table = Table::from_rows(&report.demands)
         .left("model", |demand| own_word(report, demand.model))
         .right("demand, m", |demand| metres_or_overturns(demand.demand_m.value))
         .right(format!("{:.0} % band", 100.0 * report.confidence), |demand| band(&demand.demand_m, metres_or_overturns))

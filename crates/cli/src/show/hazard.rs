@@ -30,7 +30,7 @@ pub(crate) fn print_curves(report: &HazardReport) -> Result<(), CommandError> {
     let HazardReport { probabilities, years, curves } = report;
     let mut out = output();
     let level = |level: Option<f64>| level.map_or_else(|| "-".to_owned(), |level| format!("{level:.4}"));
-    let table = Table::of(curves.iter().take(SHOWN))
+    let table = Table::from_rows(curves.iter().take(SHOWN))
         .left("curve", |curve| &curve.name)
         .right("measure", |curve| format!("{} [{}]", curve.measure, curve.unit))
         .each(probabilities.iter().enumerate(), |table, (at, &probability)| {

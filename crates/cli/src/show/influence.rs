@@ -60,7 +60,7 @@ fn print_records(out: &mut impl Write, report: &InfluenceReport, terminal: &Term
         risk_in_words(report.poe, report.years)
     )?;
     let mut above = None;
-    let table = Table::of(rows)
+    let table = Table::from_rows(rows)
         .left("site", |row| shown_site(&mut above, (row.im, row.repaired), &row.site))
         .right("im", |row| spectrum_words(row.im, row.repaired))
         .right("record", |row| &row.record)
@@ -99,7 +99,7 @@ fn print_intensities(out: &mut impl Write, report: &InfluenceReport, terminal: &
     };
     let percent = |share: f64| if share.is_nan() { "-".to_owned() } else { format!("{:.1} %", 100.0 * share) };
     let mut above = None;
-    let table = Table::of(rows)
+    let table = Table::from_rows(rows)
         .left("site", |row| shown_site(&mut above, (row.im, row.repaired), &row.site))
         .right("im", |row| format!("{}, {}", spectrum_words(row.im, row.repaired), row.unit))
         .right("strength", |row| format!("{:.3}", row.strength))

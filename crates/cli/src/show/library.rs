@@ -19,7 +19,7 @@ pub(crate) fn print_library(report: &LibraryReport, terminal: &Terminal) -> Resu
     let shown = if terminal.shows_details() { report.systems.len() } else { report.systems.len().min(SHOWN) };
     writeln!(out, "Median intensity of overturning (dispersion; largest error of the fitted share)")?;
     let columns = Normalised::ALL;
-    let table = Table::of(&report.systems[..shown])
+    let table = Table::from_rows(&report.systems[..shown])
         .left("system", SystemReport::name)
         .each(columns, |table, measure| table.right(measure.label(), move |system| cell(system, measure)));
     writeln!(out, "{table}")?;

@@ -48,7 +48,7 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
         let events: Vec<Option<FrameLimit>> = limit.into_iter().map(Some).chain([None]).collect();
         let of_model = |site, model| events.iter().enumerate().map(move |(at, event)| (site, model, at, *event));
         let rows = (0..sites.len()).flat_map(|site| (0..models).flat_map(move |model| of_model(site, model)));
-        Table::of(rows)
+        Table::from_rows(rows)
             .left("site", |(site, model, at, _)| if model + at == 0 { &sites[site].site } else { "" })
             .left("model", |(_, model, at, _)| if at == 0 { report.models[model].model } else { "" })
             .when(limit.is_some(), |table| {
@@ -59,7 +59,7 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
             })
             .to_string()
     } else {
-        Table::of(sites.iter().enumerate())
+        Table::from_rows(sites.iter().enumerate())
             .left("site", |(_, of)| &of.site)
             .each(&report.overturning, |table, found| {
                 table.right(format!("{}, {}", found.model, found.im), |(site, _)| cell(&found.sites[site], None))
@@ -181,7 +181,7 @@ fn print_fragility(out: &mut impl Write, report: &OverturningReport) -> Result<(
         let count = last.map_or_else(|| "0".to_owned(), |(&own, &range)| counted(own, range));
         format!("{count} of {}", found.records)
     };
-    let table = Table::of(&report.overturning)
+    let table = Table::from_rows(&report.overturning)
         .left("measure", |found| format!("{}, {}", found.im, found.unit))
         .right("model", |found| found.model)
         .right("first overturns", |found| first_level(found, &|overturned| overturned > 0))
@@ -265,7 +265,7 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
 fn print_beyond_limit(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
     let Some(limit) = report.limit else { return Ok(()) };
     let rows = report.by_site().filter_map(|(site, found, _)| Some((found, site, site.beyond_limit.as_ref()?)));
-    let table = Table::of(rows)
+    let table = Table::from_rows(rows)
         .left("site", |(_, site, _)| &site.site)
         .left("im", |(found, ..)| found.im)
         .left("model", |(found, ..)| found.model)

@@ -17,9 +17,9 @@ const CYCLES: usize = 6;
 pub(crate) fn print_pushover(report: &PushoverReport, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
     head(&mut out, report)?;
-    let events = Table::of(&report.events).left("event", |event| event.event.words());
+    let events = Table::from_rows(&report.events).left("event", |event| event.event.words());
     writeln!(out, "\n{}", way(events, |event| &event.state).build())?;
-    let states = way(Table::of(report.rows.iter().enumerate()), |(_, state)| state)
+    let states = way(Table::from_rows(report.rows.iter().enumerate()), |(_, state)| state)
         .right("N, kN", |(_, state)| kilo(state.sections.top_axial_n))
         .right("M, kN m", |(_, state)| kilo(state.sections.top_moment_n_m))
         .right("V, kN", |(_, state)| kilo(state.sections.top_shear_n))
@@ -126,7 +126,7 @@ fn way<'a, T: Copy>(table: TableOf<T>, state: impl Fn(T) -> &'a PushoverState) -
 fn print_measured(out: &mut impl Write, measured: &MeasuredCurve) -> Result<(), CommandError> {
     writeln!(out, "\nmeasured   {}, {} points", shown_path(&measured.file).display(), measured.points)?;
     let slope = |slope: Option<f64>| slope.map_or("-".to_owned(), kilo);
-    let table = Table::of([("+", &measured.positive), ("-", &measured.negative)])
+    let table = Table::from_rows([("+", &measured.positive), ("-", &measured.negative)])
         .left("side", |(name, _)| name)
         .right("peak, kN", |(_, side)| kilo(side.peak_n))
         .right("at drift, %", |(_, side)| format!("{:.2}", 100.0 * side.drift_at_peak))
@@ -136,7 +136,7 @@ fn print_measured(out: &mut impl Write, measured: &MeasuredCurve) -> Result<(), 
     let mut cycles: Vec<_> = measured.cycles.iter().enumerate().collect();
     cycles.sort_by(|left, right| right.1.largest_m.total_cmp(&left.1.largest_m));
     let damping = |share: Option<f64>| share.map_or("-".to_owned(), |share| format!("{:.2}", 100.0 * share));
-    let table = Table::of(cycles.into_iter().take(CYCLES))
+    let table = Table::from_rows(cycles.into_iter().take(CYCLES))
         .left("cycle", |(index, _)| index + 1)
         .right("u max, m", |(_, cycle)| format!("{:.4}", cycle.largest_m))
         .right("u min, m", |(_, cycle)| format!("{:.4}", cycle.least_m))
@@ -151,7 +151,7 @@ fn print_measured(out: &mut impl Write, measured: &MeasuredCurve) -> Result<(), 
 /// Amplitudes and duration.
 pub(crate) fn print_protocol(report: &ProtocolReport, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
-    let table = Table::of(report.amplitudes.iter().enumerate())
+    let table = Table::from_rows(report.amplitudes.iter().enumerate())
         .left("set", |(index, _)| index + 1)
         .right("amplitude, %", |(_, amplitude)| format!("{:.3}", 100.0 * amplitude));
     writeln!(out, "{table}")?;

@@ -9,7 +9,7 @@ use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
 pub(crate) fn print_records(report: &ListReport) -> Result<(), CommandError> {
-    let table = Table::of(&report.records)
+    let table = Table::from_rows(&report.records)
         .left("record", |record| &record.record)
         .right("event", |record| record.event.as_deref().unwrap_or("-"))
         .right("M", |record| record.magnitude.as_deref().unwrap_or("-"))

@@ -36,14 +36,14 @@ pub(crate) fn print_restrainer_curve(report: &RestrainerCurve, terminal: &Termin
     let optional =
         |value: Option<f64>, factor: f64| value.map_or("-".to_owned(), |value| format!("{:.2}", factor * value));
     if !report.events.is_empty() {
-        let table = Table::of(&report.events)
+        let table = Table::from_rows(&report.events)
             .left("event", |event| event.event)
             .right("elongation, mm", |event| format!("{:.2}", 1e3 * event.elongation_m))
             .right("T, kN", |event| kilo(event.force_n))
             .right("springs, mm", |event| optional(event.spring_m, 1e3));
         writeln!(out, "\n{table}")?;
     }
-    let table = Table::of(&report.rows)
+    let table = Table::from_rows(&report.rows)
         .left("elongation, mm", |row| format!("{:.2}", 1e3 * row.elongation_m))
         .right("T, kN", |row| kilo(row.force_n))
         .right("secant, kN/m", |row| optional(row.secant_n_m, 1e-3))
@@ -88,7 +88,7 @@ fn print_best(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), Com
         report.discs,
         shown_path(&report.catalogue).display()
     )?;
-    let table = Table::of(report.stacks.iter().take(3))
+    let table = Table::from_rows(report.stacks.iter().take(3))
         .left("stack", stack_name)
         .right("off target, %", |stack| format!("{:+.1}", 100.0 * stack.miss))
         .right("T, kN", |stack| kilo(stack.tendon_n))
@@ -130,14 +130,14 @@ fn print_details(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), 
         writeln!(out, "{} more: --most {found} shows them, -o FILE.csv writes them", found - shown)?;
     }
     if let Some(demand_m) = target.demand_m {
-        let table = Table::of(report.stacks.iter().zip(&report.at_demand))
+        let table = Table::from_rows(report.stacks.iter().zip(&report.at_demand))
             .left(format!("at the demand, {demand_m:.4} m"), |(stack, _)| stack_name(stack))
             .right("T, kN", |(_, state)| kilo(state.tendon_n))
             .right("springs, mm", |(_, state)| format!("{:.2}", 1e3 * state.spring_m));
         writeln!(out, "\n{table}")?;
     }
     if !report.stoppers.is_empty() {
-        let table = Table::of(report.stacks.iter().zip(&report.stoppers))
+        let table = Table::from_rows(report.stacks.iter().zip(&report.stoppers))
             .left("stopper of", |(stack, _)| stack_name(stack))
             .right("engages at u, m", |(_, stopper)| metres_or("-", stopper.engages_at_m))
             .right("T, kN", |(_, stopper)| kilo(stopper.engages_at_n))
@@ -145,7 +145,7 @@ fn print_details(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), 
         writeln!(out, "\n{table}")?;
     }
     let change = |change: Option<f64>| change.map_or("-".to_owned(), |change| format!("{:+.1}", 100.0 * change));
-    let table = Table::of(&report.tolerances)
+    let table = Table::from_rows(&report.tolerances)
         .left(format!("{} with", report.tolerances_of), |tolerance| &tolerance.imperfection)
         .right("u_cap, m", |tolerance| metres_or("none", tolerance.capacity_m))
         .right("change, %", |tolerance| change(tolerance.change));
@@ -156,7 +156,7 @@ fn stacks(stacks: &[Candidate]) -> TableOf<&Candidate> {
     let or_dash = |value: Option<f64>, factor: f64, digits: usize| {
         value.map_or("-".to_owned(), |value| format!("{:.digits$}", factor * value))
     };
-    Table::of(stacks)
+    Table::from_rows(stacks)
         .left("stack", stack_name)
         .right("off target, %", |stack| format!("{:+.1}", 100.0 * stack.miss))
         .right("secant, kN/m", |stack| format!("{:.0}", 1e-3 * stack.secant_n_m))

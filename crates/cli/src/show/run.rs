@@ -82,7 +82,7 @@ fn print_spread(
     let of_first = shown.displacements.iter().take_while(|own| own.site == first.site);
     let wanted: Vec<f64> = of_first.map(|own| own.strength).collect();
     let places = text::nearest(strengths, &wanted);
-    let table = Table::of(spread.iter().flat_map(|of| places.iter().map(move |&strength| (of, strength))))
+    let table = Table::from_rows(spread.iter().flat_map(|of| places.iter().map(move |&strength| (of, strength))))
         .left("site", |(of, _)| &of.site)
         .right("im", |(of, _)| of.im)
         .right("risk", |(of, _)| risk_name(of.probability, first.years))

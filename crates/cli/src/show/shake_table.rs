@@ -26,7 +26,7 @@ pub(super) fn print_tests(out: &mut impl Write, found: &ShakeTable) -> Result<()
     for (index, level) in found.levels.iter().enumerate() {
         let all = (classes.len() != 1).then_some(None);
         for class in all.into_iter().chain(classes.iter().copied().map(Some)) {
-            let of_class = found.of_level(index).filter(|(one, _)| class.is_none_or(|class| one.class == class));
+            let of_class = found.tests_at_level(index).filter(|(one, _)| class.is_none_or(|class| one.class == class));
             let (mut u_m, mut still) = (Vec::new(), 0);
             for (_, test) in of_class {
                 u_m.push(test.u_m);
@@ -49,7 +49,7 @@ pub(super) fn print_order(out: &mut impl Write, found: &TestsTable) -> Result<()
     let or = |value: Option<f64>, none: &str, factor: f64, decimals: usize| {
         value.map_or_else(|| none.to_owned(), |value| format!("{:.decimals$}", factor * value))
     };
-    let table = Table::of(&found.rows)
+    let table = Table::from_rows(&found.rows)
         .left("order", |row| row.order)
         .right("level", |row| &row.level)
         .right("excitation", |row| &row.exc_id)

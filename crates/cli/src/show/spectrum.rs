@@ -79,7 +79,7 @@ pub(super) fn print_displacements(out: &mut impl Write, report: &DisplacementRep
     let band = if is_banded { format!(" ({} band{of})", per_cent(CONFIDENCE)) } else { String::new() };
     writeln!(out, "Displacement, m{band}, at strength{capacity}")?;
     let name = |row: &&[Displacement]| risk_name(row[0].poe, row[0].years);
-    let table = Table::of(&rows)
+    let table = Table::from_rows(&rows)
         .left("site", |row| row[0].site.clone())
         .when(risks > 1, |table| table.right("risk", name))
         .each(0..rows[0].len(), |table, column| {

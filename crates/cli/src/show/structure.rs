@@ -86,14 +86,14 @@ pub(super) fn limits(per_year: [f64; 2]) -> String {
 }
 
 /// A demand with the quoted band, and of whom that is.
-pub(super) fn demand_in_words(value_m: f64, band_m: Option<[f64; 2]>, of_whom: &str) -> String {
+pub(super) fn demand_in_words(value_m: f64, band_m: Option<[f64; 2]>, by_whom: &str) -> String {
     let demand = text::metres_with_band(value_m, band_m);
-    demand.strip_suffix(')').map_or_else(|| demand.clone(), |open| format!("{open}{of_whom})"))
+    demand.strip_suffix(')').map_or_else(|| demand.clone(), |open| format!("{open}{by_whom})"))
 }
 
 /// The quoted band of a rate in brackets, after the rate in a sentence; nothing where there is none.
 pub(super) fn band_after(per_year: Option<Bands>) -> String {
-    per_year.map_or_else(String::new, |bands| format!(" ({}{})", limits(bands.quoted()), bands.of_whom()))
+    per_year.map_or_else(String::new, |bands| format!(" ({}{})", limits(bands.quoted()), bands.by_whom()))
 }
 
 /// The same in the cell of a table, which is narrow.
@@ -106,7 +106,7 @@ const BY_EARTHQUAKE: &str = "†";
 
 /// The mark behind a band in a cell of a table, of whom it is; nothing behind one by record.
 pub(super) fn mark_of(bands: Option<Bands>) -> &'static str {
-    bands.filter(|bands| !bands.of_whom().is_empty()).map_or("", |_| BY_EARTHQUAKE)
+    bands.filter(|bands| !bands.by_whom().is_empty()).map_or("", |_| BY_EARTHQUAKE)
 }
 
 /// As [`band_in_cell`], with the mark of a band by earthquake.

@@ -45,7 +45,7 @@ enum Weights {
 }
 
 impl Weights {
-    fn of(self, variant: &VariantReport) -> &[Displacement] {
+    fn displacements(self, variant: &VariantReport) -> &[Displacement] {
         match self {
             Self::Plain => &variant.displacements,
             Self::Repaired => &variant.repaired,
@@ -62,11 +62,14 @@ fn print_displacements(
 ) -> Result<(), CommandError> {
     let Some(first) = report.variants.first() else { return Ok(()) };
     let of = |variant: &'_ VariantReport, site: Option<&str>| -> Vec<Displacement> {
-        let own = weights.of(variant).iter().filter(|own| own.im == im && site.is_none_or(|site| own.site == site));
+        let own = weights
+            .displacements(variant)
+            .iter()
+            .filter(|own| own.im == im && site.is_none_or(|site| own.site == site));
         own.cloned().collect()
     };
     let mut sites: Vec<&str> = Vec::new();
-    for own in report.variants.iter().flat_map(|variant| weights.of(variant)).filter(|own| own.im == im) {
+    for own in report.variants.iter().flat_map(|variant| weights.displacements(variant)).filter(|own| own.im == im) {
         if !sites.contains(&own.site.as_str()) {
             sites.push(&own.site);
         }
@@ -77,7 +80,8 @@ fn print_displacements(
     };
     let risks: BTreeSet<String> = report.variants.iter().map(risk).collect();
     let risk_of_all = if risks.len() == 1 { format!(", {}", risk(first)) } else { String::new() };
-    let is_banded = report.variants.iter().flat_map(|variant| weights.of(variant)).any(|own| own.band_m.is_some());
+    let is_banded =
+        report.variants.iter().flat_map(|variant| weights.displacements(variant)).any(|own| own.band_m.is_some());
     // wider than the number of records suggests; of some variants where these have other records
     let wider = |variant: &&VariantReport| variant.band_of.get(im) == Some(&BandOf::Earthquakes);
     let by_earthquake: Vec<&str> = report.variants.iter().filter(wider).map(|variant| variant.name.as_str()).collect();
@@ -102,7 +106,7 @@ fn print_displacements(
     let is_long = rows.len() > MOST_ROWS && !terminal.shows_details();
     let shown = (0..columns).filter(|&place| !is_long || place == 0 || place + 1 == columns);
     let or_dash = |cell: Option<String>| cell.unwrap_or_else(|| "-".to_owned());
-    let table = Table::of(rows)
+    let table = Table::from_rows(rows)
         .left("site", |(site, variant)| if std::ptr::eq(variant, first) { site } else { "" })
         .each(report.keys.iter().enumerate(), |table, (at, key)| {
             table.right(key, move |(_, variant)| variant.values[at].as_deref().unwrap_or("study's"))

@@ -46,7 +46,7 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
         Some((from, to)) => format!("{} to {}", rounded(from, 4), rounded(to, 4)),
         None => "-".to_owned(),
     };
-    let table = Table::of(&report.rows)
+    let table = Table::from_rows(&report.rows)
         .left("site", |row| &row.site)
         .right("im", measure)
         .right("poe", |row| risk_name(row.poe, report.years))

@@ -133,7 +133,7 @@ fn how_often(frame: &TargetFrame, target_per_year: f64) -> String {
 /// The rates of the frame at the value of its proxy, with a verdict by each model.
 fn print_frame(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame) -> Result<(), CommandError> {
     let value = format!("{} {}", frame.value, report.quantity_unit);
-    let table = Table::of(&frame.models)
+    let table = Table::from_rows(&frame.models)
         .left("model", |own| own.model)
         .right(format!("per year at {}", value.trim_end()), |own| {
             let band = own.bands.map_or_else(String::new, |bands| {
@@ -233,7 +233,7 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
         print_quantities(out, &uncertain.quantities)?;
     }
     if let Some(frame) = report.frame.as_ref().filter(|frame| frame.tried.len() > 1) {
-        let table = Table::of(&frame.tried)
+        let table = Table::from_rows(&frame.tried)
             .right(report.quantity, |tried| tried.value)
             .right("per year", |tried| rate(tried.per_year))
             .right("upper limit", |tried| rate(tried.upper_per_year))
@@ -267,7 +267,7 @@ fn print_crossings(out: &mut impl Write, report: &TargetReport) -> Result<(), Co
     if report.crossings.len() < 2 {
         return Ok(());
     }
-    let table = Table::of(&report.crossings)
+    let table = Table::from_rows(&report.crossings)
         .left("becomes", |crossing| if crossing.becomes_met { "met" } else { "missed" })
         .right(format!("{} from", report.quantity), |crossing| short(crossing.from))
         .right("to", |crossing| short(crossing.to));
@@ -278,7 +278,7 @@ fn print_crossings(out: &mut impl Write, report: &TargetReport) -> Result<(), Co
 fn print_beside(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
     if !report.at_return_periods.is_empty() {
         let whose = if report.uncertainty.is_some() { "runs" } else { "records" };
-        let table = Table::of(&report.at_return_periods)
+        let table = Table::from_rows(&report.at_return_periods)
             .left("return period", |at| format!("{:.0} years", at.return_period_years))
             .right(format!("{}, {}", report.im, report.im_unit), |at| short(at.level))
             .right(whose, |at| format!("{} of {}", at.count, at.runs))

@@ -80,7 +80,7 @@ pub(super) fn kind_in_words(kind: &str) -> &'static str {
 
 /// A row for each, and what was cut off.
 pub(super) fn print_quantities(out: &mut impl Write, quantities: &[QuantityReport]) -> Result<(), CommandError> {
-    let table = Table::of(quantities)
+    let table = Table::from_rows(quantities)
         .left(
             "quantity",
             |of| if of.unit.is_empty() { of.name.to_owned() } else { format!("{}, {}", of.name, of.unit) },

@@ -29,7 +29,7 @@ pub(crate) fn print_validation(report: &ValidateReport, terminal: &Terminal) -> 
 /// Whether each group's peaks are distributed alike, by a test and by their medians.
 fn print_answer(out: &mut impl Write, report: &ValidateReport) -> Result<(), CommandError> {
     let unit = if report.unit.is_empty() { String::new() } else { format!(", {}", report.unit) };
-    let table = Table::of(&report.groups)
+    let table = Table::from_rows(&report.groups)
         .left("group", ValidateReport::name)
         .right("n", |group| group.measured)
         .right("D", |group| digits(group.kolmogorov_smirnov.distance))
@@ -78,7 +78,7 @@ fn print_tests(out: &mut impl Write, report: &ValidateReport) -> Result<(), Comm
         let ties = if group.kolmogorov_smirnov.has_ties { "=" } else { "" };
         format!("{}{ties}", digits(group.kolmogorov_smirnov.p_exact))
     };
-    let table = Table::of(&report.groups)
+    let table = Table::from_rows(&report.groups)
         .left("Kolmogorov-Smirnov", ValidateReport::name)
         .right("n", sizes)
         .right("D", |group| digits(group.kolmogorov_smirnov.distance))

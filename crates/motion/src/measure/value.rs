@@ -15,12 +15,12 @@ impl IntensityMeasure {
     /// # Source
     ///
     /// Reggiani Manzo, dissertation, Section 4.3.1.
-    pub fn of_pair(self, pair: &RecordPair, gravity_m_s2: f64) -> f64 {
+    pub fn pair_value(self, pair: &RecordPair, gravity_m_s2: f64) -> f64 {
         match self {
             Self::Pgv => 100.0 * geometric_mean(pair.h1.pgv_m_s(), pair.h2.pgv_m_s()),
             Self::Pga => geometric_mean(pair.h1.pga_m_s2(), pair.h2.pga_m_s2()) / gravity_m_s2,
             _ => {
-                let [h1, h2] = [&pair.h1, &pair.h2].map(|component| self.of_component(component, gravity_m_s2));
+                let [h1, h2] = [&pair.h1, &pair.h2].map(|component| self.component_value(component, gravity_m_s2));
                 geometric_mean(h1, h2)
             }
         }
@@ -36,13 +36,13 @@ impl IntensityMeasure {
     /// # Errors
     ///
     /// [`MotionError::UnequalTimeSteps`] for a rotated measure where the components have different time steps.
-    pub fn of_combined(
+    pub fn combined_value(
         self,
         combination: Combination,
         pair: &RecordPair,
         gravity_m_s2: f64,
     ) -> Result<f64, MotionError> {
-        let Some(chosen) = combination.over_directions() else { return Ok(self.of_pair(pair, gravity_m_s2)) };
+        let Some(chosen) = combination.over_directions() else { return Ok(self.pair_value(pair, gravity_m_s2)) };
         let ordinate_m_s2 = |period_s| rotated_spectral_accelerations(pair, period_s).map(chosen);
         Ok(match self {
             Self::Pgv => combination.peaks_of(pair)?.pgv_cm_s(),
@@ -51,14 +51,14 @@ impl IntensityMeasure {
             Self::AvgSa { from, to } => average([from.s(), to.s()], ordinate_m_s2)? / gravity_m_s2,
             Self::SpectrumIntensity => 100.0 * spectrum_intensity_m(ordinate_m_s2)?,
             Self::Pgd | Self::Cav | Self::Arias | Self::D575 | Self::D595 => {
-                chosen(in_directions(pair, |motion| self.of_component(motion, gravity_m_s2))?)
+                chosen(in_directions(pair, |motion| self.component_value(motion, gravity_m_s2))?)
             }
         })
     }
 
     /// The measure of one component, in [`IntensityMeasure::unit`], with the acceleration of gravity `gravity_m_s2`
     /// \[m/s²\].
-    pub fn of_component(self, component: &Accelerogram, gravity_m_s2: f64) -> f64 {
+    pub fn component_value(self, component: &Accelerogram, gravity_m_s2: f64) -> f64 {
         match self {
             Self::Pgv => 100.0 * component.pgv_m_s(),
             Self::Pga => component.pga_m_s2() / gravity_m_s2,

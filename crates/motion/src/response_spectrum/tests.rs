@@ -79,10 +79,10 @@ fn ordinates_of_an_independent_integration() {
         (5.0, [0.409_860_93, 0.273_964_01, 0.384_898_7, 0.428_588_94]),
     ] {
         let measure = IntensityMeasure::Sa(Period::from_s(period_s).unwrap());
-        let rotated = |combination| measure.of_combined(combination, &pair, 1.0).unwrap();
+        let rotated = |combination| measure.combined_value(combination, &pair, 1.0).unwrap();
         let found = [
-            measure.of_component(&pair.h1, 1.0),
-            measure.of_component(&pair.h2, 1.0),
+            measure.component_value(&pair.h1, 1.0),
+            measure.component_value(&pair.h2, 1.0),
             rotated(Combination::RotD50),
             rotated(Combination::RotD100),
         ];
@@ -134,10 +134,14 @@ fn a_motion_along_one_line_has_its_ordinate_there() {
     let line = pair(along.iter().map(|a| a * cos).collect(), along.iter().map(|a| a * sin).collect());
     let expected = motion(0.01, along).spectral_acceleration_m_s2(0.6);
     let measure = IntensityMeasure::Sa(Period::from_s(0.6).unwrap());
-    close(measure.of_combined(Combination::RotD100, &line, 1.0).unwrap(), expected, 1e-13);
+    close(measure.combined_value(Combination::RotD100, &line, 1.0).unwrap(), expected, 1e-13);
     let median = expected * 45_f64.to_radians().cos();
-    close(measure.of_combined(Combination::RotD50, &line, 1.0).unwrap(), median, 1e-13);
-    close(measure.of_combined(Combination::GeometricMean, &line, 1.0).unwrap(), expected * (sin * cos).sqrt(), 1e-13);
+    close(measure.combined_value(Combination::RotD50, &line, 1.0).unwrap(), median, 1e-13);
+    close(
+        measure.combined_value(Combination::GeometricMean, &line, 1.0).unwrap(),
+        expected * (sin * cos).sqrt(),
+        1e-13,
+    );
 }
 
 proptest! {

@@ -15,12 +15,12 @@ impl FigureSource {
     /// of before between percentiles.
     pub(super) fn band_of_set(&self, measure: IntensityMeasure, [site, poe]: [usize; 2], tone: Tone) -> Option<Band> {
         let stored = self.bands.as_ref()?;
-        let own = stored.of(measure)?;
+        let own = stored.by_measure(measure)?;
         let [lower_m, upper_m] = match (&own.inferred, &own.plain.limits_m) {
             (Some(inferred), _) => inferred.truth_m.each_ref(),
             (None, [lower_m, _, upper_m]) => [lower_m, upper_m],
         }
-        .map(|limit_m| limit_m.block([site, poe, stored.of_set(self.stored.records.len())]));
+        .map(|limit_m| limit_m.block([site, poe, stored.place_of_set(self.stored.records.len())]));
         Some(self.between(lower_m, upper_m, tone))
     }
 
@@ -118,7 +118,9 @@ fn together(source: &FigureSource, of: Of, poe: usize, y: &Axis, up_to: Option<f
     let panel = |site: usize| {
         let mut panel = Panel::lines(source.stored.sites[site].clone(), Axis::linear(STRENGTH), y.clone(), Vec::new());
         for (index, measure) in source.stored.measures.iter().enumerate() {
-            let Some(limits_m) = stored.of(measure.measure).and_then(|bands| of.limits(bands)) else { continue };
+            let Some(limits_m) = stored.by_measure(measure.measure).and_then(|bands| of.limits(bands)) else {
+                continue;
+            };
             let name = measure.measure.label();
             let (mut band, mut line) = source.band(limits_m, [site, poe, size], name, Tone::Distinct(index));
             if let Some(up_to) = up_to {

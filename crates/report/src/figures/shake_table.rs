@@ -17,11 +17,11 @@ pub fn shake_table_figures(table: &ShakeTable) -> Vec<Figure> {
 fn distributions(table: &ShakeTable) -> Figure {
     let classes = table.classes();
     let panel = |index: usize, title: &str| {
-        let finite = table.of_level(index).map(|(_, test)| test.u_m).filter(|u_m| u_m.is_finite());
+        let finite = table.tests_at_level(index).map(|(_, test)| test.u_m).filter(|u_m| u_m.is_finite());
         let largest_m = finite.fold(0.0, f64::max);
         let end_m = if largest_m > 0.0 { 1.05 * largest_m } else { 1.0 };
         let of = |class: Option<&str>| -> Option<Vec<(f64, f64)>> {
-            let chosen = table.of_level(index).filter(|(one, _)| class.is_none_or(|class| one.class == class));
+            let chosen = table.tests_at_level(index).filter(|(one, _)| class.is_none_or(|class| one.class == class));
             Some(stairs(&Sample::new(chosen.map(|(_, test)| test.u_m).collect()).ok()?, end_m))
         };
         let all = (classes.len() > 1).then_some(("all", None));
@@ -45,7 +45,7 @@ fn distributions(table: &ShakeTable) -> Figure {
 fn drifts(table: &ShakeTable) -> Figure {
     let panel = |class: &str| {
         let series = table.levels.iter().enumerate().map(|(index, level)| {
-            let tests = table.of_level(index).filter(|(one, _)| one.class == class);
+            let tests = table.tests_at_level(index).filter(|(one, _)| one.class == class);
             let points = (1..).map(f64::from).zip(tests).filter(|(_, (_, test))| test.drift.is_finite());
             let points = points.map(|(place, (_, test))| (place, 100.0 * test.drift)).collect();
             Series::dots(&level.name, points, Tone::Distinct(index))
@@ -65,7 +65,7 @@ fn drifts(table: &ShakeTable) -> Figure {
 /// Base shear over drift of all tests (the peaks of Fig. 6.14a).
 fn shears(table: &ShakeTable) -> Figure {
     let series = table.levels.iter().enumerate().map(|(index, level)| {
-        let tests = table.of_level(index).filter(|(_, test)| test.drift.is_finite());
+        let tests = table.tests_at_level(index).filter(|(_, test)| test.drift.is_finite());
         let points = tests.map(|(_, test)| (100.0 * test.drift, 1e-3 * test.base_shear_n)).collect();
         Series::dots(&level.name, points, Tone::Distinct(index))
     });
@@ -88,7 +88,7 @@ fn spectra(table: &ShakeTable) -> Option<Figure> {
         spectra.periods_s.iter().zip(ordinates_m_s2).map(of).collect()
     };
     let panel = |class: &str, level: usize, direction: usize| {
-        let tests = table.of_level(level).enumerate().filter(|(_, (one, _))| one.class == class);
+        let tests = table.tests_at_level(level).enumerate().filter(|(_, (one, _))| one.class == class);
         let motions: Vec<Vec<(f64, f64)>> =
             tests.map(|(place, (_, test))| line(spectra.recorded(place, direction), test.factor)).collect();
         let median = spectra.periods_s.iter().enumerate().map(|(period, period_s)| {

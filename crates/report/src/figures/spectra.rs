@@ -91,10 +91,10 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
                     .collect();
                 Panel { bands, ..Panel::lines(title, Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series) }
             };
-            let banded = source.bands.as_ref().and_then(|bands| Some((bands, bands.of(of_measure.measure)?)));
+            let banded = source.bands.as_ref().and_then(|bands| Some((bands, bands.by_measure(of_measure.measure)?)));
             let banded = banded.map_or_else(String::new, |(bands, own)| {
                 let confidence = per_cent(bands.confidence);
-                let size = bands.sizes[bands.of_set(source.stored.records.len())];
+                let size = bands.sizes[bands.place_of_set(source.stored.records.len())];
                 if own.inferred.is_some() {
                     format!(" Areas: {confidence} confidence bands, from {size} records.")
                 } else {

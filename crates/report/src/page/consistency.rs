@@ -18,7 +18,7 @@ pub(super) fn consistency(source: &FigureSource) -> Option<TitledTable> {
         verdict => verdict.to_owned(),
     };
     let places = all.iter().zip(&source.least_effective).flat_map(|of| sites.clone().map(move |site| (of, site)));
-    let table = Table::of(places.filter(|&((of, _), site)| looked_at(of, site)))
+    let table = Table::from_rows(places.filter(|&((of, _), site)| looked_at(of, site)))
         .left("site", |(_, site)| &source.stored.sites[site])
         .left("scaled to", |((of, _), _)| of.scaled_to.label())
         .left("compared", |((of, _), _)| of.other.label())

@@ -36,7 +36,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
 }
 
 fn sets(stored: &StoredDisplacements) -> TitledTable {
-    let table = Table::of(&stored.sets)
+    let table = Table::from_rows(&stored.sets)
         .left("set", |set| &set.name)
         .right("records", |set| set.records)
         .right("motions", |set| 2 * set.records)

@@ -94,14 +94,14 @@ fn first(source: &FigureSource, rows: &[Row]) -> Option<TitledTable> {
         let name = if is_one { risk(row.poe) } else { spectra.sites[row.site].clone() };
         spectrum_words(&name, row.repaired)
     };
-    let table = Table::of(rows.iter().copied()).left(if is_one { "probability" } else { "site" }, name);
+    let table = Table::from_rows(rows.iter().copied()).left(if is_one { "probability" } else { "site" }, name);
     Some(over_strengths(source, ("summary", title, &note), table))
 }
 
 /// The displacements by every measure and probability, a row a spectrum.
 fn all(source: &FigureSource, rows: &[Row]) -> TitledTable {
     let spectra = &source.spectra;
-    let table = Table::of(rows.iter().filter(|row| row.poe == 0))
+    let table = Table::from_rows(rows.iter().filter(|row| row.poe == 0))
         .left("site", |row| &spectra.sites[row.site])
         .left("measure", |row| spectrum_words(row.measure.label(), row.repaired));
     let table = spectra.poes.iter().enumerate().fold(table, |table, (poe, &probability)| {
@@ -144,7 +144,7 @@ fn spread(source: &FigureSource) -> Option<TitledTable> {
     let stored = &source.spectra;
     let shown = nearest(&stored.strengths, &SHOWN_STRENGTHS);
     let places = source.spreads.iter().flat_map(|of| (0..stored.poes.len()).map(move |poe| (of, poe)));
-    let table = Table::of(places)
+    let table = Table::from_rows(places)
         .left("site", |(of, _)| &stored.sites[of.site])
         .left("measure", |(of, _)| of.measure.label())
         .left("probability", |(_, poe)| risk_name(stored.poes[poe], stored.years))
@@ -193,7 +193,7 @@ fn records(source: &FigureSource) -> Option<TitledTable> {
             rows.extend(influence.without_m.as_ref().and_then(ranked).map(|of| (site, influence.measure.label(), of)));
         }
     }
-    let table = Table::of(&rows)
+    let table = Table::from_rows(&rows)
         .left("site", |(site, ..)| &stored.sites[*site])
         .left("measure", |(_, label, _)| label)
         .left("record", |(.., of)| stored.units.name(of.record))
@@ -209,7 +209,7 @@ fn coefficients(spectra: &StoredSpectra) -> TitledTable {
     let number =
         |value: f64, digits: usize| if value.is_nan() { "no fit".to_owned() } else { format!("{value:.digits$}") };
     let places = (0..spectra.sites.len()).flat_map(|site| (0..spectra.poes.len()).map(move |poe| [site, poe]));
-    let table = Table::of(places)
+    let table = Table::from_rows(places)
         .left("site", |[site, _]| &spectra.sites[site])
         .left("probability", |[_, poe]| risk_name(spectra.poes[poe], spectra.years))
         .each(&spectra.measures, |table, of| {

@@ -33,13 +33,13 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
 
 fn tests(table: &ShakeTable) -> TitledTable {
     let order = table.order();
-    let tests = (0..table.levels.len()).flat_map(|level| table.of_level(level).map(move |test| (level, test)));
+    let tests = (0..table.levels.len()).flat_map(|level| table.tests_at_level(level).map(move |test| (level, test)));
     let number = |value: f64, factor: f64, decimals: usize| {
         if value.is_finite() { format!("{:.decimals$}", factor * value) } else { "-".to_owned() }
     };
     let mut tests: Vec<_> = tests.zip(order).map(|((level, of), order)| (level, of, order)).collect();
     tests.sort_by_key(|(.., order)| *order);
-    let rows = Table::of(&tests)
+    let rows = Table::from_rows(&tests)
         .left("excitation", |(_, (excitation, _), _)| &excitation.exc_id)
         .left("class", |(_, (excitation, _), _)| &excitation.class)
         .left("level", |(level, ..)| &table.levels[*level].name)

@@ -87,7 +87,7 @@ fn table([structure, answer]: [usize; 2], of: &StoredFinding) -> TitledTable {
     let bands = all.iter().map(|row| &row.band).find(|band| !band.is_empty());
     let heading = bands.filter(|_| !differ(|row| &row.band)).map(|band| format!("90 % band of {band}"));
     let is_one = heading.is_some();
-    let rows = Table::of(all)
+    let rows = Table::from_rows(all)
         .left("quantity", |row| &row.quantity)
         .when(differ(|row| &row.site), |table| table.left("site", |row| &row.site))
         .when(differ(|row| &row.im), |table| table.left("measure", |row| &row.im))

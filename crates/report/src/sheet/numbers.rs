@@ -35,7 +35,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
             let demand = marked(exact.demand_m, rounding.map(|of| &of.demand_m), two_digits);
             let band = exact.bands.as_ref().map_or_else(String::new, |bands| {
                 let [lower_m, upper_m] = bands.demand_m.quoted().map(two_digits);
-                format!(" (90 % band{} {lower_m} to {upper_m} m)", bands.demand_m.of_whom())
+                format!(" (90 % band{} {lower_m} to {upper_m} m)", bands.demand_m.by_whom())
             });
             say(format!("{of}, the demand is {demand} m{band}{capacity}."), None);
         }
@@ -103,7 +103,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         let band = exact.bands.and_then(|bands| bands.overturning_per_year).map_or_else(String::new, |bands| {
             let [lower, upper] = bands.quoted();
             let shown = |per_year: f64| if per_year > 0.0 { power(per_year, 1) } else { "0".to_owned() };
-            format!(" 90 % band{}: {} to {} a year.", bands.of_whom(), shown(lower), shown(upper))
+            format!(" 90 % band{}: {} to {} a year.", bands.by_whom(), shown(lower), shown(upper))
         });
         say(format!("{overturns}{band}"), None);
     }
@@ -174,7 +174,7 @@ pub(super) fn rounding_words(report: &DesignReport) -> Option<String> {
         }
         if let Some(errors) = &rounding.rule_errors {
             let of = format!("error of {} from the exact demand", outcome.rule.words());
-            tell(&of, &errors.of(outcome.rule), relative, "");
+            tell(&of, &errors.by_rule(outcome.rule), relative, "");
         }
     }
     if let Some(of) = &rounding.beyond_capacity_per_year {
@@ -271,7 +271,7 @@ fn frame(report: &DesignReport) -> Option<TitledTable> {
         None => scientific(risk.per_year),
     };
     let dash = || "–".to_owned();
-    let table = Table::of(&frame.models)
+    let table = Table::from_rows(&frame.models)
         .left("model", |of| of.model)
         .right("demand, m", |of| metres_or_overturns(of.demand_m))
         .right("required capacity, m", |of| {
@@ -297,13 +297,13 @@ fn rules(report: &DesignReport) -> Option<TitledTable> {
     let marked = |outcome: &RuleOutcome, error: f64| {
         let range = rounding.and_then(|rounding| match &outcome.from_spectrum {
             Some(check) => Some(rounding.error_of(check.demand_m)),
-            None => rounding.rule_errors.map(|errors| errors.of(outcome.rule)),
+            None => rounding.rule_errors.map(|errors| errors.by_rule(outcome.rule)),
         });
         range.map_or_else(|| relative(error), |range| range.marked(relative))
     };
     let error =
         |(of, check): (&RuleOutcome, &RuleCheck)| check.error.map_or_else(|| "–".to_owned(), |error| marked(of, error));
-    let table = Table::of(report.rules.iter().filter_map(|outcome| Some((outcome, outcome.check()?))))
+    let table = Table::from_rows(report.rules.iter().filter_map(|outcome| Some((outcome, outcome.check()?))))
         .left("rule", |(of, _)| of.rule.words())
         .right("demand, m", |(_, check)| metres_or_overturns(check.demand_m))
         .right("required capacity, m", |(_, check)| metres_or_overturns(check.required_capacity_m))

@@ -84,10 +84,10 @@ impl Words<'_> {
                 self.options.quantity.key()
             )
         });
-        self.of_crossings(found, tried).into_iter().chain(margin).collect()
+        self.crossings_in_words(found, tried).into_iter().chain(margin).collect()
     }
 
-    fn of_crossings(&self, found: &[Crossing], tried: &[(f64, Attempt)]) -> Option<String> {
+    fn crossings_in_words(&self, found: &[Crossing], tried: &[(f64, Attempt)]) -> Option<String> {
         if found.len() < 2 {
             return None;
         }

@@ -106,7 +106,7 @@ impl Branches {
         let samples = plan.as_ref().map_or(&[][..], |plan| plan.samples());
         let columns = self.columns(!samples.is_empty());
         let answers = Answers { systems, participation, stripes, sites, samples };
-        let values = answers.of(&columns)?;
+        let values = answers.all(&columns)?;
         let asked: Vec<(&SiteQuestions<'_>, Event)> =
             sites.iter().flat_map(|site| site.asked.iter().map(move |(event, _)| (site, *event))).collect();
         let finding = |(place, (site, event)): (usize, &(&SiteQuestions<'_>, Event))| {
@@ -167,7 +167,7 @@ struct Answers<'a> {
 impl Answers<'_> {
     /// The answers of all cells, `[column][row][site, asked]`. Each system is sorted once, and the answers do not
     /// depend on the order in which they are computed.
-    fn of(&self, columns: &[Vec<Cell>]) -> Result<Vec<Vec<Vec<f64>>>, DesignError> {
+    fn all(&self, columns: &[Vec<Cell>]) -> Result<Vec<Vec<Vec<f64>>>, DesignError> {
         let systems = self.systems.len();
         let mut of_system: Vec<Vec<(usize, usize)>> = vec![Vec::new(); systems];
         for (column, cells) in columns.iter().enumerate() {

@@ -154,7 +154,7 @@ impl<'a> Work<'a> {
             let known_before = cells.count();
             let in_row: Vec<usize> = (0..plan.axes().rows())
                 .map(|row| {
-                    let (motion, system) = plan.axes().of_row(row);
+                    let (motion, system) = plan.axes().motion_and_system(row);
                     cells.known_in_row(motion, system)
                 })
                 .collect();
@@ -220,9 +220,9 @@ fn known(labelled: &LabelledPlan<'_>, keys: &RowKeys, checkpoint: &Checkpoint) -
     let axes = labelled.plan.axes();
     let in_row = |(row, key): (usize, &RowKey)| {
         if checkpoint.rows().contains(*key) {
-            return labelled.plan.histories_of(axes.of_row(row).0) as u64;
+            return labelled.plan.histories_of(axes.motion_and_system(row).0) as u64;
         }
-        let (motion, system) = axes.of_row(row);
+        let (motion, system) = axes.motion_and_system(row);
         labelled.known.as_ref().map_or(0, |cells| cells.known_in_row(motion, system) as u64)
     };
     keys.as_slice().iter().enumerate().map(in_row).sum()

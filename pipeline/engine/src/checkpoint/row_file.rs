@@ -78,7 +78,7 @@ impl FinishedRows {
         }
         for (row, key) in keys.as_slice().iter().enumerate() {
             if let Some((displacement_m, impacts)) = self.rows.get(key) {
-                let (motion, system) = keys.axes().of_row(row);
+                let (motion, system) = keys.axes().motion_and_system(row);
                 // a row of another length is none of these, whatever its key says
                 let _ = cells.set_row(&AnalysisRow { motion, system, displacement_m, impacts });
             }

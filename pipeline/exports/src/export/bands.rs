@@ -35,9 +35,9 @@ impl Export {
     /// The bands of a kind of a spectrum, by size of the sample; none where it has none: at a site without repair or
     /// without weighted hazard curves.
     pub(super) fn bands_of(&self, row: &Row<'_>, kind: BandKind) -> Vec<BandOf<'_>> {
-        let of_measure = self.bands.as_ref().and_then(|bands| Some((bands, bands.of(row.spectrum.measure)?)));
+        let of_measure = self.bands.as_ref().and_then(|bands| Some((bands, bands.by_measure(row.spectrum.measure)?)));
         let Some((StoredBands { sizes, .. }, of_measure)) = of_measure else { return Vec::new() };
-        let Some(of) = kind.of(of_measure) else { return Vec::new() };
+        let Some(of) = kind.select(of_measure) else { return Vec::new() };
         let [site, poe] = row.at;
         let of_size = |(size, &records): (usize, &u32)| BandOf {
             records,
@@ -60,11 +60,15 @@ impl Export {
 
     /// Whether there are bands of a kind.
     pub(super) fn has_bands(&self, kind: BandKind) -> bool {
-        self.bands.iter().flat_map(|bands| &bands.measures).any(|of| kind.of(of).is_some())
+        self.bands.iter().flat_map(|bands| &bands.measures).any(|of| kind.select(of).is_some())
     }
 
     /// Whether there are bands beyond the set.
     pub(super) fn has_inferred_bands(&self, kind: BandKind) -> bool {
-        self.bands.iter().flat_map(|bands| &bands.measures).filter_map(|of| kind.of(of)).any(|of| of.inferred.is_some())
+        self.bands
+            .iter()
+            .flat_map(|bands| &bands.measures)
+            .filter_map(|of| kind.select(of))
+            .any(|of| of.inferred.is_some())
     }
 }

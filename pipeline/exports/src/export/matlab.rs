@@ -158,7 +158,7 @@ impl Export {
             let spectra = Shape(vec![strengths.len(), sizes.len(), poes.len(), sites.len()]);
             let figures = Shape(vec![sizes.len(), poes.len(), sites.len()]);
             let of_sizes = Shape(vec![sizes.len(), sites.len()]);
-            let kinds = BY_SPECTRUM.into_iter().filter_map(|kind| Some((kind, kind.of(of)?)));
+            let kinds = BY_SPECTRUM.into_iter().filter_map(|kind| Some((kind, kind.select(of)?)));
             for (kind, own) in kinds.clone() {
                 for (name, limits) in bands.limit_names().iter().zip(own.limits_m) {
                     file.numbers(&name_with(kind, name, key), &spectra, limits.values());

@@ -68,7 +68,7 @@ pub(super) fn read(options: &TableOptions, file: &ResultFile) -> Result<TestsTab
     let printed = reference.as_ref().map(places).transpose()?;
     let order = table.order();
     let (mut rows, mut pairs) = (Vec::new(), Vec::new());
-    let tests = (0..table.levels.len()).flat_map(|level| table.of_level(level).map(move |test| (level, test)));
+    let tests = (0..table.levels.len()).flat_map(|level| table.tests_at_level(level).map(move |test| (level, test)));
     for ((level, (excitation, test)), order) in tests.zip(order) {
         let name = &table.levels[level].name;
         let place = printed.as_ref().and_then(|all| all.get(&(name.clone(), excitation.exc_id.clone())).copied());

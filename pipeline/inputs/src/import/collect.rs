@@ -138,9 +138,9 @@ fn measured(candidate: Candidate, options: FileOptions, pulses: bool) -> Result<
         (measures.pulse, measures.pulse_like) = (None, None);
     }
     let mut warnings =
-        warnings::of_pair(&pair, [&first.description, &second.description], &measures, options.gravity_m_s2);
+        warnings::pair_warnings(&pair, [&first.description, &second.description], &measures, options.gravity_m_s2);
     let stated_s = search.as_ref().and_then(|entry| entry.d5_95_s);
-    warnings.extend(stated_s.and_then(|stated_s| warnings::of_duration(&pair, measures.durations_s[1], stated_s)));
+    warnings.extend(stated_s.and_then(|stated_s| warnings::duration_warning(&pair, measures.durations_s[1], stated_s)));
     Ok(ImportedPair { id: pair.id, components, vertical, measures, search, warnings })
 }
 

@@ -59,7 +59,7 @@ pub(crate) fn unusual_peaks(pga_g: &[f64], pgv_cm_s: &[f64]) -> Option<String> {
 }
 
 /// Remarks about `pair`, whose files say the `descriptions` of its components; `gravity_m_s2` as in its `measures`.
-pub fn of_pair(
+pub fn pair_warnings(
     pair: &RecordPair,
     descriptions: [&RecordingDescription; 2],
     measures: &PairMeasures,
@@ -117,7 +117,7 @@ pub fn of_pair(
 
 /// A remark where the significant duration D5-95 found, s, is not the one `stated_s` by the search results: the time
 /// step of the files is wrong, or they are another record's.
-pub(super) fn of_duration(pair: &RecordPair, found_s: f64, stated_s: f64) -> Option<Warning> {
+pub(super) fn duration_warning(pair: &RecordPair, found_s: f64, stated_s: f64) -> Option<Warning> {
     let is_odd = stated_s > 0.0 && !(1.0 / ODD_DURATION_RATIO..=ODD_DURATION_RATIO).contains(&(found_s / stated_s));
     is_odd.then(|| Warning {
         kind: "duration differs",
@@ -238,9 +238,9 @@ mod tests {
     fn a_duration_that_is_not_the_one_of_the_search() {
         let motion = Accelerogram::new(0.02, vec![0.0, 1.0, -1.0, 0.0]).unwrap();
         let pair = RecordPair { id: "RSN1_A".into(), h1: motion.clone(), h2: motion, metadata: BTreeMap::new() };
-        assert!(of_duration(&pair, 12.0, 10.0).is_none() && of_duration(&pair, 8.0, 10.0).is_none());
+        assert!(duration_warning(&pair, 12.0, 10.0).is_none() && duration_warning(&pair, 8.0, 10.0).is_none());
         // the step of 0.01 s was taken for 0.02 s
-        let warning = of_duration(&pair, 20.0, 10.0).unwrap();
+        let warning = duration_warning(&pair, 20.0, 10.0).unwrap();
         assert!(
             warning.text.starts_with("RSN1_A: D5-95 is 20.00 s, and 10 s by the search results"),
             "{}",

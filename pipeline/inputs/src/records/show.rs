@@ -11,7 +11,7 @@ use uplift_study::did_you_mean;
 
 use crate::FileOptions;
 use crate::error::InputsError;
-use crate::import::{PairMeasures, unusual_peaks, warnings_of_pair};
+use crate::import::{PairMeasures, pair_warnings, unusual_peaks};
 use crate::manifest::{self, ComponentFile};
 use crate::pairs::read_component;
 
@@ -194,7 +194,7 @@ fn record(set: &Path, id: &str, gravity_m_s2: f64) -> Result<RecordReport, Input
             period_s: pulse.period_s,
             indicator: pulse.indicator,
         }),
-        warnings: warnings_of_pair(&pair, descriptions, &measures, gravity_m_s2)
+        warnings: pair_warnings(&pair, descriptions, &measures, gravity_m_s2)
             .into_iter()
             .map(|warning| warning.text)
             .collect(),

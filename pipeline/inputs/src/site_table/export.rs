@@ -9,7 +9,7 @@ use uplift_job::JobError;
 use uplift_motion::IntensityMeasure;
 use uplift_study::{MeasurePlan, UniformRiskStudy, definition_of};
 
-use super::super::curve_file::{of_the_records_definition, stripe_weights};
+use super::super::curve_file::{by_the_records_definition, stripe_weights};
 use super::super::hardly_possible::hardly_possible;
 use super::places::ListedSite;
 use crate::error::InputsError;
@@ -221,7 +221,7 @@ impl Tally {
     ) -> Result<(), String> {
         self.shortened += usize::from(exported.dropped_levels() > 0);
         let curve = exported.curve.in_field_units(study.gravity_m_s2).map_err(|error| reason_of(&error))?;
-        let curve = match of_the_records_definition(study, read.measure(), &curve) {
+        let curve = match by_the_records_definition(study, read.measure(), &curve) {
             Ok(Some(curve)) => curve,
             Ok(None) => {
                 self.undefined += 1;

@@ -46,7 +46,7 @@ impl Table {
     }
 
     /// A table with a row for each of `values`, to which columns are added.
-    pub fn of<T: Copy>(values: impl IntoIterator<Item = T>) -> TableOf<T> {
+    pub fn from_rows<T: Copy>(values: impl IntoIterator<Item = T>) -> TableOf<T> {
         let values: Vec<T> = values.into_iter().collect();
         TableOf { table: Self { columns: Vec::new(), rows: vec![Vec::new(); values.len()] }, values }
     }
@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn columns_line_up() {
         let rows = [("Aachen", 1.0), ("X", 22.5)];
-        let table = Table::of(&rows).left("site", |row| row.0).right("u", |row| format!("{:.1}", row.1));
+        let table = Table::from_rows(&rows).left("site", |row| row.0).right("u", |row| format!("{:.1}", row.1));
         assert_eq!(table.to_string(), "site       u\n------------\nAachen   1.0\nX       22.5");
         let cells = rows.map(|(site, u)| vec![site.to_owned(), format!("{u:.1}")]);
         assert_eq!(table.to_string(), Table::new(["site", "u"], cells).to_string());
@@ -169,9 +169,10 @@ mod tests {
 
     #[test]
     fn a_bar_stands_below_the_bar_above_it() {
-        let table = Table::of([1, 22]).left("n", |n| n).bar("printed", |n| n).when(false, |of| of.right("not", |n| n));
+        let table =
+            Table::from_rows([1, 22]).left("n", |n| n).bar("printed", |n| n).when(false, |of| of.right("not", |n| n));
         assert_eq!(table.to_string(), "n   | printed\n-------------\n1   |       1\n22  |      22");
-        let blank = Table::of([1]).left("n", |n| n).each(["a", "b"], |of, name| of.right(name, |_| ""));
+        let blank = Table::from_rows([1]).left("n", |n| n).each(["a", "b"], |of, name| of.right(name, |_| ""));
         assert_eq!(blank.to_string(), "n  a  b\n-------\n1");
     }
 }

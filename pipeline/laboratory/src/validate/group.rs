@@ -149,7 +149,7 @@ impl GroupReport {
         let at = distinct_finite(&measured);
         Ok(Self {
             of,
-            replicates: resampling.of_values(measured.len().max(computed.len())),
+            replicates: resampling.replicates_for(measured.len().max(computed.len())),
             measured: measured.len(),
             computed: computed.len(),
             p,

@@ -47,7 +47,7 @@ impl SiteShape {
     }
 
     /// `[poe, size, strength]` of the band at `cell`.
-    fn of_cell(self, cell: usize) -> [usize; 3] {
+    fn indices(self, cell: usize) -> [usize; 3] {
         [cell / (self.sizes * self.strengths), cell / self.strengths % self.sizes, cell % self.strengths]
     }
 }
@@ -89,13 +89,13 @@ pub(super) fn bands_of_site(
     let without_each_m = if left_out.is_empty() { Vec::new() } else { weighed_anew(&left_out)?.ordinates_m };
     let shape = SiteShape { poes: targets_per_year.len(), sizes: plan.sizes().len(), strengths: demands.len() };
     let SiteShape { poes, sizes, strengths } = shape;
-    let of_cell = |cell: usize| {
-        let [poe, size, strength] = shape.of_cell(cell);
+    let indices = |cell: usize| {
+        let [poe, size, strength] = shape.indices(cell);
         let without_each_m = &without_each_m[(strength * poes + poe) * left_out.len()..][..left_out.len()];
         let of_sample = (without_each_m, plan.units_drawn(plan.sizes()[size]));
         interval.band(replicates_m(&drawn, plan, shape, cell), confidence, of_set_m[strength][poe], of_sample)
     };
-    let bands = (0..shape.cells()).into_par_iter().map(of_cell).collect();
+    let bands = (0..shape.cells()).into_par_iter().map(indices).collect();
     let spectra = if settings.simultaneous { poes * sizes } else { 0 };
     let of_spectrum = |spectrum: usize| {
         let of_strength = |strength| replicates_m(&drawn, plan, shape, spectrum * strengths + strength).to_vec();
@@ -118,7 +118,7 @@ pub(super) fn replicates_m<'a>(
     shape: SiteShape,
     cell: usize,
 ) -> &'a [f64] {
-    let [poe, size, strength] = shape.of_cell(cell);
+    let [poe, size, strength] = shape.indices(cell);
     let (samples, replicates) = (plan.samples().len(), plan.replicates());
     // [strength, poe, size, replicate]
     &drawn.ordinates_m[(strength * shape.poes + poe) * samples + size * replicates..][..replicates]

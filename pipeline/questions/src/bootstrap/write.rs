@@ -131,7 +131,7 @@ fn add_spectra_bands(
 /// The kinds of bands that there are, each with those of every measure; none of a measure of whose sites none has any.
 fn kinds<'a>(file: &BandsFile<'a>) -> impl Iterator<Item = (BandKind, Vec<Option<BandsOfKind<'a>>>)> {
     let bands = file.bands;
-    let of_kind = move |kind: BandKind| (kind, bands.iter().map(|bands| kind.of(bands)).collect::<Vec<_>>());
+    let of_kind = move |kind: BandKind| (kind, bands.iter().map(|bands| kind.select(bands)).collect::<Vec<_>>());
     BandKind::ALL.into_iter().map(of_kind).filter(|(_, of)| of.iter().any(Option::is_some))
 }
 

@@ -19,7 +19,7 @@ use crate::error::QuestionsError;
 /// The groups that a new look replaces, with the axes of the measures that were computed from the runs of others.
 fn replaced(earlier: &[StoredEfficiency]) -> Vec<String> {
     let told = earlier.iter().filter(|of| of.scaled_to != of.measure);
-    let axes = told.map(|of| axis::path(&axis::COMMON_LEVEL.of_measure(of.measure)));
+    let axes = told.map(|of| axis::path(&axis::COMMON_LEVEL.for_measure(of.measure)));
     [EFFICIENCY.root(), TRENDS.root()].map(str::to_owned).into_iter().chain(axes).collect()
 }
 
@@ -57,7 +57,7 @@ fn add(
         let MeasureEfficiency { own, .. } = found;
         let measure = own.measure;
         let axis = if own.scaled_to == measure { axis::STRIPE_LEVEL } else { axis::COMMON_LEVEL };
-        let levels = axis.of_measure(measure);
+        let levels = axis.for_measure(measure);
         if own.scaled_to != measure {
             let names = [("<im>", measure.key()), ("<unit>", measure.unit()), ("<measure>", measure.long_name())];
             axis.write(writer, &names, &found.levels)?;

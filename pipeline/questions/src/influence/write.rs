@@ -17,7 +17,7 @@ use crate::error::QuestionsError;
 
 /// The groups that a new look replaces.
 fn replaced(stored: &StoredStripes) -> Vec<String> {
-    let bins = stored.measures.iter().map(|own| axis::path(&axis::BIN.of_measure(own.measure)));
+    let bins = stored.measures.iter().map(|own| axis::path(&axis::BIN.for_measure(own.measure)));
     [INFLUENCE.root(), DISAGGREGATION.root()].map(str::to_owned).into_iter().chain(bins).collect()
 }
 

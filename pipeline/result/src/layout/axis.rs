@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use uplift_labelled::{LabelledError, LabelledWriter, Number};
 use uplift_motion::IntensityMeasure;
 
-use super::names::{Names, named, of_measure};
+use super::names::{Names, measure_names, named};
 use super::{axis_part, unique_axis};
 
 /// An axis of a result. What stands in angle brackets is replaced by [`Names`].
@@ -117,8 +117,8 @@ impl Axis {
     }
 
     /// Its name for a measure.
-    pub fn of_measure(&self, measure: IntensityMeasure) -> String {
-        named(self.name, &of_measure(measure)).into_owned()
+    pub fn for_measure(&self, measure: IntensityMeasure) -> String {
+        named(self.name, &measure_names(measure)).into_owned()
     }
 }
 

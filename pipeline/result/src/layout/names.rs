@@ -8,7 +8,7 @@ use uplift_motion::IntensityMeasure;
 pub type Names<'a> = &'a [(&'a str, &'a str)];
 
 /// The names of the arrays of one measure.
-pub fn of_measure(measure: IntensityMeasure) -> [(&'static str, &'static str); 1] {
+pub fn measure_names(measure: IntensityMeasure) -> [(&'static str, &'static str); 1] {
     [("<im>", measure.key())]
 }
 

@@ -73,7 +73,7 @@ pub fn run(
     }
 
     let provenance = Provenance::new(place.options, checksums(records));
-    let mut provenance = provenance.of_result(path, &study.to_toml()?);
+    let mut provenance = provenance.with_result(path, &study.to_toml()?);
     provenance.wall_time_s = place.start.elapsed().as_secs_f64();
     let outcome = DisplacementOutcome {
         study,

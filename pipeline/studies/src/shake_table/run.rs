@@ -36,7 +36,7 @@ pub fn run(study: &ShakeTableStudy, place: &Place<'_>, events: &dyn Events) -> R
     let mut warnings = inputs.notes.clone();
     warnings.push(TORSION.to_owned());
     let provenance = Provenance::new(place.options, inputs.checksums);
-    let mut provenance = provenance.of_result(path, &study.to_toml()?);
+    let mut provenance = provenance.with_result(path, &study.to_toml()?);
     provenance.wall_time_s = place.start.elapsed().as_secs_f64();
     let outcome = ShakeTableOutcome { study, table: &table, seconds, warnings: &warnings, provenance: &provenance };
     let earlier = Earlier::keep(path, &provenance.study_digest, None)?;

@@ -57,7 +57,7 @@ pub(crate) fn write_csv(result: &Path, outcome: &ComputedStudy<'_>) -> Result<()
 
 /// A row for each ordinate: what it is of, then the arrays of its spectrum.
 pub fn spectra_table(spectra: &StoredSpectra) -> Vec<Column> {
-    let mut columns = of_columns(spectra, spectra.strengths.len());
+    let mut columns = subject_columns(spectra, spectra.strengths.len());
     let strengths = spectra.measures.iter().flat_map(|of| of.fits.values()).flat_map(|_| &spectra.strengths).copied();
     columns.push(Column::new("strength".into(), strengths.collect::<Vec<f64>>()));
     let places = || spectra.measures.iter().flat_map(|of| (0..of.u_m.values().len()).map(move |at| (of, at)));
@@ -99,7 +99,7 @@ pub fn band_columns(bands_m: &[Option<[f64; 2]>]) -> [Column; 2] {
 /// A row for each spectrum: what it is of, then its coefficients.
 fn regression_table(spectra: &StoredSpectra) -> Vec<Column> {
     use regression::{BOUND_ACTIVE, C0_M, C1, C2_M, POINTS, RMSE_M, RMSE_PLAIN_M};
-    let mut columns = of_columns(spectra, 1);
+    let mut columns = subject_columns(spectra, 1);
     let places = || spectra.measures.iter().flat_map(|of| (0..of.fits.values().len()).map(|at| (&of.fits, at)));
     let is_fitted = |fits: &Fits, at: usize| fits[at].curve().is_some();
     let coefficients = [C0_M, C1, C2_M, RMSE_M, RMSE_PLAIN_M, BOUND_ACTIVE];
@@ -109,7 +109,7 @@ fn regression_table(spectra: &StoredSpectra) -> Vec<Column> {
 }
 
 /// The columns that say what a spectrum is of, each `times` over.
-fn of_columns(spectra: &StoredSpectra, times: usize) -> Vec<Column> {
+fn subject_columns(spectra: &StoredSpectra, times: usize) -> Vec<Column> {
     ColumnsOf::new(spectra.rows().flat_map(|row| repeat_n(row, times)))
         .with("site", |row| row.site)
         .with("im", |row| row.measure.label())

@@ -7,7 +7,7 @@ use uplift_engine::checkpoint::oscillator_key;
 use uplift_ida::{Axes, Cells};
 use uplift_inputs::{Record, RecordSet, motion_keys};
 use uplift_labelled::{LabelledError, LabelledReader};
-use uplift_result::declared::of_measure;
+use uplift_result::declared::measure_names;
 use uplift_result::layout::attribute::stripes::OSCILLATOR_KEY;
 use uplift_result::layout::axis;
 use uplift_result::{FACTORS, IMPACTS, INTENSITY, MOTION_KEYS, PEAKS, ResultFile, intensity_names};
@@ -40,7 +40,7 @@ impl EarlierStripes {
         cells: &mut Cells,
     ) -> Result<(), LabelledError> {
         let reader = &self.reader;
-        let names = of_measure(measure.measure);
+        let names = measure_names(measure.measure);
         if !reader.exists(&PEAKS.group(&names)) || OSCILLATOR_KEY.read(reader, &names)? != oscillator_key(study) {
             return Ok(());
         }
@@ -53,7 +53,7 @@ impl EarlierStripes {
             values.iter().enumerate().map(|(index, value)| (value.to_bits(), index)).collect()
         };
         let strengths = reader.axis::<f64>(axis::STRENGTH.name)?;
-        let levels = reader.axis::<f64>(&axis::STRIPE_LEVEL.of_measure(measure.measure))?;
+        let levels = reader.axis::<f64>(&axis::STRIPE_LEVEL.for_measure(measure.measure))?;
         let edp_m = reader.array::<f64>(&PEAKS.first_path(&names))?;
         let impacts = reader.array::<u32>(&IMPACTS.first_path(&names))?;
         let stored = Axes { motions: stored_motions.len(), systems: strengths.len(), scales: levels.len() };

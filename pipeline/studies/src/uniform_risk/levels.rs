@@ -106,7 +106,7 @@ pub(super) fn check_levels(
     hazard: &[SiteHazard],
 ) -> Result<(Option<LevelCheck>, LevelEnds), StudiesError> {
     let Some(trial) = Trial::new(study, measure, inputs, hazard)? else {
-        return Ok((None, of_ends(study, measure, &untried(study, hazard))?));
+        return Ok((None, level_ends(study, measure, &untried(study, hazard))?));
     };
     let own = trial.tails(measure.levels[0])?;
     let mut below: Vec<(f64, String)> = own.iter().map(|tails| (most(&tails.lower), tails.in_words(study))).collect();
@@ -132,7 +132,7 @@ pub(super) fn check_levels(
             }
         }
     }
-    Ok((Some(check), of_ends(study, measure, &own)?))
+    Ok((Some(check), level_ends(study, measure, &own)?))
 }
 
 fn most(shares: &[f64]) -> f64 {
@@ -146,7 +146,11 @@ fn untried<'a>(study: &UniformRiskStudy, hazard: &'a [SiteHazard]) -> Vec<Tails<
 }
 
 /// What is to be raised of the first and the last level of `measure`.
-fn of_ends(study: &UniformRiskStudy, measure: &MeasurePlan, spectra: &[Tails<'_>]) -> Result<LevelEnds, StudiesError> {
+fn level_ends(
+    study: &UniformRiskStudy,
+    measure: &MeasurePlan,
+    spectra: &[Tails<'_>],
+) -> Result<LevelEnds, StudiesError> {
     let mut cases = LevelEnds::default();
     for tails in spectra {
         let curve = &tails.site.curve.curve;

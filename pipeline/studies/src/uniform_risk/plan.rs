@@ -79,7 +79,7 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
     let is_repaired = study.consistency.repair == Repair::Weights;
     let answer = Answer::from_plan(study, &records, (&hazard, &other_hazard), is_repaired)?;
     let (of_earthquakes, consistency) = (few_earthquakes(answer.question()), answer.report(&[]));
-    let of_curves = of_curves(study, (&hazard, &other_hazard), &consistency);
+    let curve_alarms = curve_alarms(study, (&hazard, &other_hazard), &consistency);
     let head = PlanHead {
         study: study_file.to_owned(),
         record_set: records.description.clone(),
@@ -91,7 +91,9 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
         disk_bytes: needs.disk_bytes,
         room: needs.room(&study.output.file),
         output: study.output.file.clone(),
-        alarms: ranked(of_inputs(study, &records).chain(of_earthquakes).chain(of_curves).chain(of_ends).collect()),
+        alarms: ranked(
+            input_alarms(study, &records).chain(of_earthquakes).chain(curve_alarms).chain(of_ends).collect(),
+        ),
         notes,
         would_replace: false,
     };
@@ -115,7 +117,7 @@ fn seconds_of_sites(study: &UniformRiskStudy, set: &RecordSet, list: Option<&Sit
 }
 
 /// The alarms of the study and its records.
-fn of_inputs(study: &UniformRiskStudy, set: &RecordSet) -> impl Iterator<Item = Alarm> {
+fn input_alarms(study: &UniformRiskStudy, set: &RecordSet) -> impl Iterator<Item = Alarm> {
     let of_records = if let Some(at_level) = &set.at_level {
         let first = study.measures.first();
         first.and_then(|plan| at_level.far_factors(&set.records, plan)).map(far_factors_alarm)
@@ -127,7 +129,7 @@ fn of_inputs(study: &UniformRiskStudy, set: &RecordSet) -> impl Iterator<Item = 
 }
 
 /// Curves that are probably mistaken: by themselves, among each other, or by what the records bring.
-fn of_curves(
+fn curve_alarms(
     study: &UniformRiskStudy,
     (hazard, other_hazard): (&[Vec<SiteHazard>], &[OtherHazard]),
     consistency: &ConsistencyReport,
@@ -158,7 +160,7 @@ pub(super) fn tell_mistaken_curves(
     events: &dyn Events,
 ) -> Result<(), StudiesError> {
     let consistency = Answer::from_plan(study, records, (hazard, other_hazard), false)?.report(&[]);
-    for alarm in of_curves(study, (hazard, other_hazard), &consistency) {
+    for alarm in curve_alarms(study, (hazard, other_hazard), &consistency) {
         events.note(&format!("{} {alarm}: {}", alarm.severity.word(), alarm.what_to_do));
     }
     Ok(())

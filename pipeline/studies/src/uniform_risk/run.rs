@@ -82,7 +82,7 @@ pub fn run(
     }
     let mut provenance = Provenance::new(place.options, input_checksums(records, &hazard, &other_hazard));
     provenance.input_checksums.extend(site_list.iter().flat_map(|list| list.checksums.clone()));
-    let mut provenance = provenance.of_result(path, &study.to_toml()?);
+    let mut provenance = provenance.with_result(path, &study.to_toml()?);
     let line = provenance.line(&study.title, &records.description);
     let mut sites = match &site_list {
         None => SiteOutput::default(),

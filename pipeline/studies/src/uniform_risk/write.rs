@@ -8,7 +8,7 @@ use uplift_inputs::at_level::AtLevel;
 use uplift_inputs::{DrawnStructure, Record, motion_keys};
 use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::{Combination, IntensityMeasure};
-use uplift_result::declared::of_measure;
+use uplift_result::declared::measure_names;
 use uplift_result::layout::attribute::root;
 use uplift_result::layout::{attribute, axis};
 use uplift_result::{
@@ -108,30 +108,30 @@ fn write_records(
 
 /// What a result holds of the records.
 fn stored_records(records: &[Record]) -> StoredRecords {
-    fn of<V>(records: &[Record], value: impl Fn(&Record) -> V) -> Vec<V> {
+    fn each<V>(records: &[Record], value: impl Fn(&Record) -> V) -> Vec<V> {
         records.iter().map(value).collect()
     }
-    let number = |key| of(records, |record| record.number(key));
-    let text = |key| of(records, |record| record.metadata.get(key).cloned().unwrap_or_default());
-    let duration = |from, to| of(records, |record| record.accelerogram.significant_duration_s(from, to));
+    let number = |key| each(records, |record| record.number(key));
+    let text = |key| each(records, |record| record.metadata.get(key).cloned().unwrap_or_default());
+    let duration = |from, to| each(records, |record| record.accelerogram.significant_duration_s(from, to));
     let further = records.first().into_iter().flat_map(|record| record.further.keys().copied());
     StoredRecords {
-        ids: of(records, |record| record.id.clone()),
+        ids: each(records, |record| record.id.clone()),
         event: text("event"),
         station: text("station"),
         magnitude: number("magnitude"),
         rrup_km: number("rrup_km"),
         vs30: number("vs30"),
-        component: of(records, |record| record.direction.to_string()),
+        component: each(records, |record| record.direction.to_string()),
         motion_sha256: motion_keys(records),
-        checksum: of(records, |record| record.checksum.clone()),
-        pga_g: of(records, |record| record.pga_g),
-        pgv_cm_s: of(records, |record| record.pgv_cm_s),
-        further: further.map(|own| (own, of(records, |record| record.intensity(own)))).collect(),
+        checksum: each(records, |record| record.checksum.clone()),
+        pga_g: each(records, |record| record.pga_g),
+        pgv_cm_s: each(records, |record| record.pgv_cm_s),
+        further: further.map(|own| (own, each(records, |record| record.intensity(own)))).collect(),
         duration_5_75_s: duration(0.05, 0.75),
         duration_5_95_s: duration(0.05, 0.95),
-        dt_s: of(records, |record| record.accelerogram.dt_s()),
-        samples: of(records, |record| u32::try_from(record.accelerogram.len()).unwrap_or(u32::MAX)),
+        dt_s: each(records, |record| record.accelerogram.dt_s()),
+        samples: each(records, |record| u32::try_from(record.accelerogram.len()).unwrap_or(u32::MAX)),
     }
 }
 
@@ -157,7 +157,7 @@ fn write_measure(
     let (stripes, measure) = (&outcome.stripes[index], stored.measure);
     let not_of_level =
         if stripes.at_level.is_some() { ", NaN where the record does not belong to the level" } else { "" };
-    let names = [of_measure(measure)[0], ("<not_of_level>", not_of_level)];
+    let names = [measure_names(measure)[0], ("<not_of_level>", not_of_level)];
     PEAKS.write_array(writer, &names, stripes.peaks.displacement_m())?;
     IMPACTS.write_array(writer, &names, stripes.peaks.impacts())?;
     if let Some(AtLevel { factors, shares, .. }) = &stripes.at_level {

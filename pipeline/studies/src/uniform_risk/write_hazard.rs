@@ -16,10 +16,10 @@ pub(super) fn write_hazard(writer: &mut LabelledWriter, hazard: &[Vec<SiteHazard
     for site in hazard.iter().flatten() {
         let label = site.measure.label();
         let axis = axis::hazard(&site.site, site.measure, &mut axes);
-        write_curve(writer, of_input(&site.curve), &curve_name(&site.site, site.measure), &axis, label)?;
+        write_curve(writer, curve_and_file(&site.curve), &curve_name(&site.site, site.measure), &axis, label)?;
         for (index, branch) in site.branches.iter().enumerate() {
             let name = branch_curve_name(&site.site, site.measure, index);
-            write_curve(writer, of_input(&branch.input), &name, &format!("{axis}_{}", index + 1), label)?;
+            write_curve(writer, curve_and_file(&branch.input), &name, &format!("{axis}_{}", index + 1), label)?;
             attribute::NAME.write(writer, &[("<curve>", &name)], branch.name.as_str())?;
             attribute::WEIGHT.write(writer, &[("<curve>", &name)], branch.weight)?;
         }
@@ -56,6 +56,6 @@ fn write_curve(
     attribute::UNIT.write(writer, &names, curve.unit())
 }
 
-fn of_input(input: &HazardInput) -> (&HazardCurve, Option<&Path>) {
+fn curve_and_file(input: &HazardInput) -> (&HazardCurve, Option<&Path>) {
     (&input.curve, input.file.as_deref())
 }

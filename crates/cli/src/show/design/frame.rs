@@ -109,7 +109,7 @@ pub(super) fn print_verdicts(
             dash(),
         ]);
     }
-    let table = Table::of(&rows)
+    let table = Table::from_rows(&rows)
         .left("model", |row| &row[0])
         .right("demand, m", |row| &row[1])
         .right("requires, m", |row| &row[2])

@@ -16,7 +16,7 @@ pub(super) fn print_columns(out: &mut impl Write, report: &ColumnsTable) -> Resu
         let held = row.stiffness_n_m.map(|stiffness| format!("linear, {:.0} kN/m", 1e-3 * stiffness));
         row.source.iter().cloned().chain(held).collect::<Vec<String>>().join("; ")
     };
-    let table = Table::of(&report.rows)
+    let table = Table::from_rows(&report.rows)
         .left("quantity", |row| &row.quantity)
         .right("ours", |row| or_none("none", row.value))
         .when(report.compared, |table| {

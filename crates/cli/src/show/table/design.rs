@@ -24,7 +24,7 @@ pub(super) fn print_design(out: &mut impl Write, report: &DesignTable) -> Result
         };
         writeln!(out, "\n{}{rule}, FS = {}", first.record_set, report.safety_factor)?;
         // the ways of scaling one value stand together
-        let table = Table::of(of_table.chunks(by.len()))
+        let table = Table::from_rows(of_table.chunks(by.len()))
             .left("quantity", |values| &values[0].row.quantity)
             .right("scaling", |values| &values[0].row.scaling)
             .each(by.iter().enumerate(), |table, (way, by)| {

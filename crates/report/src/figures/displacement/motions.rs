@@ -27,7 +27,7 @@ pub(super) fn motions(source: &DisplacementSource<'_>) -> Result<Vec<Figure>, Up
                 let series = lines
                     .iter()
                     .map(|line| {
-                        let ordinates_m = motions.of_motion_m(place, line.position, motion);
+                        let ordinates_m = motions.motion_displacements_m(place, line.position, motion);
                         source.line_beyond_overturning(line, ordinates_m)
                     })
                     .collect();

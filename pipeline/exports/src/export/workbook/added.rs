@@ -6,7 +6,7 @@ use uplift_result::{EFFICIENCY, TRENDS};
 
 use super::sheet::{Sheet, Shown};
 use super::spectra::{head_of, over_strengths};
-use super::tables::{OF, of_headings};
+use super::tables::{OF, subject_headings};
 use crate::export::Export;
 use crate::export::added::SHARES;
 
@@ -14,7 +14,7 @@ impl Export {
     /// The records of every spectrum, the most influential first: how it changes without them.
     pub(super) fn influence_sheet(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
         let headings = CHANGES.iter().map(|(_, heading, _)| *heading);
-        of_headings(sheet, &std::iter::once("record left out").chain(headings).collect::<Vec<_>>())?;
+        subject_headings(sheet, &std::iter::once("record left out").chain(headings).collect::<Vec<_>>())?;
         // a record without which the structure overturns has no largest change
         let shown = [(Shown::OneDecimal, ""), (Shown::OneDecimal, "overturns"), (Shown::FourDecimals, "")];
         let mut line = 1;

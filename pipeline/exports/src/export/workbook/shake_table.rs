@@ -70,7 +70,8 @@ impl TestsExport {
             sheet.heading((0, OF.len() + column), &name, true)?;
         }
         let (table, order) = (&self.table, self.table.order());
-        let tests = (0..table.levels.len()).flat_map(|level| table.of_level(level).map(move |test| (level, test)));
+        let tests =
+            (0..table.levels.len()).flat_map(|level| table.tests_at_level(level).map(move |test| (level, test)));
         for (index, (level, (excitation, _))) in tests.enumerate() {
             let line = index + 1;
             sheet.number((line, 0), f64::from(order[index]), Shown::Whole, "")?;

@@ -59,7 +59,7 @@ impl Formats {
         }
     }
 
-    fn of(&self, shown: Shown) -> &Format {
+    fn format(&self, shown: Shown) -> &Format {
         let index = SHOWN.iter().position(|(way, _)| *way == shown).unwrap_or_default();
         &self.numbers[index]
     }
@@ -107,7 +107,7 @@ impl<'a> Sheet<'a> {
     ) -> Result<(), XlsxError> {
         let (row, column) = place(at)?;
         if value.is_finite() {
-            self.sheet.write_number_with_format(row, column, value, self.formats.of(shown))?;
+            self.sheet.write_number_with_format(row, column, value, self.formats.format(shown))?;
         } else if value.is_infinite() {
             self.sheet.write_string_with_format(row, column, infinite, &self.formats.word)?;
         }

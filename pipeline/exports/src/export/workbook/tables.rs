@@ -22,7 +22,7 @@ impl Export {
         sheet: &mut Sheet<'_>,
         fit: impl Fn(&Row<'_>) -> Option<Fit>,
     ) -> Result<(), XlsxError> {
-        of_headings(sheet, &regression::GROUP.exported().map(Quantity::heading).collect::<Vec<_>>())?;
+        subject_headings(sheet, &regression::GROUP.exported().map(Quantity::heading).collect::<Vec<_>>())?;
         let fitted = self.rows().filter_map(|row| fit(&row).map(|fit| (row, fit)));
         for (index, (row, fit)) in fitted.enumerate() {
             let line = index + 1;
@@ -42,7 +42,7 @@ impl Export {
     pub(super) fn band_figures(&self, sheet: &mut Sheet<'_>) -> Result<(), XlsxError> {
         let figures = BANDS.exported().map(Quantity::heading);
         let headings: Vec<_> = ["records in a sample"].into_iter().chain(figures).chain(["weights"]).collect();
-        of_headings(sheet, &headings)?;
+        subject_headings(sheet, &headings)?;
         let mut line = 1;
         for row in self.rows() {
             for (kind, band) in self.all_bands_of(&row) {
@@ -88,7 +88,7 @@ impl Export {
 }
 
 /// The headings of what a line is of, and of `more`.
-pub(super) fn of_headings(sheet: &mut Sheet<'_>, more: &[&str]) -> Result<(), XlsxError> {
+pub(super) fn subject_headings(sheet: &mut Sheet<'_>, more: &[&str]) -> Result<(), XlsxError> {
     let names: [&str; OF] = ["site", "measure", "probability", "in years", "return period, years"];
     for (column, name) in names.iter().chain(more).enumerate() {
         sheet.heading((0, column), name, true)?;
