@@ -85,7 +85,7 @@ fn print_table(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), C
     let table = Table::from_rows(&report.rows)
         .left("site", |row| &row.site)
         .left("scaled to", |row| row.scaled_to)
-        .right("times the site's level", |row| {
+        .right("times site's level", |row| {
             let at_one_rate = decisive(row).filter(|_| !is_repaired);
             let at_one_rate = at_one_rate.map_or_else(String::new, |most| format!(" (worst rate: {most:.2} off)"));
             format!("{} {}{at_one_rate}", row.shows, number(row.bias, 2))
