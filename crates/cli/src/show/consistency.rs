@@ -34,7 +34,7 @@ pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal)
 /// by what factor they miss it at the worst site.
 fn answer(report: &ConsistencyReport) -> String {
     if report.rows.iter().any(|row| row.repair.is_some()) {
-        let repaired = report.rows.iter().filter(is_repaired).count();
+        let repaired = report.rows.iter().filter(|row| is_repaired(row)).count();
         let why = if repaired == 0 { " (no weights match both hazard curves)" } else { "" };
         return format!("{repaired} of {} spectra repaired{why}", report.rows.len());
     }
@@ -118,14 +118,14 @@ fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(),
 }
 
 /// Whether weights repair the records of a row.
-fn is_repaired(row: &&ConsistencyRow) -> bool {
+fn is_repaired(row: &ConsistencyRow) -> bool {
     row.repair.as_ref().is_some_and(|repair| repair.failed.is_none())
 }
 
 /// What to type behind or below the answer.
 fn remedy(report: &ConsistencyReport) -> Option<String> {
     let result = typed_path(report.result.as_ref()?);
-    if let Some(repaired) = report.rows.iter().find(is_repaired) {
+    if let Some(repaired) = report.rows.iter().find(|row| is_repaired(row)) {
         // without a word spectra are by the first measure
         let is_first = report.rows.first().is_some_and(|first| first.scaled_to == repaired.scaled_to);
         let measure = if is_first { String::new() } else { format!(" --measure {}", repaired.scaled_to) };

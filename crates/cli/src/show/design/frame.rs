@@ -43,16 +43,7 @@ pub(super) fn print_verdicts(
         _ => "no capacity, the force does not fall".to_owned(),
     };
     writeln!(out, "Verdict   {name} by {by}: {answer}")?;
-    let of_proxy = report.verdict_on_proxy().map(|verdict| format!("proxy by {by}: {verdict}"));
-    let how_far = match report.frame_over_proxy() {
-        Some(ratio) => Some(format!("the frame moves {ratio:.1} times as far as its proxy")),
-        None if wobbling.demand_m.is_infinite() => None,
-        None => Some("the proxy has no demand to compare with".to_owned()),
-    };
-    let second: Vec<String> = of_proxy.into_iter().chain(how_far).collect();
-    if !second.is_empty() {
-        writeln!(out, "          {}", second.join("; "))?;
-    }
+    print_proxy(out, report, wobbling.demand_m)?;
     for (im, verdict) in report.verdicts_by_other_measures() {
         writeln!(out, "          {verdict}; frame not computed: {}", measure_option(im))?;
     }
@@ -121,6 +112,22 @@ pub(super) fn print_verdicts(
     writeln!(out, "{table}")?;
     print_by_earthquake(out, &table)?;
     print_mark(out, report)
+}
+
+/// The verdict on the proxy, and how far the frame, whose demand is `demand_m`, moves beside it.
+fn print_proxy(out: &mut impl Write, report: &DesignReport, demand_m: f64) -> Result<(), CommandError> {
+    let by = report.spectrum_words();
+    let of_proxy = report.verdict_on_proxy().map(|verdict| format!("proxy by {by}: {verdict}"));
+    let how_far = match report.frame_over_proxy() {
+        Some(ratio) => Some(format!("the frame moves {ratio:.1} times as far as its proxy")),
+        None if demand_m.is_infinite() => None,
+        None => Some("the proxy has no demand to compare with".to_owned()),
+    };
+    let second: Vec<String> = of_proxy.into_iter().chain(how_far).collect();
+    if !second.is_empty() {
+        writeln!(out, "          {}", second.join("; "))?;
+    }
+    Ok(())
 }
 
 /// The command that makes the spectrum of the structure's own oscillator, where the result has another: the run of the
