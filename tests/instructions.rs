@@ -31,7 +31,7 @@ fn bits(path: &Path) -> Vec<(String, Vec<u64>)> {
     let reader = LabelledReader::open(path).unwrap();
     let names = ["ida/@/edp_m", "ida/@/impacts", "risk/@/maf_per_year", "urs/@/u_m", "urs/@/lower_tail_share"];
     let of_measure = |measure: &str| names.map(|name| format!("/{}", name.replace('@', measure)));
-    let paths = ["pgv", "pga"].iter().flat_map(|measure| measure_names(measure));
+    let paths = ["pgv", "pga"].iter().flat_map(|measure| of_measure(measure));
     let array = |path: String| {
         let values = if path.ends_with("impacts") {
             reader.array::<u32>(&path).unwrap().values.into_iter().map(u64::from).collect()

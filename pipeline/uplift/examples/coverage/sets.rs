@@ -81,9 +81,8 @@ impl Population {
                 };
                 for (position, &size) in sizes.iter().enumerate() {
                     let samples = &plan.samples()[position * sets..(position + 1) * sets];
-                    let one = |(number, sample): (usize, &RecordSample)| {
-                        place.place_of_set(&analysis, (number, size), sample)
-                    };
+                    let one =
+                        |(number, sample): (usize, &RecordSample)| place.of_set(&analysis, (number, size), sample);
                     for tallies in samples.par_iter().enumerate().map(one).collect::<Result<Vec<_>, Failed>>()? {
                         for (key, tally) in tallies {
                             all.entry(key).or_default().join(tally);
