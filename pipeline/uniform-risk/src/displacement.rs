@@ -106,8 +106,8 @@ pub struct DisplacementReport {
     pub displacements: Vec<Displacement>,
 }
 
-/// Reads displacements off the result `file`, which is [`at`](crate::at) the risks asked for, linear between its
-/// strengths.
+/// Reads displacements off the result `file`, which is at the risks asked for
+/// ([`at_target_risks`](crate::at_target_risks)), linear between its strengths.
 ///
 /// The band is that of [`truth_limits`] over [`QuotedUnits`], the same as `truth` in `/bootstrap`.
 ///
