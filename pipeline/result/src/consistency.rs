@@ -9,7 +9,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_risk::Ordinate;
 
 use super::declared::{Group, Quantity, group, measure_names};
-use super::extend::sign;
+use super::layout::attribute::sign;
 use super::layout::axis::{self, KNOT, POE, RATE, RECORD, SITE, STRENGTH, STRIPE_LEVEL};
 use super::spectra::{Fit, Fits, regression};
 use super::spread::BranchSpectra;

@@ -9,7 +9,6 @@ use uplift_job::lock::ResultLock;
 use uplift_labelled::{LabelledError, LabelledReader, LabelledWriter};
 
 use super::ResultFile;
-use super::layout::attribute::signature;
 use crate::error::ResultError;
 
 /// A result that is being added to: nobody else writes to it meanwhile, from before its numbers are read until what is
@@ -72,15 +71,3 @@ impl LockedResult {
 
 /// How long another that adds to the same result is waited for.
 const LONGEST_WAIT: Duration = Duration::from_secs(60);
-
-/// Note on the group `group` what made it, and when.
-///
-/// # Errors
-/// A file that cannot be written.
-pub fn sign(writer: &mut LabelledWriter, group: &str) -> Result<(), LabelledError> {
-    writer.group(group)?;
-    let names = [("<group>", group)];
-    signature::CREATED.write(writer, &names, uplift_job::now())?;
-    signature::VERSION.write(writer, &names, uplift_job::VERSION)?;
-    signature::COMMIT.write(writer, &names, uplift_job::COMMIT)
-}

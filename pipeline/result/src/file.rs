@@ -4,10 +4,12 @@ use std::ops::Deref;
 use std::path::Path;
 
 use uplift_job::outputs::{SITE_ARRAYS, SITE_SPECTRA, beside};
+use uplift_motion::IntensityMeasure;
 
 use super::bands::StoredBands;
 use super::consistency::StoredConsistency;
 use super::spectra::StoredSpectra;
+use super::spread::StoredSpread;
 use super::stored_result::{RiskAxes, StoredResult};
 use crate::error::ResultError;
 
@@ -140,6 +142,32 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn bands(&self) -> Result<Option<StoredBands>, ResultError> {
         self.asked.as_ref().map_or_else(|| self.stored_bands(), |asked| Ok(asked.bands.clone()))
+    }
+
+    /// The spectra by each of the weighted hazard curves of a site ([`StoredResult::stored_branch_spectra`]); none of a
+    /// result that was asked for other risks than those of its study.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn branch_spectra(
+        &self,
+        measure: IntensityMeasure,
+        site: &str,
+        poe: usize,
+    ) -> Result<Vec<(f64, Vec<f64>)>, ResultError> {
+        if self.is_asked() {
+            return Ok(Vec::new());
+        }
+        self.stored_branch_spectra(&self.axes_with_sites()?, (measure, site), poe)
+    }
+
+    /// Every spread that the result has ([`StoredResult::stored_spreads`]); none of a result that was asked for other
+    /// risks than those of its study.
+    ///
+    /// # Errors
+    /// A file that is damaged, or of another kind.
+    pub fn spreads(&self) -> Result<Vec<StoredSpread>, ResultError> {
+        if self.is_asked() { Ok(Vec::new()) } else { self.stored_spreads(&self.axes_with_sites()?) }
     }
 
     /// The same result with other spectra: axes, spectra and coefficients are from now on of these.

@@ -54,7 +54,7 @@ pub use displacements::{
 pub use efficiency::{EFFICIENCY, EFFICIENCY_OF_STRIPES, TRENDS};
 pub use efficiency::{StoredEfficiency, StoredTrend};
 pub use error::ResultError;
-pub use extend::{LockedResult, sign};
+pub use extend::LockedResult;
 pub use file::ResultFile;
 pub use findings::{FINDINGS, Finding, FindingRow, Inquiry, StoredFinding};
 pub use hazard::{HAZARD_CURVE, branch_curve_name, curve_name};
@@ -62,6 +62,7 @@ pub use hazard::{StoredBranch, StoredCurves, StoredHazard};
 pub use head::{Head, Overview};
 pub use influence::{DISAGGREGATION, DISAGGREGATION_REPAIRED, INFLUENCE, INFLUENCE_REPAIRED, StoredInfluence};
 pub use kept_groups::KeptGroups;
+pub use layout::attribute::sign;
 pub use peaks::{FACTORS, IMPACTS, PEAKS, RISK_SURFACE, SHARES};
 pub use peaks::{SetsOfLevels, StoredPeaks};
 pub use provenance::Provenance;

@@ -5,8 +5,8 @@ use uplift_labelled::{LabelledError, LabelledWriter};
 use uplift_motion::IntensityMeasure;
 
 use super::declared::{Group, group, measure_names};
-use super::file::ResultFile;
 use super::layout::axis::{BRANCH, POE, STRENGTH, STRUCTURE};
+use super::stored_result::{RiskAxes, StoredResult};
 use crate::error::ResultError;
 
 /// Fractiles of the spectra over the branches.
@@ -205,24 +205,22 @@ impl StoredSpread {
     }
 }
 
-impl ResultFile {
+impl StoredResult {
     /// The spectrum of a probability of the study, by its position, by each of the weighted hazard curves of a site:
-    /// its weight of 1, and ordinates over the strengths, m. None of a site with one curve, and of a result that was
-    /// asked for other risks.
+    /// its weight of 1, and ordinates over the strengths of `axes`, m. None of a site with one curve.
     ///
     /// # Errors
     /// A file that is damaged, or of another kind.
-    pub fn branch_spectra(
+    pub fn stored_branch_spectra(
         &self,
-        measure: IntensityMeasure,
-        site: &str,
+        axes: &RiskAxes,
+        (measure, site): (IntensityMeasure, &str),
         poe: usize,
     ) -> Result<Vec<(f64, Vec<f64>)>, ResultError> {
         let names = [measure_names(measure)[0], ("<site>", site)];
-        if self.is_asked() || !EPISTEMIC_SPECTRA.is_in(self, &names) {
+        if !EPISTEMIC_SPECTRA.is_in(self, &names) {
             return Ok(Vec::new());
         }
-        let axes = self.axes_with_sites()?;
         let (poes, strengths) = (axes.poes.len(), axes.strengths.len());
         let weights = self.reader.array::<f64>(&BRANCH_WEIGHTS.first_path(&names))?.values;
         let path = EPISTEMIC_SPECTRA.first_path(&names);
@@ -237,16 +235,11 @@ impl ResultFile {
         Ok(weights.iter().zip(spectra_m.chunks_exact(poes * strengths)).map(of_curve).collect())
     }
 
-    /// Every spread that the result has, by measure, then what it is over, then site; none of a result that was asked
-    /// for other risks than those of its study.
+    /// Every spread that the result has, by measure, then what it is over, then site.
     ///
     /// # Errors
     /// A file that is damaged, or of another kind.
-    pub fn spreads(&self) -> Result<Vec<StoredSpread>, ResultError> {
-        if self.is_asked() {
-            return Ok(Vec::new());
-        }
-        let axes = self.axes_with_sites()?;
+    pub fn stored_spreads(&self, axes: &RiskAxes) -> Result<Vec<StoredSpread>, ResultError> {
         let (poes, strengths) = (axes.poes.len(), axes.strengths.len());
         let nan = || Array::from_fn([poes, strengths], |_| f64::NAN);
         let mut spreads = Vec::new();

@@ -24,12 +24,13 @@ mod reweighing;
 pub use answer::Answer;
 pub(crate) use answer::consistency_at_target_risks;
 pub use branches::BranchFindings;
-pub use earthquakes::{EarthquakeRow, disaggregated, earthquakes};
+pub use earthquakes::{disaggregated, earthquakes};
 pub use finding::Finding;
 pub use question::Question;
 pub use repairs::{Repairs, least_effective};
 pub use report::{
-    AgreementRow, ConsistencyReport, ConsistencyRow, MissRow, NearestRow, RepairRow, TargetRow, TwoSidedRow,
+    AgreementRow, ConsistencyReport, ConsistencyRow, EarthquakeRow, MissRow, NearestRow, RepairRow, TargetRow,
+    TwoSidedRow,
 };
 pub use reweighing::{RepairedAnalysis, Reweighed, ReweighedBranch, Reweighing};
 pub use uplift_consistency::Verdict;

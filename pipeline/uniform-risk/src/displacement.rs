@@ -19,6 +19,7 @@ use uplift_study::Oscillator;
 
 use crate::consistency::{Question, Reweighing};
 use crate::error::UniformRiskError;
+use crate::precision::SHOWN_STRENGTHS;
 use crate::quoted::{BandOf, QuotedUnits};
 use crate::stored_stripes::{StoredMeasure, poe_index, stored_measure};
 use crate::target_risks::TargetRisks;
@@ -27,9 +28,6 @@ pub use uplift_bootstrap::QUOTED_CONFIDENCE as CONFIDENCE;
 
 /// The names of the limits of that band, m, in tables and exports.
 pub const QUOTED_LIMITS: [&str; 2] = [SITE_BANDS.quantities[0].name, SITE_BANDS.quantities[1].name];
-/// The strengths that are shown where none are asked for, or the nearest that a result has.
-pub(crate) const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
-
 /// What displacements are asked for.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 pub struct DisplacementOptions {

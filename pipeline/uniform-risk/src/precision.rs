@@ -4,7 +4,7 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use uplift_bootstrap::{truth_limits, units};
+use uplift_bootstrap::{QUOTED_CONFIDENCE, truth_limits, units};
 use uplift_fragility::quantile;
 use uplift_job::text::{nearest, per_cent, risk_in_words};
 use uplift_motion::IntensityMeasure;
@@ -12,9 +12,10 @@ use uplift_risk::{PooledDemand, RiskCurve, RiskError, StripeWeights};
 use uplift_study::UniformRiskStudy;
 
 use crate::consistency::Question;
-use crate::displacement::{CONFIDENCE, SHOWN_STRENGTHS};
 use crate::error::UniformRiskError;
 
+/// The strengths that are shown where none are asked for, or the nearest that a result has.
+pub(crate) const SHOWN_STRENGTHS: [f64; 3] = [0.1, 0.2, 0.4];
 /// Bands shrink as one over the root of the records (Section 4.5.1): half as wide takes so many times as many.
 const TIMES_FOR_HALF: usize = 4;
 
@@ -74,7 +75,7 @@ pub fn precision(
     let widths = |units: &[Vec<usize>]| -> Result<Vec<Option<f64>>, UniformRiskError> {
         let of_site = |demand: &PooledDemand, weights: &StripeWeights| -> Result<Option<f64>, RiskError> {
             let ordinate = RiskCurve::new(demand, weights)?.exact_ordinate(target)?;
-            let limits_m = truth_limits(demand, weights, units, &[target], CONFIDENCE)?;
+            let limits_m = truth_limits(demand, weights, units, &[target], QUOTED_CONFIDENCE)?;
             Ok(limits_m.first().and_then(|limits_m| half_width(ordinate.displacement_m, *limits_m)))
         };
         let mut all = Vec::new();
@@ -139,7 +140,7 @@ impl Precision {
             "{} records{events}: half-width of the {} band, {} by {}, ±{middle} % ({least} to {most} by site and \
              strength){by_event}; {} records would halve it",
             self.records,
-            per_cent(CONFIDENCE),
+            per_cent(QUOTED_CONFIDENCE),
             risk_in_words(self.poe, self.years),
             self.im,
             self.records_for_half

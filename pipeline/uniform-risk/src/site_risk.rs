@@ -1,7 +1,7 @@
 //! Spectra and coefficients of many sites, one after the other: what they share is made once.
 
 use rayon::prelude::*;
-use uplift_bootstrap::truth_limits;
+use uplift_bootstrap::{QUOTED_CONFIDENCE, truth_limits};
 use uplift_job::Array;
 use uplift_regression::ExponentialFit;
 use uplift_result::{FRACTILES, SiteSpread, Spread};
@@ -9,7 +9,6 @@ use uplift_risk::{Ordinate, PooledDemand, RiskCurve, RiskError, SiteWeights, Str
 use uplift_study::UniformRiskStudy;
 
 use crate::coefficients::fit_spectrum;
-use crate::displacement::CONFIDENCE;
 use crate::epistemic::spread;
 use crate::error::UniformRiskError;
 use crate::spectra::{Reading, pooled_demand};
@@ -109,7 +108,7 @@ impl<'a> SiteRisk<'a> {
         let mut limits_by_strength = Vec::new();
         if let Some(Bands { units, strengths }) = &self.bands {
             let of = |&strength: &usize| {
-                truth_limits(&self.demands[strength], weights, units, &self.reading.targets, CONFIDENCE)
+                truth_limits(&self.demands[strength], weights, units, &self.reading.targets, QUOTED_CONFIDENCE)
             };
             limits_by_strength = strengths.iter().map(of).collect::<Result<_, _>>()?;
         }

@@ -174,3 +174,15 @@ impl<V: Value + Into<AttributeValue>> Attribute<V> {
         reader.attribute(&named(self.group, names), self.name)
     }
 }
+
+/// Note on the group `group` what made it, and when.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn sign(writer: &mut LabelledWriter, group: &str) -> Result<(), LabelledError> {
+    writer.group(group)?;
+    let names = [("<group>", group)];
+    signature::CREATED.write(writer, &names, uplift_job::now())?;
+    signature::VERSION.write(writer, &names, uplift_job::VERSION)?;
+    signature::COMMIT.write(writer, &names, uplift_job::COMMIT)
+}

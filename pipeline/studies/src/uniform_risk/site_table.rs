@@ -1,6 +1,5 @@
 //! The part of `uplift run` that many sites take: read before the analyses, computed and written after them.
 
-mod consistent;
 mod cube;
 mod files;
 mod layout;

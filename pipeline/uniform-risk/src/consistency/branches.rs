@@ -1,16 +1,11 @@
 //! Weighted hazard curves of a site: each branch of one measure is repaired by that of the other, where both measures
 //! have the same branches.
 
-use std::collections::BTreeMap;
-
 use uplift_motion::IntensityMeasure;
 use uplift_result::StoredBranch;
 
 use super::{Finding, Question};
 use crate::error::UniformRiskError;
-
-/// The branches of every measure and site that has some.
-pub(super) type WeightedCurves = BTreeMap<(IntensityMeasure, usize), Vec<StoredBranch>>;
 
 /// The answers for the branches of a site and the measure that the records are scaled to, one each.
 #[derive(Debug, Clone)]

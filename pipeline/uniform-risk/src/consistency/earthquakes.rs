@@ -2,40 +2,16 @@
 
 use std::path::PathBuf;
 
-use serde::Serialize;
 use uplift_atomic_file::read_file;
 use uplift_hazard::{Disaggregation, MAX_JSON_BYTES, read_disaggregation};
 use uplift_job::JobError;
 
 use super::Question;
-use super::report::{ConsistencyRow, TargetRow};
+use super::report::{ConsistencyRow, EarthquakeRow, TargetRow};
 use crate::error::UniformRiskError;
 
 /// How far a rate of a disaggregation may lie from that of a probability of the result.
 const SAME_RATE: f64 = 0.01;
-
-/// Magnitude and distance at one probability: of the site's hazard, and medians of the records.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct EarthquakeRow {
-    /// The site.
-    pub site: String,
-    /// The measure, by which the hazard is disaggregated and records are scaled.
-    pub scaled_to: &'static str,
-    /// Probability of exceedance.
-    pub poe: f64,
-    /// Mean magnitude of the disaggregation.
-    pub mean_magnitude: f64,
-    /// Mean distance of the disaggregation, km.
-    pub mean_distance_km: f64,
-    /// Median magnitude of the records; none where it is not known.
-    pub magnitude: Option<f64>,
-    /// Median distance of the records, km; none where it is not known.
-    pub distance_km: Option<f64>,
-    /// Median magnitude of the records as they are weighed by a repair; none without one.
-    pub repaired_magnitude: Option<f64>,
-    /// Median distance of the records as they are weighed by a repair, km; none without one.
-    pub repaired_distance_km: Option<f64>,
-}
 
 /// Reads the tables of sites, `[file]` of (position of the site, its disaggregations).
 ///

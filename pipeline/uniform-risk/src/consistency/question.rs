@@ -10,8 +10,10 @@ use uplift_motion::IntensityMeasure;
 use uplift_result::{ResultFile, StoredBranch};
 use uplift_study::{Consistency, UniformRiskStudy};
 
-use super::branches::WeightedCurves;
 use crate::error::UniformRiskError;
+
+/// The branches of every measure and site that has some.
+type WeightedCurves = BTreeMap<(IntensityMeasure, usize), Vec<StoredBranch>>;
 
 #[derive(Debug, Clone)]
 pub(crate) struct UnscaledRecord {

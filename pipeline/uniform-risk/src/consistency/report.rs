@@ -8,7 +8,6 @@ use uplift_job::Array;
 use uplift_job::text::per_cent;
 use uplift_motion::IntensityMeasure;
 
-use super::earthquakes::EarthquakeRow;
 use super::{Finding, Question, Repairs};
 
 /// Displacements that agreement is looked at from, m: below it rocking has only just begun.
@@ -158,6 +157,29 @@ pub struct MissRow {
     pub times_as_often: f64,
     /// The site's level of the measure scaled to at the same rate.
     pub scaled_to_level: f64,
+}
+
+/// Magnitude and distance at one probability: of the site's hazard, and medians of the records.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EarthquakeRow {
+    /// The site.
+    pub site: String,
+    /// The measure, by which the hazard is disaggregated and records are scaled.
+    pub scaled_to: &'static str,
+    /// Probability of exceedance.
+    pub poe: f64,
+    /// Mean magnitude of the disaggregation.
+    pub mean_magnitude: f64,
+    /// Mean distance of the disaggregation, km.
+    pub mean_distance_km: f64,
+    /// Median magnitude of the records; none where it is not known.
+    pub magnitude: Option<f64>,
+    /// Median distance of the records, km; none where it is not known.
+    pub distance_km: Option<f64>,
+    /// Median magnitude of the records as they are weighed by a repair; none without one.
+    pub repaired_magnitude: Option<f64>,
+    /// Median distance of the records as they are weighed by a repair, km; none without one.
+    pub repaired_distance_km: Option<f64>,
 }
 
 impl NearestRow {

@@ -6,7 +6,7 @@ use uplift_job::{JobError, outputs};
 use uplift_result::{BandKind, Spectrum, urs};
 use uplift_studies::uniform_risk::spectra_table;
 
-use super::{SweepReport, VariantReport};
+use super::report::{SweepReport, VariantReport};
 use crate::error::UpliftError;
 
 /// The column by which a table of this program is known.

@@ -8,9 +8,10 @@ use uplift_job::text::distinct;
 use uplift_job::{JobError, text_table};
 use uplift_labelled::hexadecimal;
 
-use super::MOST_VARIANTS;
 use crate::error::UpliftError;
 
+/// Variants of one sweep: more are a study of their own.
+pub(super) const MOST_VARIANTS: usize = 1000;
 /// Longest name of a variant that is made of its values; longer ones are cut, and a hash of all tells them apart.
 const LONGEST_NAME: usize = 80;
 /// Largest table of cases.

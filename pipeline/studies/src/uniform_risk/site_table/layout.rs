@@ -7,11 +7,10 @@ use uplift_inputs::{ListedSite, SiteList};
 use uplift_job::table::neutral;
 use uplift_job::text::nearest;
 use uplift_result::layout::axis::STRENGTH;
-use uplift_result::{BandKind, SITE_FLAGS, regression};
+use uplift_result::{BandKind, SITE_CONSISTENCY, SITE_FLAGS, regression};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::SiteSpectra;
 
-use super::consistent;
 use super::cube::CubeRows;
 use super::repair::RepairedSite;
 use super::shape::{PROBLEM, Shape, SiteValues, SpectrumArray};
@@ -21,6 +20,8 @@ pub const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
 /// How the line of a site on the map begins.
 pub(super) const FEATURE: &str = "{\"type\":\"Feature\",";
 /// Columns of both tables that say what a spectrum is of.
+/// Position of the verdict, a text, among the numbers of [`SITE_CONSISTENCY`].
+const VERDICT: usize = 2;
 const OF_SPECTRUM: [&str; 6] = ["site", "longitude", "latitude", "im", "poe", "years"];
 /// Position of the flag among the ordinates of a table, numbers.
 const FLAG: usize = 1;
@@ -112,7 +113,7 @@ impl SiteTableLayout {
         columns.extend(Shape::fits(BandKind::PLAIN).map(|own| own.column()));
         columns.extend([regression::BOUND_ACTIVE.name, PROBLEM].map(str::to_owned));
         if self.shape.is_repaired {
-            columns.extend(consistent::columns());
+            columns.extend(repaired_columns());
         }
         columns.extend(distinct(carried, &mut columns.iter().cloned().collect()));
         columns
@@ -166,7 +167,7 @@ impl SiteTableLayout {
             let mut cells: Vec<String> = numbers.collect();
             cells.extend([fit.map_or_else(String::new, |fit| fit.bound_active.to_string()), cell(problem)]);
             if self.shape.is_repaired {
-                cells.extend(consistent::cells(values, at, self.shape.poes));
+                cells.extend(repaired_cells(values, at, self.shape.poes));
             }
             let _ = writeln!(text.coefficients, "{head},{}{tail}", cells.join(","));
             for (name, own, place) in &names.properties {
@@ -184,6 +185,26 @@ impl SiteTableLayout {
         );
         text
     }
+}
+
+/// The columns of coefficients that a repair adds.
+fn repaired_columns() -> Vec<String> {
+    let mut columns: Vec<String> = SITE_CONSISTENCY.quantities.iter().map(|own| own.name.to_owned()).collect();
+    columns.insert(VERDICT, "verdict".to_owned());
+    columns.extend(Shape::fits(BandKind::REPAIRED).map(|own| own.column()));
+    columns.push("no_repair".to_owned());
+    columns
+}
+
+/// The cells in them of the spectrum at a position among those of a site, which are of so many probabilities.
+fn repaired_cells(site: &SiteValues<'_>, at: usize, poes: usize) -> Vec<String> {
+    let consistency = site.consistency[at / poes];
+    let numbers = SITE_CONSISTENCY.quantities.iter().map(|own| number(own.number(consistency, 0)));
+    let mut cells: Vec<String> = numbers.collect();
+    cells.insert(VERDICT, consistency.verdict.to_owned());
+    cells.extend(Shape::fits(BandKind::REPAIRED).map(|own| number(own.value(site, at, 0))));
+    cells.push(cell(&site.no_repair[at]));
+    cells
 }
 
 /// A number of a table; nothing where it is not known.
