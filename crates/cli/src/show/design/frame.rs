@@ -27,31 +27,21 @@ pub(super) fn print_verdicts(
     let answer = match (wobbling.check, report.structure.capacity_m) {
         (Some(check), Some(capacity_m)) if check.required_capacity_m.is_finite() => {
             let (verdict, required_m) = (verdict(wobbling.model, check.satisfied), check.required_capacity_m);
-            // of the numbers as they are printed
-            let [has_cm, needs_cm] = [capacity_m, required_m].map(|of_m| (100.0 * of_m).round());
-            let margin_m = (has_cm - needs_cm) / 100.0;
-            let by_how_much = if margin_m < 0.0 { "short" } else { "to spare" };
-            format!(
-                "{verdict} by the {}: requires {required_m:.2} m, capacity {capacity_m:.2} m, {:.2} m {by_how_much}",
-                wobbling.model,
-                margin_m.abs()
-            )
+            format!("{verdict}: {} requires {required_m:.2} m, capacity {capacity_m:.2} m", wobbling.model)
         }
-        (Some(check), _) => {
-            format!("{}: the {} overturns more often than the target", verdict_word(check.satisfied), wobbling.model)
+        (Some(check), Some(capacity_m)) => {
+            let verdict = verdict_word(check.satisfied);
+            let model = wobbling.model;
+            format!("{verdict}: {model} overturns more often than the target, capacity {capacity_m:.2} m")
         }
         _ => "no capacity, the force does not fall".to_owned(),
     };
     writeln!(out, "Verdict   {name} by {by}: {answer}")?;
     print_proxy(out, report, wobbling.demand_m)?;
     for (im, verdict) in report.verdicts_by_other_measures() {
-        writeln!(out, "          {verdict}; frame not computed: {}", measure_option(im))?;
+        writeln!(out, "          {verdict}; frame: {}", measure_option(im))?;
     }
     print_own_spectrum(out, report)?;
-    if let Some(capacity_m) = report.structure.capacity_m {
-        let factor = report.required_safety_factor;
-        writeln!(out, "Capacity  {capacity_m:.2} m; safety factor {factor}")?;
-    }
     let dash = || "-".to_owned();
     let limit = frame.governing_limit();
     // where passing the limit tells how often the frame fails, that and not overturning
@@ -103,7 +93,7 @@ pub(super) fn print_verdicts(
     let table = Table::from_rows(&rows)
         .left("model", |row| &row[0])
         .right("demand, m", |row| &row[1])
-        .right("requires, m", |row| &row[2])
+        .right(format!("requires (×{}), m", report.required_safety_factor), |row| &row[2])
         .left("verdict", |row| &row[3])
         .right(format!("{}, 1/yr", limit.map_or_else(|| "overturns".to_owned(), |limit| limit.in_heading())), |row| {
             &row[4]
@@ -119,7 +109,7 @@ fn print_proxy(out: &mut impl Write, report: &DesignReport, demand_m: f64) -> Re
     let by = report.spectrum_words();
     let of_proxy = report.verdict_on_proxy().map(|verdict| format!("proxy by {by}: {verdict}"));
     let how_far = match report.frame_over_proxy() {
-        Some(ratio) => Some(format!("the frame moves {ratio:.1} times as far as its proxy")),
+        Some(ratio) => Some(format!("frame moves {ratio:.1} times as far")),
         None if demand_m.is_infinite() => None,
         None => Some("the proxy has no demand to compare with".to_owned()),
     };
@@ -147,10 +137,7 @@ pub(super) fn print_own_spectrum(out: &mut impl Write, report: &DesignReport) ->
     let name = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let own = result.with_file_name(format!("{}-{}.h5", name(result), name(&report.structure.file)));
     let (study, own) = (typed(study_file), typed_path(&own));
-    Ok(writeln!(
-        out,
-        "          spectrum of this structure's oscillator: uplift run {study}{kept} {settings} -o {own}"
-    )?)
+    Ok(writeln!(out, "          its own spectrum: uplift run {study}{kept} {settings} -o {own}")?)
 }
 
 /// A capacity that is required, m.
@@ -167,7 +154,7 @@ pub(super) fn rule_cell(rule: Rule) -> String {
 /// What the mark of [`rule_cell`] means, where it is.
 pub(super) fn print_mark(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
     if report.rules.iter().any(|outcome| outcome.rule == Rule::EqualEnergy && outcome.check().is_some()) {
-        writeln!(out, "‡ demand rises with the required capacity")?;
+        writeln!(out, "‡ demand rises with the capacity")?;
     }
     Ok(())
 }
