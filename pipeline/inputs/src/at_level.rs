@@ -180,7 +180,7 @@ impl Table {
     ///
     /// # Errors
     /// Records that are not there, levels that the study has not, and levels of the study without a record.
-    pub(super) fn of_records(
+    pub(super) fn select(
         &self,
         records: Vec<Record>,
         plan: &MeasurePlan,

@@ -121,7 +121,7 @@ pub(super) fn with_remedy(error: &HazardError, study: &UniformRiskStudy, site: &
 }
 
 /// The units that the numbers of `file` may be of instead of its own.
-fn of_file(file: &CurveFile, gravity_m_s2: f64) -> impl Iterator<Item = OtherUnit> {
+fn units_of_file(file: &CurveFile, gravity_m_s2: f64) -> impl Iterator<Item = OtherUnit> {
     let parts = [NumbersIn::PER_CENT_OF_G, NumbersIn::MM_PER_S];
     file.other_units().map(NumbersIn::Unit).chain(parts).filter_map(move |unit| {
         let too_large = unit.times_too_large_as(file.unit, gravity_m_s2)?;
@@ -172,7 +172,7 @@ pub(super) fn from_outside(
         let is_plausible = hardly_possible_if(curve, plan.measure, too_large).is_none();
         first / too_large <= least && most <= last / too_large && is_plausible
     };
-    let other = of_file(file, gravity_m_s2).find(covers)?;
+    let other = units_of_file(file, gravity_m_s2).find(covers)?;
     Some(format!(
         "are its numbers in {}? Then they cover the levels: {}. Read as {}, {fact}",
         other.unit.name(),
@@ -198,7 +198,7 @@ pub fn unit_that_explains(study: &UniformRiskStudy, site: &str, too_high: f64) -
     let [pgv, pga] = [IntensityMeasure::Pgv, IntensityMeasure::Pga].map(|measure| file_of(study, site, measure));
     let (pgv, pga) = (pgv?, pga?);
     let explains = |times: f64| is_near(too_high, times);
-    let others = |file| of_file(file, study.gravity_m_s2);
+    let others = |file| units_of_file(file, study.gravity_m_s2);
     let numbers = |file: &CurveFile, unit: NumbersIn| format!("of its {} in {}", file.measure.label(), unit.name());
     // what, and what to write then
     let mut explanations: Vec<(String, String)> = Vec::new();
@@ -254,7 +254,8 @@ pub fn units_that_make_possible(
 ) -> Option<String> {
     let file = file_of(study, site, measure)?;
     let is_possible = |other: &OtherUnit| hardly_possible_if(curve, measure, other.too_large).is_none();
-    let units: Vec<NumbersIn> = of_file(file, study.gravity_m_s2).filter(is_possible).map(|other| other.unit).collect();
+    let units: Vec<NumbersIn> =
+        units_of_file(file, study.gravity_m_s2).filter(is_possible).map(|other| other.unit).collect();
     match &units[..] {
         [] => None,
         [one] => Some(format!("are its numbers in {}? Then {}", one.name(), one.remedy(study, site, file))),
@@ -278,7 +279,7 @@ pub fn unit_of_branch(
 ) -> Option<String> {
     let file = file_of(study, site, measure)?;
     let explains = |of_unit: f64| is_near(too_large, of_unit);
-    let units = of_file(file, study.gravity_m_s2).filter_map(|other| {
+    let units = units_of_file(file, study.gravity_m_s2).filter_map(|other| {
         let whose = if explains(other.too_large) {
             "these numbers"
         } else if explains(1.0 / other.too_large) {

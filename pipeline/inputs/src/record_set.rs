@@ -150,7 +150,7 @@ fn read_set(
         (records, description) = shaking_structures(records, uncertainty, (study, description))?;
     }
     if let Some((table, plan)) = &table {
-        let (own, found, told) = table.of_records(records, plan).map_err(JobError::Inputs)?;
+        let (own, found, told) = table.select(records, plan).map_err(JobError::Inputs)?;
         records = own;
         notes.extend(told);
         let levels = plan.levels.len();

@@ -187,8 +187,9 @@ fn spectra_of(
             own.spread_m = risk.spread_m(&weighted, files.layout().in_table()).unwrap_or_default();
         }
     }
-    let repaired: Option<Vec<RepairedSite>> = repair
-        .map(|repair| risks.iter().enumerate().map(|(export, risk)| repair.of_site(export, risk, &curves)).collect());
+    let repaired: Option<Vec<RepairedSite>> = repair.map(|repair| {
+        risks.iter().enumerate().map(|(export, risk)| repair.repair_site(export, risk, &curves)).collect()
+    });
     let findings = SiteFindings {
         spectra: spectra
             .iter()

@@ -79,17 +79,17 @@ impl KnownRecords {
         match selected {
             SelectedName::Files(files) => {
                 let files: Vec<Vec<FileName>> = files.iter().map(|file| FileName::from_tool(file)).collect();
-                self.of_files(&files, component)
+                self.names_of_files(&files, component)
             }
-            SelectedName::SequenceNumber(rsn) => self.of_rows(component, |row, names| {
+            SelectedName::SequenceNumber(rsn) => self.names_of_rows(component, |row, names| {
                 names.iter().any(|name| name.rsn == Some(*rsn)) || sequence_number(&row.id) == Some(*rsn)
             }),
-            SelectedName::EventStation { event, station } => self.of_rows(component, |row, _| {
+            SelectedName::EventStation { event, station } => self.names_of_rows(component, |row, _| {
                 let said = |key: &str, word: &str| row.metadata.get(key).is_some_and(|said| said == word);
                 (said("event", event) && said("station_code", station))
                     || row.components.iter().all(|file| is_of(&file.path, event, station))
             }),
-            SelectedName::Name(name) => self.of_rows(component, |row, _| {
+            SelectedName::Name(name) => self.names_of_rows(component, |row, _| {
                 let of_surface = |path: &Path| {
                     let is_stem = path.file_stem().is_some_and(|stem| stem.eq_ignore_ascii_case(name));
                     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
@@ -100,7 +100,7 @@ impl KnownRecords {
         }
     }
 
-    fn of_rows(&self, component: SelectedComponent, is: impl Fn(&Row, &[FileName; 2]) -> bool) -> Vec<String> {
+    fn names_of_rows(&self, component: SelectedComponent, is: impl Fn(&Row, &[FileName; 2]) -> bool) -> Vec<String> {
         let found = self.rows.iter().zip(&self.names).filter(|(row, names)| is(row, names));
         let id = |(row, _): (&Row, _)| match component {
             SelectedComponent::Numbered(horizontal) => format!("{}:{horizontal}", row.id),
@@ -110,7 +110,7 @@ impl KnownRecords {
     }
 
     /// Records with these files, each by any of its names; a pair also where its files have other names and one number.
-    fn of_files(&self, files: &[Vec<FileName>], component: SelectedComponent) -> Vec<String> {
+    fn names_of_files(&self, files: &[Vec<FileName>], component: SelectedComponent) -> Vec<String> {
         let is_file = |names: &[FileName], own: &FileName| names.iter().any(|name| name.is(own));
         let mut found = Vec::new();
         for (row, names) in self.rows.iter().zip(&self.names) {

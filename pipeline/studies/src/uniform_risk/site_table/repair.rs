@@ -59,7 +59,12 @@ impl<'a> SiteRepair<'a> {
 
     /// The site with `curves` of [`SiteList::all_exports`], where the spectra of the export at `export` are those of
     /// `risk`.
-    pub fn of_site(&self, export: usize, risk: &SiteRisk<'_>, curves: &[Result<HazardCurve, String>]) -> RepairedSite {
+    pub fn repair_site(
+        &self,
+        export: usize,
+        risk: &SiteRisk<'_>,
+        curves: &[Result<HazardCurve, String>],
+    ) -> RepairedSite {
         let Some(scaled) = &self.sets[export] else {
             return RepairedSite::unknown(
                 "the table has an export of one measure alone: add that of another".to_owned(),
