@@ -504,8 +504,8 @@ fn measures_are_compared() {
     // PGV or PGA, that its records miss the site's hazard, and what to type
     let mut lines = text.lines();
     let first = lines.next().unwrap();
-    assert!(first.contains(" scatters least, but do not use it unrepaired: its records have "), "{text}");
-    assert_eq!(lines.next(), Some("See why: uplift consistency r.h5"), "{text}");
+    assert!(first.contains(" scatters least, but its records miss the site's hazard: "), "{text}");
+    assert_eq!(lines.next(), Some("Repair: uplift consistency r.h5 --repair"), "{text}");
     // marks are explained before they are used
     assert!(text.find("\n+ has no hazard curve").unwrap() < text.find("Best for ").unwrap(), "{text}");
     assert!(

@@ -375,7 +375,7 @@ fn differences_from_the_study_are_reported() {
     let settings = found["own_oscillator"].as_str().unwrap();
     // a command that can be pasted, and replaces nothing
     let command = format!("run study.toml {settings} -o r-other.h5");
-    assert!(said.contains(&format!("\n          its own spectrum: uplift {command}\n")), "{said}");
+    assert!(said.contains(&format!("\n          own oscillator's spectrum: uplift {command}\n")), "{said}");
     study.uplift(&command.split(' ').collect::<Vec<_>>()).ok();
     let own = ["design", "other.toml", "--urs", "r-other.h5", "--spectrum-only", "--json"];
     let own = study.uplift(&own).json();

@@ -98,6 +98,8 @@ fn an_import_names_the_option_for_the_unit() {
 fn a_mistyped_command_is_answered_with_the_nearest() {
     let study = SmallStudy::new();
     study.uplift(&["rn", "study.toml"]).fails(2, &["there is no command `rn`: did you mean `run`?"]);
+    // below a command of several, one of these
+    study.uplift(&["records", "mport"]).fails(2, &["did you mean `import`?"]);
     // a search names what it can vary
     study.uplift(&["target", "pier.toml", "--urs", "r.h5"]).fails(2, &["--vary <strength|size|width|capacity|tendon-"]);
 }

@@ -152,7 +152,7 @@ fn a_design_has_the_frame_beside_its_proxy() {
     assert!(rest.contains("\n‡ demand rises with the capacity\n") && !rest.contains('†'), "{rest}");
     let settings = design["own_oscillator"].as_str().unwrap();
     let command = format!("run study.toml {settings} -o r-free.h5");
-    assert!(rest.contains(&format!("          its own spectrum: uplift {command}\n")), "{rest}");
+    assert!(rest.contains(&format!("          own oscillator's spectrum: uplift {command}\n")), "{rest}");
     study.uplift(&command.split(' ').collect::<Vec<_>>()).ok();
     let own = ["design", "free.toml", "--urs", "r-free.h5", "--site", "Here", "--spectrum-only", "--json"];
     assert_eq!(study.uplift(&own).json()["other_oscillator"], false);

@@ -156,6 +156,10 @@ fn any_number_of_threads_and_any_order_of_the_export_gives_the_same_bytes() {
 fn tables_and_map_of_a_list_of_sites() {
     let study = many(&format!("{}{SECTION}strengths = [0.2, 0.4]\n", without_sites()));
     let done = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    // what it advises can be typed
+    let map = done.stdout.lines().find_map(|line| line.strip_prefix("Map      uplift ")).unwrap();
+    study.uplift(&map.split(' ').collect::<Vec<_>>()).ok();
+    assert!(!done.stdout.contains("uplift report"), "{}", done.stdout);
     assert!(done.stderr.contains("7; 6 found in the export of PGV, 6 found in the export of PGA"), "{}", done.stderr);
     for words in ["r.sites.csv", "r.sites.coefficients.csv", "r.sites.geojson"] {
         assert!(done.stdout.contains(words), "{words}\n{}", done.stdout);

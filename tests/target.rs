@@ -313,7 +313,8 @@ fn by_its_proxy_a_frame_is_not_shaken() {
     // the strength of columns follows from their size
     let strength = ask(&wobbles, &["--vary", "strength"]);
     assert!(
-        strength.contains("by its proxy alone") && strength.contains("Frame     left out: columns get strength"),
+        strength.contains("by its proxy alone")
+            && strength.contains("Frame     left out: strength and capacity follow"),
         "{strength}"
     );
 }

@@ -235,7 +235,11 @@ pub(crate) fn typed() -> Arguments {
         }
         if let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) {
             let program = program();
-            let names: Vec<&str> = program.get_subcommands().map(clap::Command::get_name).collect();
+            // below a command of several, such as `records`, those of that one
+            let group = std::env::args().skip(1).find_map(|typed| {
+                program.get_subcommands().find(|own| own.get_name() == typed && own.has_subcommands())
+            });
+            let names: Vec<&str> = group.unwrap_or(&program).get_subcommands().map(clap::Command::get_name).collect();
             if let Some(hint) = did_you_mean(word, &names) {
                 tell(&format!("uplift: there is no command `{word}`: {hint}"));
                 std::process::exit(error.exit_code())

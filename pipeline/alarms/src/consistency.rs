@@ -6,6 +6,7 @@ use uplift_job::alarm::{Alarm, Case, RESULT, Severity};
 use uplift_job::text::risk_name;
 use uplift_result::StoredConsistency;
 use uplift_uniform_risk::MANY_FAILED;
+use uplift_uniform_risk::consistency::times_in_words;
 
 use super::curves;
 use super::evidence::{Evidence, Scope};
@@ -37,27 +38,10 @@ fn missed(evidence: &Evidence, scope: &Scope, consistency: &StoredConsistency, s
         None => (consistency.bias[site], consistency.verdict[site].as_str()),
         Some(poe) => {
             let ratio = consistency.ratio[[site, poe]];
-            (ratio, verdict_by(ratio))
+            (ratio, Verdict::from_bias(ratio, ratio.ln().abs()).key())
         }
     };
     (times.is_finite() && verdict == Verdict::Inconsistent.key()).then_some(times)
-}
-
-/// The verdict on records that have so many `times` the site's level at every rate.
-fn verdict_by(times: f64) -> &'static str {
-    Verdict::from_bias(times, times.ln().abs()).key()
-}
-
-/// How many times the site's level the records have: on average, `1.6`; where that is near 1, at the rates compared,
-/// `0.5 to 2.1`.
-fn in_words(consistency: &StoredConsistency, site: usize, times: f64) -> String {
-    if verdict_by(times) == Verdict::Inconsistent.key() {
-        return format!("{times:.1}");
-    }
-    let [implied, own] = [&consistency.implied_level, &consistency.site_level].map(|level| level.block([site]));
-    let ratios = implied.iter().zip(own).map(|(implied, own)| implied / own).filter(|ratio| ratio.is_finite());
-    let (least, most) = ratios.fold((times, times), |(least, most), ratio| (least.min(ratio), most.max(ratio)));
-    format!("{least:.1} to {most:.1}")
 }
 
 /// Spectra that no weights repair, though the study or a command asked for it.
@@ -145,7 +129,7 @@ fn case(consistency: &StoredConsistency, site: usize, (name, at): (&str, &str), 
         severity: if is_repaired { Severity::Note } else { Severity::Caution },
         badness: times.ln().abs(),
         subject: format!("{name} by {scaled_to}"),
-        what: format!("scaled records have {} times the site's {other}{at}", in_words(consistency, site, times)),
+        what: format!("scaled records have {} times the site's {other}{at}", times_in_words(consistency, site, times)),
         what_to_do: remedy(consistency, site),
     }
 }

@@ -60,7 +60,7 @@ pub fn consistency(
     let question = Question::from_result(&file)?;
     let shaken = disaggregated(&question, &options.disaggregations)?;
     if !question.can_be_asked() {
-        return Ok(Answer::from_question(question, &file, None, false)?.report(&[]));
+        return Ok(Answer::from_question(question, &file, None, false, events)?.report(&[]));
     }
     let stored = StoredStripes::read(&file)?;
     let path = beside(&stored.path, "consistency.csv");
@@ -68,7 +68,7 @@ pub fn consistency(
     // a repair that is there stays: what was made of it would be of another result
     let is_there = file.has_repair();
     let repair = options.repair || options.keep_weights || is_there || question.settings.repair == Repair::Weights;
-    let answer = Answer::from_question(question, &file, Some(&stored), repair)?;
+    let answer = Answer::from_question(question, &file, Some(&stored), repair, events)?;
     if events.cancelled() {
         return Err(JobError::Interrupted.into());
     }

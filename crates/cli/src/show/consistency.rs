@@ -30,25 +30,28 @@ pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal)
     if more_warnings(report) > 0 { Ok(()) } else { print_more(out, terminal) }
 }
 
-/// How many spectra were repaired; before a repair by which measure scaled records fit the hazard of the other one, and
+/// At how many sites, by how many measures records were reweighted; before a repair by which measure scaled records fit the hazard of the other one, and
 /// by what factor they miss it at the worst site.
 fn answer(report: &ConsistencyReport) -> String {
     if report.rows.iter().any(|row| row.repair.is_some()) {
         let repaired = report.rows.iter().filter(|row| is_repaired(row)).count();
-        let why = if repaired == 0 { " (no weights match both hazard curves)" } else { "" };
-        return format!("{repaired} of {} spectra repaired{why}", report.rows.len());
+        return format!("{repaired} of {} cases repaired", report.rows.len());
     }
     let several = report.rows.iter().any(|row| row.site != report.rows[0].site);
     let of_measure = report.rows.chunk_by(|a, b| a.scaled_to == b.scaled_to);
     let clause = |rows: &[ConsistencyRow]| {
         let (scaled_to, shows) = (rows[0].scaled_to, rows[0].shows);
         let misses = rows.iter().filter(|row| row.verdict != Some("consistent"));
-        let worst = misses.filter_map(|row| Some((row, miss(row)?))).max_by(|(_, a), (_, b)| a.total_cmp(b));
+        let worst = misses.filter_map(|row| Some((row, row.max?.exp()))).max_by(|(_, a), (_, b)| a.total_cmp(b));
         match worst {
-            Some((row, times)) => {
+            Some((row, most)) => {
                 let site = if several { format!("{}, ", row.site) } else { String::new() };
-                let verdict = row.verdict.unwrap_or_default();
-                format!("records scaled to {scaled_to} are {times:.2} times off the site's {shows} ({site}{verdict})")
+                let verdict = row.verdict.unwrap_or("no verdict");
+                let off = match decisive(row) {
+                    Some(_) => format!("miss the site's {shows} by a factor of {most:.2} at the worst rate"),
+                    None => format!("have {} times the site's {shows}", number(row.bias, 2)),
+                };
+                format!("records scaled to {scaled_to} {off} ({site}{verdict})")
             }
             None if rows.iter().any(|row| row.verdict.is_none()) => format!("no verdict by {scaled_to}"),
             None => format!("records scaled to {scaled_to} fit the site's {shows}"),
@@ -57,13 +60,6 @@ fn answer(report: &ConsistencyReport) -> String {
     let clauses: Vec<String> = of_measure.map(clause).collect();
     let text = clauses.join("; ");
     text[..1].to_uppercase() + &text[1..]
-}
-
-/// How many times too high or too low the level of the other measure is: on average, or where that decides at the
-/// worst rate.
-fn miss(row: &ConsistencyRow) -> Option<f64> {
-    let bias = row.bias?;
-    Some(decisive(row).unwrap_or(bias.max(1.0 / bias)))
 }
 
 /// How many times the level is off at the worst rate, where the mean alone would have another verdict.
@@ -85,9 +81,10 @@ fn print_table(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), C
     let table = Table::from_rows(&report.rows)
         .left("site", |row| &row.site)
         .left("scaled to", |row| row.scaled_to)
-        .right("times site's level", |row| {
+        .right(if is_repaired { "unweighted / site's" } else { "times site's level" }, |row| {
             let at_one_rate = decisive(row).filter(|_| !is_repaired);
-            let at_one_rate = at_one_rate.map_or_else(String::new, |most| format!(" (worst rate: {most:.2} off)"));
+            let at_one_rate =
+                at_one_rate.map_or_else(String::new, |most| format!(" (factor {most:.2} at the worst rate)"));
             format!("{} {}{at_one_rate}", row.shows, number(row.bias, 2))
         })
         .right("verdict", |row| row.verdict.unwrap_or("-"))
@@ -178,8 +175,9 @@ pub(super) fn consistency_lines(report: &ConsistencyReport) -> Vec<String> {
         let (site, scaled_to, shows) = (&row.site, row.scaled_to, row.shows);
         lines.push(match (row.bias, row.verdict) {
             (Some(bias), Some(verdict)) => {
-                let at_one_rate = most_off(row)
-                    .map_or_else(String::new, |most| format!(", and miss it {most:.2} times at the worst rate"));
+                let at_one_rate = most_off(row).map_or_else(String::new, |most| {
+                    format!(", and miss it by a factor of {most:.2} at the worst rate")
+                });
                 format!(
                     "{site} by {scaled_to}: the records have {bias:.2} times the site's {shows}{at_one_rate}: \
                      {verdict} (uplift consistency)"

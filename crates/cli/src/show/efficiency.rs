@@ -119,16 +119,18 @@ impl Shown<'_> {
             let result = typed_path(&self.report.stored.path);
             match self.report.misses.iter().find(|miss| miss.scaled_to == measure) {
                 None => writeln!(out, "Use {name}{others}: uplift spectrum {result} --measure {measure}")?,
-                Some(Miss { other, site, times, is_repaired, .. }) => {
+                Some(Miss { other, site, times, is_tried, is_repaired, .. }) => {
                     writeln!(
                         out,
-                        "{name} scatters least, but do not use it unrepaired: its records have {times:.1} times the \
-                         {other} of {site}"
+                        "{name} scatters least, but its records miss the site's hazard: {times} times the {other} of \
+                         {site}"
                     )?;
                     if *is_repaired {
                         writeln!(out, "Use: uplift spectrum {result} --repaired --measure {measure}")?;
+                    } else if *is_tried {
+                        writeln!(out, "See why: uplift consistency {result} --details")?;
                     } else {
-                        writeln!(out, "See why: uplift consistency {result}")?;
+                        writeln!(out, "Repair: uplift consistency {result} --repair")?;
                     }
                 }
             }

@@ -36,6 +36,7 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
     if terminal.is_quiet() {
         return Ok(());
     }
+    print_pages(&mut out, report)?;
     if let RunReport::UniformRisk(report) = report
         && let Some(found) = &report.displacements
     {
@@ -103,7 +104,7 @@ fn print_end(out: &mut impl Write, head: &RunHead, terminal: &Terminal) -> Resul
     if terminal.is_quiet() {
         return Ok(());
     }
-    let (shown, typed) = (shown_path(result).display(), typed_path(result));
+    let shown = shown_path(result).display();
     let done_already = if head.done_already { " (done already; recompute: --again)" } else { "" };
     writeln!(out, "\nResult   {shown}{done_already}")?;
     // every result with spectra has the first two beside it
@@ -112,6 +113,20 @@ fn print_end(out: &mut impl Write, head: &RunHead, terminal: &Terminal) -> Resul
     let tables: Vec<String> = tables.filter(|table| terminal.shows_details() || !is_usual(table)).collect();
     if !tables.is_empty() {
         writeln!(out, "Tables   {}", tables.join(", "))?;
+    }
+    Ok(())
+}
+
+/// The command for the report, or for the map of a table of sites, which has no report.
+fn print_pages(out: &mut impl Write, report: &RunReport) -> Result<(), CommandError> {
+    let Some((result, tables)) = report.head().files.split_first() else { return Ok(()) };
+    let typed = typed_path(result);
+    let has_map = tables.iter().any(|table| table.extension().is_some_and(|extension| extension == "geojson"));
+    match report {
+        RunReport::UniformRisk(report) if report.displacements.is_some() => {}
+        RunReport::UniformRisk(_) if has_map => return Ok(writeln!(out, "Map      uplift plot {typed} --only map")?),
+        RunReport::UniformRisk(_) => return Ok(()),
+        RunReport::Displacement(_) | RunReport::ShakeTable(_) => {}
     }
     Ok(writeln!(out, "Report   uplift report {typed}")?)
 }

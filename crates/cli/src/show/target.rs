@@ -1,7 +1,6 @@
 //! A target risk as an engineer reads it.
 
 use std::io::Write;
-use std::path::Path;
 
 use uplift::structure::{LimitEvent, TargetBand, TargetFrame, TargetReport};
 use uplift::text::{self, Table, per_cent, short, thousands};
@@ -159,7 +158,7 @@ fn print_limit(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame)
     let [per_year, ..] = risk_cells(&beyond.risk);
     let at = format!("{} {}", frame.value, report.quantity_unit);
     let is_more = frame.passes_limit_above(report.target_per_year);
-    let more = if is_more { ", more often than the target; search for it:" } else { "" };
+    let more = if is_more { ", more often than the target. Search for the limit:" } else { "" };
     let (limit_in_words, at) = (limit.in_words(), at.trim_end());
     writeln!(
         out,
@@ -171,8 +170,8 @@ fn print_limit(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame)
             // where tendons yield at the value found
             LimitEvent::TendonYields | LimitEvent::TendonFails => short(limit.displacement_m),
         };
-        let [structure, result, site] =
-            [&report.structure.file, &report.source.result, Path::new(&report.site)].map(typed_path);
+        let [structure, result] = [&report.structure.file, &report.source.result].map(|path| typed_path(path));
+        let site = uplift::text::typed(&report.site);
         writeln!(
             out,
             "          uplift target {structure} --urs {result} --site {site} {} --vary {} --exceed {exceeded} \

@@ -250,7 +250,7 @@ impl FrameTarget<'_> {
 
 /// Why a frame is left out where strength or capacity vary.
 pub(super) const NO_COLUMNS: &str =
-    "columns get strength and capacity from their size: vary width, size or tendon-stiffness";
+    "strength and capacity follow from the size of the columns: vary width, size or tendon-stiffness";
 
 /// The value to try after those of these upper limits, `(value, 1/yr)`, ascending; none where enough are tried.
 fn next_value(rates: &[(f64, f64)], target_per_year: f64, near: f64) -> Option<f64> {

@@ -89,13 +89,13 @@ pub(super) fn bands_of_site(
     let without_each_m = if left_out.is_empty() { Vec::new() } else { weighed_anew(&left_out)?.ordinates_m };
     let shape = SiteShape { poes: targets_per_year.len(), sizes: plan.sizes().len(), strengths: demands.len() };
     let SiteShape { poes, sizes, strengths } = shape;
-    let indices = |cell: usize| {
+    let band = |cell: usize| {
         let [poe, size, strength] = shape.indices(cell);
         let without_each_m = &without_each_m[(strength * poes + poe) * left_out.len()..][..left_out.len()];
         let of_sample = (without_each_m, plan.units_drawn(plan.sizes()[size]));
         interval.band(replicates_m(&drawn, plan, shape, cell), confidence, of_set_m[strength][poe], of_sample)
     };
-    let bands = (0..shape.cells()).into_par_iter().map(indices).collect();
+    let bands = (0..shape.cells()).into_par_iter().map(band).collect();
     let spectra = if settings.simultaneous { poes * sizes } else { 0 };
     let of_spectrum = |spectrum: usize| {
         let of_strength = |strength| replicates_m(&drawn, plan, shape, spectrum * strengths + strength).to_vec();

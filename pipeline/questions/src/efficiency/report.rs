@@ -7,7 +7,7 @@ use serde::Serialize;
 use uplift_job::text::finite;
 use uplift_result::{StoredConsistency, StoredTrend};
 use uplift_uniform_risk::StoredStripes;
-use uplift_uniform_risk::consistency::Verdict;
+use uplift_uniform_risk::consistency::{Verdict, times_in_words};
 
 use super::of_measure::{Covariate, MeasureEfficiency, rank};
 use super::write::efficiency_path;
@@ -44,8 +44,10 @@ pub struct Miss {
     pub other: &'static str,
     /// The site.
     pub site: String,
-    /// The mean level of the scaled records over that of the site.
-    pub times: f64,
+    /// How many times the site's level the scaled records have, `1.6`, or at the rates compared, `0.5 to 2.1`.
+    pub times: String,
+    /// Whether a repair was tried.
+    pub is_tried: bool,
     /// Whether weights repair it.
     pub is_repaired: bool,
 }
@@ -54,12 +56,13 @@ pub struct Miss {
 pub(super) fn misses(consistency: &[StoredConsistency], sites: &[String]) -> Vec<Miss> {
     let of_measure = |of: &StoredConsistency| {
         let missed = (0..sites.len()).filter(|&site| of.verdict[site] == Verdict::Inconsistent.key());
-        let worst = missed.max_by(|&a, &b| of.bias[a].ln().abs().total_cmp(&of.bias[b].ln().abs()))?;
+        let worst = missed.max_by(|&a, &b| of.max[a].total_cmp(&of.max[b]))?;
         Some(Miss {
             scaled_to: of.scaled_to.key(),
             other: of.other.label(),
             site: sites[worst].clone(),
-            times: of.bias[worst],
+            times: times_in_words(of, worst, of.bias[worst]),
+            is_tried: of.u_m.is_some(),
             is_repaired: of.is_repaired(worst),
         })
     };

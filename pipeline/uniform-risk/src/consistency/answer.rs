@@ -2,7 +2,8 @@
 
 use uplift_consistency::{DEVIATION_RATES, Verdict};
 use uplift_inputs::{OtherHazard, RecordSet, SiteHazard};
-use uplift_job::Array;
+use uplift_job::events::{Events, Silent};
+use uplift_job::{Array, JobError};
 use uplift_motion::IntensityMeasure;
 use uplift_result::{ConsistencyGroup, Fit, MeasureConsistency, ResultFile, StoredConsistency};
 use uplift_study::{Repair, UniformRiskStudy};
@@ -67,7 +68,7 @@ impl Answer {
     pub fn from_result(file: &ResultFile, stored: Option<&StoredStripes>) -> Result<Self, UniformRiskError> {
         let question = Question::from_result(file)?;
         let with_repair = question.settings.repair == Repair::Weights;
-        Self::from_question(question, file, stored, with_repair)
+        Self::from_question(question, file, stored, with_repair, &Silent)
     }
 
     /// To the `question` asked of a result, with its stripes where it has sites.
@@ -79,8 +80,12 @@ impl Answer {
         file: &ResultFile,
         stored: Option<&StoredStripes>,
         with_repair: bool,
+        events: &dyn Events,
     ) -> Result<Self, UniformRiskError> {
         let findings = question.findings(with_repair)?;
+        if events.cancelled() {
+            return Err(JobError::Interrupted.into());
+        }
         let repairs = match stored {
             Some(stored) if with_repair && !findings.is_empty() => {
                 repairs_from_result(file, stored, &question, &findings)?

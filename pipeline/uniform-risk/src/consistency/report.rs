@@ -7,6 +7,7 @@ use uplift_consistency::{Agreement, Diagnosis, Miss, Nearest, NoRepair, TwoSided
 use uplift_job::Array;
 use uplift_job::text::per_cent;
 use uplift_motion::IntensityMeasure;
+use uplift_result::StoredConsistency;
 
 use super::{Finding, Question, Repairs};
 
@@ -455,4 +456,16 @@ fn agreement(question: &Question, plain_m: &[(IntensityMeasure, Array<3>)], repa
 
 fn pairs<'a>(first_m: &'a [f64], second_m: &'a [f64]) -> impl Iterator<Item = (f64, f64)> + 'a {
     first_m.iter().copied().zip(second_m.iter().copied())
+}
+
+/// How many times the site's level scaled records have: `times` where that alone is inconsistent, `1.6`; else what they
+/// have at the rates compared, `0.5 to 2.1`.
+pub fn times_in_words(consistency: &StoredConsistency, site: usize, times: f64) -> String {
+    if Verdict::from_bias(times, times.ln().abs()) == Verdict::Inconsistent {
+        return format!("{times:.1}");
+    }
+    let [implied, own] = [&consistency.implied_level, &consistency.site_level].map(|level| level.block([site]));
+    let ratios = implied.iter().zip(own).map(|(implied, own)| implied / own).filter(|ratio| ratio.is_finite());
+    let (least, most) = ratios.fold((times, times), |(least, most), ratio| (least.min(ratio), most.max(ratio)));
+    format!("{least:.1} to {most:.1}")
 }

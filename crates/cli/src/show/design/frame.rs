@@ -137,7 +137,7 @@ pub(super) fn print_own_spectrum(out: &mut impl Write, report: &DesignReport) ->
     let name = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let own = result.with_file_name(format!("{}-{}.h5", name(result), name(&report.structure.file)));
     let (study, own) = (typed(study_file), typed_path(&own));
-    Ok(writeln!(out, "          its own spectrum: uplift run {study}{kept} {settings} -o {own}")?)
+    Ok(writeln!(out, "          own oscillator's spectrum: uplift run {study}{kept} {settings} -o {own}")?)
 }
 
 /// A capacity that is required, m.

@@ -20,9 +20,9 @@ pub const SHOWN_ON_MAP: [f64; 3] = [0.1, 0.2, 0.4];
 /// How the line of a site on the map begins.
 pub(super) const FEATURE: &str = "{\"type\":\"Feature\",";
 /// Columns of both tables that say what a spectrum is of.
+const OF_SPECTRUM: [&str; 6] = ["site", "longitude", "latitude", "im", "poe", "years"];
 /// Position of the verdict, a text, among the numbers of [`SITE_CONSISTENCY`].
 const VERDICT: usize = 2;
-const OF_SPECTRUM: [&str; 6] = ["site", "longitude", "latitude", "im", "poe", "years"];
 /// Position of the flag among the ordinates of a table, numbers.
 const FLAG: usize = 1;
 
