@@ -54,7 +54,7 @@ pub(super) fn without_repair(evidence: &Evidence, scope: &Scope) -> Option<Alarm
                     severity: Severity::Caution,
                     badness: consistency.max[site],
                     subject: format!("{name} by {}", consistency.scaled_to.label()),
-                    what: "no weights match both hazard curves: no repaired spectrum".to_owned(),
+                    what: "too few records match both hazard curves: no repaired spectrum".to_owned(),
                     what_to_do: format!("See why: uplift consistency {RESULT} --details"),
                 });
             }

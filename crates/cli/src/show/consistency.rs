@@ -30,8 +30,8 @@ pub(crate) fn print_consistency(report: &ConsistencyReport, terminal: &Terminal)
     if more_warnings(report) > 0 { Ok(()) } else { print_more(out, terminal) }
 }
 
-/// At how many sites, by how many measures records were reweighted; before a repair by which measure scaled records fit the hazard of the other one, and
-/// by what factor they miss it at the worst site.
+/// At how many sites, by how many measures records were reweighted; before a repair by which measure scaled records
+/// fit the hazard of the other one, and by what factor they miss it at the worst site.
 fn answer(report: &ConsistencyReport) -> String {
     if report.rows.iter().any(|row| row.repair.is_some()) {
         let repaired = report.rows.iter().filter(|row| is_repaired(row)).count();
