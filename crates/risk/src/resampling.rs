@@ -65,7 +65,7 @@ impl<'a> ResamplingTable<'a> {
         let blocks = demand.runs().len() / BLOCK + 1;
         let (mut before, mut means) = (Vec::with_capacity(blocks * row), Vec::with_capacity(blocks));
         for block in demand.runs().chunks(BLOCK) {
-            before.extend(Lanes::whole(&rates));
+            before.extend(Lanes::from_numbers(&rates));
             means.push(rates.iter().sum::<f64>() / records as f64);
             for run in block {
                 let (sum, rate) = (&mut sums[usize::from(run.record)], &mut rates[usize::from(run.record)]);

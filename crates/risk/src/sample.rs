@@ -12,7 +12,7 @@ pub(crate) struct Lanes(pub(crate) [f64; LANES]);
 
 impl Lanes {
     /// `numbers` in whole lanes, with zeros after them.
-    pub(crate) fn whole(numbers: &[f64]) -> impl Iterator<Item = Self> {
+    pub(crate) fn from_numbers(numbers: &[f64]) -> impl Iterator<Item = Self> {
         numbers.chunks(LANES).map(|chunk| {
             let mut lanes = [0.0; LANES];
             lanes[..chunk.len()].copy_from_slice(chunk);
@@ -40,7 +40,7 @@ impl RecordSample {
         match u32::try_from(total) {
             Ok(size) if (1..=MAX_SAMPLE_SIZE).contains(&total) => {
                 let counts: Vec<f64> = multiplicities.iter().map(|&count| f64::from(count)).collect();
-                Ok(Self { multiplicities, size, lanes: Lanes::whole(&counts).collect() })
+                Ok(Self { multiplicities, size, lanes: Lanes::from_numbers(&counts).collect() })
             }
             _ => Err(RiskError::SampleSize { size: total }),
         }

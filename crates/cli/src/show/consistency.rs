@@ -42,13 +42,13 @@ fn answer(report: &ConsistencyReport) -> String {
     let clause = |rows: &[ConsistencyRow]| {
         let (scaled_to, shows) = (rows[0].scaled_to, rows[0].shows);
         let misses = rows.iter().filter(|row| row.verdict != Some("consistent"));
-        let worst = misses.filter_map(|row| Some((row, row.max?.exp()))).max_by(|(_, a), (_, b)| a.total_cmp(b));
+        let worst = misses.filter_map(|row| Some((row, row.max?))).max_by(|(_, a), (_, b)| a.total_cmp(b));
         match worst {
-            Some((row, most)) => {
+            Some((row, _)) => {
                 let site = if several { format!("{}, ", row.site) } else { String::new() };
                 let verdict = row.verdict.unwrap_or("no verdict");
                 let off = match decisive(row) {
-                    Some(_) => format!("miss the site's {shows} by a factor of {most:.2} at the worst rate"),
+                    Some(most) => format!("miss the site's {shows} by a factor of {most:.2} at the worst rate"),
                     None => format!("have {} times the site's {shows}", number(row.bias, 2)),
                 };
                 format!("records scaled to {scaled_to} {off} ({site}{verdict})")

@@ -32,7 +32,7 @@ pub(crate) fn print_plan(plan: &Plan, terminal: &Terminal) -> Result<(), Command
     if terminal.shows_details() {
         print_details(&mut out, plan)?;
     }
-    // this is the command that some name
+    // a warning of a run may say "(uplift check)", which is this command
     let own = |alarm| warning(alarm, None).replace("(uplift check)", "as proposed");
     let warnings: Vec<_> = head.alarms.iter().map(own).collect();
     print_lines(&mut out, &warnings, terminal.shows_details() || terminal.is_quiet())?;

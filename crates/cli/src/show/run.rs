@@ -97,7 +97,7 @@ fn print_spread(
     Ok(())
 }
 
-/// What every run ends with: warnings, files, and what to look at next.
+/// What every run ends with: warnings and files.
 fn print_end(out: &mut impl Write, head: &RunHead, terminal: &Terminal) -> Result<(), CommandError> {
     let Some((result, tables)) = head.files.split_first() else { return Ok(()) };
     print_result_warnings(out, &head.alarms, result, terminal)?;

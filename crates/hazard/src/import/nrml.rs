@@ -47,10 +47,10 @@ pub(super) fn entries(text: &str, name: &str) -> Result<Vec<Entry>, HazardError>
             "hazardCurveField" => fields::VERSION,
             _ => continue,
         };
-        let line = lines.next(group);
+        let line = lines.line_of(group);
         let head = Arc::new((version.head)(group, name, &Place::Line { file: name.to_owned(), line })?);
         for curve in group.children().filter(|node| is(*node, version.curve)) {
-            entries.push(entry(curve, lines.next(curve), &version, &head)?);
+            entries.push(entry(curve, lines.line_of(curve), &version, &head)?);
         }
     }
     if entries.is_empty() {
@@ -198,7 +198,7 @@ struct LineNumbers<'a> {
 }
 
 impl LineNumbers<'_> {
-    fn next(&mut self, node: Node) -> usize {
+    fn line_of(&mut self, node: Node) -> usize {
         let start = node.range().start;
         if let Some(passed) = self.text.get(self.at..start) {
             self.line += passed.matches('\n').count();
