@@ -64,7 +64,7 @@ fn target_and_risk_are_inverses() {
     assert_eq!(overturning_per_year(safe).to_bits(), number(&found["safe_risk"]["per_year"]).to_bits());
     assert!(overturning_per_year(safe) <= 2e-3);
     let ask = ["target", "frame.toml", "--urs", "r.h5", "--overturning", "2e-3", "--vary", "width"];
-    let shown = study.uplift(&[&ask[..], &["--tolerance", "1e-3"]].concat()).ok().stdout;
+    let shown = study.uplift(&[&ask[..], &["--tolerance", "1e-3", "--proxy"]].concat()).ok().stdout;
     assert!(shown.starts_with(&format!("Safe width {safe} m; best estimate {value} m (")), "{shown}");
     let at = found["at_return_periods"].as_array().unwrap();
     assert!(number(&at[0]["probability"]) <= number(&at[1]["probability"]) && at[1]["records"] == 20, "{found}");
@@ -102,6 +102,85 @@ fn a_safety_factor_sizes_what_a_design_then_passes() {
             "2",
         ])
         .fails(2, &["--safety-factor divides a capacity: give --exceed capacity"]);
+}
+
+/// A block is judged itself where its oscillator needs no more, by the rate that `uplift overturning` has, and the
+/// value that it needs is told first.
+#[test]
+fn a_block_is_judged_itself() {
+    let study = study();
+    let block = |width_m: f64| format!("kind = \"block\"\nwidth_m = {width_m}\nheight_m = 2\nmass_kg = 100\n");
+    study.write("block.toml", &block(0.4));
+    let ask = ["target", "block.toml", "--urs", "r.h5", "--overturning", "2e-3", "--vary", "width"];
+    let ask = [&ask[..], &["--tolerance", "0.02", "--no-keep"]].concat();
+    let found = study.uplift(&[&ask[..], &["--json", "-q"]].concat()).json();
+    let (own, safe) = (&found["own"], number(&found["safe_value"]));
+    assert_eq!((number(&own["value"]), own["models"][0]["model"].as_str()), (safe, Some("block")));
+    let overturning = |width_m: f64| {
+        study.write("other.toml", &block(width_m));
+        let told = study.uplift(&["overturning", "other.toml", "--urs", "r.h5", "--json", "-q", "--no-keep"]).json();
+        let of_block = told["overturning"].as_array().unwrap().iter().find(|of| of["model"] == "block").unwrap();
+        of_block["sites"][0].clone()
+    };
+    for tried in own["tried"].as_array().unwrap() {
+        let told = overturning(number(&tried["value"]));
+        assert_eq!(number(&tried["per_year"]).to_bits(), number(&told["per_year"]).to_bits());
+        assert_eq!(tried["is_safe"], number(&tried["upper_per_year"]) <= 2e-3);
+    }
+    let needed = number(&own["safe_value"]);
+    assert!(needed >= safe && overturning(needed)["bands"]["by_record"][1].as_f64().unwrap() <= 2e-3);
+    let shown = study.uplift(&ask).ok().stdout;
+    let first = if own["models"][0]["is_safe"] == true {
+        format!("Safe width {safe} m by block and proxy; ")
+    } else {
+        format!("Safe width: the block needs {needed} m, its proxy {safe} m; at {safe} m the block's rate")
+    };
+    assert!(shown.starts_with(&first), "{shown}");
+    let alone = study.uplift(&[&ask[..], &["--proxy"]].concat()).ok().stdout;
+    assert!(alone.lines().next().unwrap().ends_with(", by its proxy alone") && !alone.contains("block, "), "{alone}");
+    // a displacement is that of the oscillator
+    let beyond = ["target", "block.toml", "--urs", "r.h5", "--exceed", "capacity", "--per-year", "2e-3", "--json"];
+    let beyond = study.uplift(&[&beyond[..], &["--vary", "width", "--tolerance", "0.02", "--no-keep"]].concat()).json();
+    assert!(beyond["own"].is_null() && beyond["by_proxy"] == true, "{beyond}");
+}
+
+/// With the weights of a repair the search has the rates that `uplift overturning` has by them.
+#[test]
+fn a_repair_weighs_the_records_of_a_search() {
+    let [pgv, pga] = ["pgv", "pga"].map(|key| crate::common::repository().join(format!("hazard/athens/{key}.csv")));
+    let study = SmallStudy::with(&format!(
+        "[strengths]\nvalues = [0.1, 0.3]\n[pgv]\nlevels_cm_s = [\"1:2:21\", \"25:20:205\"]\n[pga]\nlevels_g = \
+         [\"0.01:0.03:0.31\", \"0.35:0.15:2.0\"]\n[hazard]\nconversions = [{{ from = \"GMRotI50\", to = \
+         \"geometric mean\", pgv = 1.0, pga = 1.0 }}]\n[[sites]]\nname = \"Athens\"\npgv = '{}'\npga = '{}'\n",
+        pgv.display(),
+        pga.display()
+    ));
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.write("frame.toml", &frame(0.6));
+    let ask = ["target", "frame.toml", "--urs", "r.h5", "--overturning", "2e-4", "--vary", "width", "--measure", "pga"];
+    let ask = [&ask[..], &["--tolerance", "0.02", "--no-keep"]].concat();
+    let repaired = [&ask[..], &["--repaired"]].concat();
+    study.uplift(&repaired).fails(2, &["--repaired: the result has no repaired spectrum of Athens by PGA: `uplift"]);
+    study.uplift(&["consistency", "r.h5", "--repair", "-q"]).ok();
+    let found = study.uplift(&[&repaired[..], &["--json", "-q"]].concat()).json();
+    assert_eq!(found["repaired"], true);
+    let plain = study.uplift(&[&ask[..], &["--json", "-q"]].concat()).json();
+    assert!(found["value"] != plain["value"] && plain["repaired"] == false, "{plain}");
+    for measure in ["pga", "pgv"] {
+        let told = if measure == "pga" { &found["risk"] } else { &found["by_other_measures"][0] };
+        let at = if measure == "pga" { &found["value"] } else { &found["safe_value"] };
+        study.write("other.toml", &frame(number(at)));
+        let run = ["overturning", "other.toml", "--urs", "r.h5", "--json", "-q", "--no-keep", "--measure", measure];
+        let site = study.uplift(&run).json()["overturning"][0]["sites"][0].clone();
+        assert_eq!(number(&told["per_year"]).to_bits(), number(&site["repaired"]["per_year"]).to_bits(), "{site}");
+    }
+    let [lower, upper] = [0, 1].map(|end| number(&found["bands"][0]["value"][end]));
+    let safe = number(&found["safe_value"]);
+    assert!(lower < number(&found["value"]) && upper <= safe && safe <= 1.001 * upper, "{found}");
+    let shown = study.uplift(&repaired).ok().stdout;
+    assert!(shown.contains("\nAt        Athens by PGA, repaired; ") && !shown.contains("Weights"), "{shown}");
+    let shown = study.uplift(&ask).ok().stdout;
+    assert!(shown.contains(" times the site's PGV: --repaired searches by the repair's weights\n"), "{shown}");
 }
 
 /// The other measure has its own word on the safe value, which is that of `uplift overturning`.
@@ -307,14 +386,14 @@ fn by_its_proxy_a_frame_is_not_shaken() {
         study.uplift(&[&ask[..], more].concat()).ok().stdout
     };
     let wobbles = format!("{}column_shape = \"cylinder\"\n", frame(0.6));
-    assert!(!ask(&frame(0.6), &["--vary", "width"]).contains("proxy"));
+    assert!(ask(&frame(0.6), &["--vary", "width"]).lines().next().unwrap().contains(" equivalent block "));
     let alone = ask(&wobbles, &["--vary", "width", "--proxy"]);
     assert!(alone.lines().next().unwrap().ends_with(", by its proxy alone") && !alone.contains("wobbl"), "{alone}");
     // the strength of columns follows from their size
     let strength = ask(&wobbles, &["--vary", "strength"]);
     assert!(
         strength.contains("by its proxy alone")
-            && strength.contains("Frame     left out: strength and capacity follow"),
+            && strength.contains("Itself    left out: strength and capacity follow"),
         "{strength}"
     );
 }
@@ -327,7 +406,7 @@ fn the_width_of_a_frame_is_judged_by_the_wobbling_frame() {
     let wobbles = |width_m: f64| format!("{}column_shape = \"cylinder\"\n", frame(width_m));
     study.write("frame.toml", &wobbles(0.6));
     let found = json(&study, &["--overturning", "5e-4", "--vary", "width", "--tolerance", "0.05"]);
-    let own = &found["frame"];
+    let own = &found["own"];
     assert_eq!((&found["by_proxy"], &own["value"]), (&Value::from(false), &found["safe_value"]));
     study.write("other.toml", &wobbles(number(&own["value"])));
     let run = study.uplift(&["overturning", "other.toml", "--urs", "r.h5", "--json", "-q"]).ok();
@@ -350,7 +429,7 @@ fn the_wobbling_frame_needs_more_than_its_proxy() {
     study.write("frame.toml", &format!("{}column_shape = \"cylinder\"\n", frame(0.6)));
     let ask = ["--exceed", "0.1", "--per-year", "2e-3", "--vary", "width", "--tolerance", "0.1"];
     let found = json(&study, &ask);
-    let own = &found["frame"];
+    let own = &found["own"];
     let [proxy, safe, missed] =
         [&found["safe_value"], &own["safe_value"], &own["missed_at"]].map(|value| value.as_f64().unwrap());
     assert!(proxy <= missed && missed < safe && safe <= 1.101 * missed, "{own}");
@@ -365,7 +444,7 @@ fn the_wobbling_frame_needs_more_than_its_proxy() {
     let times = number(&frame["risk"]["per_year"]) / 2e-3;
     let said = study.uplift(&[&["target", "frame.toml", "--urs", "r.h5", "--details"], &ask[..]].concat()).ok().stdout;
     let first = format!(
-        "Safe width: the wobbling frame needs {safe} m, its proxy {proxy} m; at {proxy} m the frame's rate is \
+        "Safe width: the wobbling frame needs {safe} m, its proxy {proxy} m; at {proxy} m the wobbling frame's rate is \
          {times:.2} times the target\n"
     );
     assert!(said.starts_with(&first) && said.contains("MISSED") && said.contains("at other values"), "{said}");

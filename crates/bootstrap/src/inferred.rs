@@ -1,9 +1,10 @@
 //! What a set of records says of the spectrum of all records there could be, and of that of another set.
 
-use uplift_risk::{PooledDemand, RiskError, SiteWeights, check_count, check_target};
+use uplift_risk::{PooledDemand, RiskError, RunWeights, SiteWeights, check_count, check_target};
 
 use crate::inversion::Inversion;
 use crate::rates::Rates;
+use crate::shared_rates::SharedRates;
 use crate::skewed_mean::{SampleQuantiles, SkewedMean, StudentQuantiles};
 
 /// How often a band that is quoted is to hold the number of all records there could be.
@@ -140,6 +141,34 @@ pub fn inferred_mean(
 ) -> Result<[f64; 2], RiskError> {
     let mean = mean_of(contributions_per_year, units)?;
     Ok(mean.interval(&StudentQuantiles::new(confidence, units.len())))
+}
+
+/// The rate of what happens in some runs, 1/yr, by the weights of a repair, and limits of that of all records there
+/// could be: what [`inferred_rate`] tells of single runs, where a run may count in part. NaN limits of a single unit.
+///
+/// - `happens`: in which share of a run it happens, 0 to 1, `[record, level]`.
+/// - `weights`: taken as they are.
+/// - `units`: the records of each unit, `[unit]`, by their positions; each record in one of them.
+///
+/// # Errors
+/// Runs or units of other records.
+pub fn inferred_weighted_rate(
+    happens: &[f64],
+    weights: &RunWeights,
+    units: &[Vec<usize>],
+    confidence: f64,
+) -> Result<(f64, [f64; 2]), RiskError> {
+    let (records, per_year) = (weights.record_count(), weights.stripes().per_year());
+    check_count("records of the units", units.iter().map(Vec::len).sum(), records)?;
+    check_count("runs", happens.len(), records * per_year.len())?;
+    let mut rates = SharedRates::new(units, weights.shares()).with_effective_units();
+    let run = |(run, share): (usize, &f64)| {
+        let (record, level) = (run / per_year.len(), run % per_year.len());
+        (record, level, share * per_year[level])
+    };
+    rates.start(happens.iter().enumerate().filter(|(_, share)| **share > 0.0).map(run));
+    let mean = rates.mean();
+    Ok((mean.mean, mean.interval(&StudentQuantiles::new(confidence, units.len()))))
 }
 
 /// The mean of what each record contributes, 1/yr, with the scatter of its units.

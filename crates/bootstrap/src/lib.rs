@@ -10,7 +10,8 @@
 //! - [`inferred_limits`]: the band of the spectrum of all records there could be, and that of another set's, without
 //!   resampling; [`inferred_rate`]: the same of the rate at which something is exceeded.
 //! - [`inferred_limits_over_curves`], [`inferred_rate_over_curves`]: the same where there are weighted hazard curves.
-//! - [`inferred_mean`], [`inferred_mean_over_alternatives`]: the same of a rate of which each record's part is known;
+//! - [`inferred_mean`], [`inferred_mean_over_alternatives`]: the same of a rate of which each record's part is known,
+//!   [`inferred_weighted_rate`] of one by the weights of a repair;
 //!   [`falling`], [`crossing`]: the value at which such a rate meets a target.
 //! - [`simultaneous_bands`]: a band that holds whole spectra.
 //! - [`error_of_median`], [`range_of_interval`]: the two figures of Table 4.1 (Eq. 4.9, 4.10).
@@ -47,7 +48,10 @@ mod weighted_replicates;
 pub use accuracy::{error_of_median, range_of_interval};
 pub use error::BootstrapError;
 pub use falling::{crossing, falling};
-pub use inferred::{InferredLimits, QUOTED_CONFIDENCE, inferred_limits, inferred_mean, inferred_rate, truth_limits};
+pub use inferred::{
+    InferredLimits, QUOTED_CONFIDENCE, inferred_limits, inferred_mean, inferred_rate, inferred_weighted_rate,
+    truth_limits,
+};
 pub use interval::{Band, Interval};
 pub use jackknife::{acceleration, contributions, without_each};
 pub use over_curves::{inferred_limits_over_curves, inferred_mean_over_alternatives, inferred_rate_over_curves};

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 use uplift_bootstrap::{
     InferredLimits, ResamplingPlan, SkewedMean, StudentQuantiles, inferred_limits, inferred_limits_over_curves,
-    inferred_rate, truth_limits,
+    inferred_rate, inferred_weighted_rate, truth_limits,
 };
 use uplift_fragility::Stripes;
 use uplift_risk::{PooledDemand, RecordSample, RiskCurve, RunWeights, StripeWeights};
@@ -171,6 +171,8 @@ fn what_does_not_belong_together_is_refused() {
     let one_record = RunWeights::new(&weights(), &[1.0; 4]).unwrap();
     let refused = truth_limits(&demand, &one_record, &[vec![0], vec![1]], &[0.1], 0.9).unwrap_err();
     assert!(refused.to_string().contains("1 records with shares"), "{refused}");
+    assert!(inferred_weighted_rate(&[1.0; 8], &one_record, &[vec![0]], 0.9).is_err());
+    assert!(inferred_weighted_rate(&[1.0; 4], &one_record, &[vec![0], vec![1]], 0.9).is_err());
 }
 
 fn many_levels() -> (Vec<f64>, StripeWeights) {
@@ -256,6 +258,30 @@ proptest! {
         let rate = RiskCurve::new(&demand, &weights()).unwrap().mean_annual_frequency(threshold_m).unwrap();
         let [lower, upper] = inferred_rate(&demand, &weights(), &units, (threshold_m, 0.9)).unwrap();
         prop_assert!(lower <= rate * (1.0 + 1e-12) && rate <= upper * (1.0 + 1e-12), "{lower} {rate} {upper}");
+    }
+
+    // single runs tell the same lower limit; their upper one takes the larger of demands that spread as well
+    #[test]
+    fn what_happens_in_weighted_runs_has_the_rate_of_their_curve(edp_m in demands(), threshold_m in 0.0..1.0_f64) {
+        let count = edp_m.len() / LEVELS.len();
+        let weigh = |level: usize| (0..count).map(move |record| 1.0 + (record + level) as f64);
+        let shares = (0..LEVELS.len()).flat_map(|level| {
+            let sum: f64 = weigh(level).sum();
+            weigh(level).map(move |weight| weight / sum)
+        });
+        let repaired = RunWeights::new(&weights(), &shares.collect::<Vec<_>>()).unwrap();
+        let units: Vec<Vec<usize>> = (0..count).map(|record| vec![record]).collect();
+        let happens: Vec<f64> = edp_m.iter().map(|&u_m| if u_m > threshold_m { 1.0 } else { 0.0 }).collect();
+        let (rate, [lower, upper]) = inferred_weighted_rate(&happens, &repaired, &units, 0.9).unwrap();
+        let demand = pooled(&edp_m);
+        let curve = RiskCurve::weighted(&demand, &repaired).unwrap().mean_annual_frequency(threshold_m).unwrap();
+        prop_assert!((rate - curve).abs() <= 1e-12, "{rate} {curve}");
+        let of_runs = inferred_rate(&demand, &repaired, &units, (threshold_m, 0.9)).unwrap();
+        prop_assert!((lower - of_runs[0]).abs() <= 1e-9 && upper <= of_runs[1] + 1e-9, "{lower} {upper} {of_runs:?}");
+        // half of every run is half the rate
+        let halves: Vec<f64> = happens.iter().map(|share| 0.5 * share).collect();
+        let (half, _) = inferred_weighted_rate(&halves, &repaired, &units, 0.9).unwrap();
+        prop_assert!((2.0 * half - rate).abs() <= 1e-15, "{half} {rate}");
     }
 
     #[test]

@@ -104,8 +104,12 @@ pub fn alarms_of_inputs(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, 
     let mut alarms = inputs::result_alarms(file)?;
     let evidence = Evidence::read(file, scope)?;
     alarms.extend(hazard::alarms(&evidence, scope));
-    // of what is repaired already a note says how to read the spectrum, which is another question
-    alarms.extend(consistency::alarms(&evidence, scope).filter(|alarm| alarm.severity != Severity::Note));
+    if scope.repaired {
+        alarms.extend(consistency::repair_alarms(&evidence, scope));
+    } else {
+        // of what is repaired already a note says how to read the spectrum, which is another question
+        alarms.extend(consistency::alarms(&evidence, scope).filter(|alarm| alarm.severity != Severity::Note));
+    }
     Ok(alarms)
 }
 

@@ -24,12 +24,11 @@ use uplift_questions::bootstrap::resampled;
 use uplift_result::ResultFile;
 use uplift_risk::SiteWeights;
 use uplift_study::Structure;
-use uplift_uniform_risk::consistency::Reweighing;
 use uplift_uniform_risk::{EventRisk, OneRisk, SpectraOfResult, StudyOfResult, at_target_risks};
 
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
-use super::opening::{Place, job_name, records_and_pairs, restitution};
+use super::opening::{Place, Repair, job_name, records_and_pairs, restitution};
 use super::own_frame::{OwnFrame, STOPPED, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
@@ -39,7 +38,8 @@ use crate::error::DesignError;
 use analysis::{DesignAnalysis, OwnAnalysis, Question};
 pub use options::DesignOptions;
 pub use report::DesignReport;
-use words::{assumed, beside, beyond_spectrum, differences, not_repaired, require_zero_stiffness, without_uncertainty};
+pub(super) use words::without_uncertainty;
+use words::{assumed, beside, beyond_spectrum, differences, require_zero_stiffness};
 
 /// Designs `structure` by a spectrum of the result at `result`, and tests the design by the structure's own risk.
 ///
@@ -64,8 +64,8 @@ pub fn design(
     let poe = source.rarest()?;
     let target_per_year = source.target_per_year(poe)?;
     let repaired_m = repaired_spectrum(&file, measure, [site, poe])?;
-    let reweighing = if options.repaired { Reweighing::from_motions(&file)? } else { None };
-    let weights = site_weights(reweighing.as_ref(), place, (&source, options.repaired))?;
+    let repair = Repair::from_file(&file, options.repaired)?;
+    let weights = place.weights(&repair)?;
     let restitution = restitution(structure, &source.study);
     let (mut notes, own_oscillator) = differences(structure, &source, restitution);
     let other_oscillator = !notes.is_empty();
@@ -100,7 +100,7 @@ pub fn design(
     };
     notes.extend(frame.as_ref().map(|_| what_frames_leave_out(structure)));
     if structure.uncertainty.is_some() && uncertainty.is_none() {
-        notes.push(without_uncertainty(options, &source));
+        notes.push(without_uncertainty(options.repaired, &source));
     }
     let demands = RuleDemands {
         of_spectrum_m: spectrum.map(|spectrum| spectrum.zero_stiffness_demand_m),
@@ -180,21 +180,6 @@ pub fn design_shard(
     let analysis = DesignAnalysis::from_structure(structure, (&source, measure), (records, options))?;
     let work = analysis.work(&source, &job_name("design", structure))?;
     Ok(work.shard_beside(result, shard, events)?)
-}
-
-/// What runs weigh at a place: as a repair says where one is asked for.
-fn site_weights<'a>(
-    reweighing: Option<&'a Reweighing>,
-    place: Place<'a>,
-    (source, is_repaired): (&StudyOfResult, bool),
-) -> Result<SiteWeights<'a>, DesignError> {
-    let Place { site, measure, .. } = place;
-    let runs = reweighing.and_then(|of| of.weights(measure.measure(), site));
-    if is_repaired && runs.is_none() {
-        Err(not_repaired(source, place))
-    } else {
-        Ok(SiteWeights::new(&measure.weights[site], runs))
-    }
 }
 
 /// The repaired spectrum at a site and probability, m, `[strength]`; none where there is none.

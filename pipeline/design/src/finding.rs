@@ -5,6 +5,7 @@ mod keep;
 
 use serde::Serialize;
 use uplift_job::JobError;
+use uplift_job::text::spectrum_words;
 use uplift_result::{Finding, FindingRow, Inquiry};
 use uplift_study::Structure;
 use uplift_uniform_risk::EventRisk;
@@ -235,7 +236,7 @@ impl TargetReport {
     pub fn finding(&self, structure: &Structure, options: &TargetOptions) -> Result<Finding, DesignError> {
         let mut request = vec![
             ("site", self.site.clone()),
-            ("measure", self.im.to_owned()),
+            ("measure", spectrum_words(self.im, self.repaired)),
             ("vary", self.quantity.to_owned()),
             ("event", self.event.clone()),
             ("per year", self.target_per_year.to_string()),
@@ -279,11 +280,11 @@ impl TargetReport {
         for other in &self.by_other_measures {
             rows.extend(rate(&format!("{} at the {at}", self.event), &other.risk, None, [&self.site, other.im]));
         }
-        if let Some(frame) = &self.frame {
-            rows.push(of_quantity(format!("safe {quantity}, wobbling frame"), frame.safe_value));
-            let what = |model: &str| format!("{} at {quantity} {}, {model}", self.event, frame.value);
+        if let Some(own) = &self.own {
+            rows.push(of_quantity(format!("safe {quantity}, {}", own.decisive().model), own.safe_value));
+            let what = |model: &str| format!("{} at {quantity} {}, {model}", self.event, own.value);
             let at = [self.site.as_str(), self.im];
-            rows.extend(frame.models.iter().flat_map(|own| rate(&what(own.model), &own.risk, own.bands, at)));
+            rows.extend(own.models.iter().flat_map(|own| rate(&what(own.model), &own.risk, own.bands, at)));
         }
         let by_structure = self.uncertainty.as_ref().and_then(|of| of.by_structure);
         rows.extend(by_structure.map(|[lower, _, upper]| least.within([lower, upper], "structure")));

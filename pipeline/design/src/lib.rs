@@ -49,8 +49,8 @@ pub use rules::{MeasureVerdict, OwnCheck, RuleCheck, RuleOutcome, verdict_word};
 pub use sensitivity::{DemandNoise, DemandRounding, RuleRanges, Sensitivity};
 pub use spectrum::SpectrumDemand;
 pub use target::{
-    Crossing, Exceeded, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetByMeasure, TargetEvent, TargetFrame,
-    TargetFrameModel, TargetOptions, TargetReport, TargetUncertainty, TriedFrame, TriedValue, target,
+    Crossing, Exceeded, FoundSystem, GenericTarget, LevelShare, TargetBand, TargetByMeasure, TargetEvent, TargetModel,
+    TargetOptions, TargetOwn, TargetReport, TargetUncertainty, TriedOwn, TriedValue, target,
 };
 pub use uncertain::{
     AleatoryResult, EpistemicResult, QuantityReport, Spread, UncertainFinding, UncertainResult, UncertaintyReport,

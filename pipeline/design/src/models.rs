@@ -5,19 +5,18 @@ use uplift_block::RockingBlock;
 use uplift_ida::System;
 use uplift_job::JobError;
 use uplift_structure::PostUpliftForce;
-use uplift_study::Structure;
-use uplift_uniform_risk::StudyOfResult;
+use uplift_study::{Structure, UniformRiskStudy};
 
 use crate::error::DesignError;
 
 /// The models of a structure, each with the origin of its restitution.
 pub(super) fn models(
     structure: &Structure,
-    source: &StudyOfResult,
+    study: &UniformRiskStudy,
     for_both: Option<f64>,
     notes: &mut Vec<String>,
 ) -> Result<Vec<(System, &'static str)>, DesignError> {
-    let (study, own) = (&source.study, structure.description.restitution);
+    let own = structure.description.restitution;
     let chosen = for_both.map(|value| (value, "--restitution")).or(own.map(|value| (value, "the structure file")));
     let (restitution, origin) = chosen.unwrap_or((study.oscillator.restitution, "the study"));
     let fail = |error: DesignError| match for_both {

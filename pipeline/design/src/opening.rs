@@ -7,9 +7,12 @@ use uplift_inputs::manifest::record_files;
 use uplift_inputs::{RecordSet, motion_keys};
 use uplift_job::JobError;
 use uplift_job::outputs::{self, Output, OutputKind};
+use uplift_job::text::typed_path;
 use uplift_motion::IntensityMeasure;
 use uplift_result::ResultFile;
+use uplift_risk::SiteWeights;
 use uplift_study::{AnyStudy, Structure, UniformRiskStudy};
+use uplift_uniform_risk::consistency::{Reweighing, missed_in_words};
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult};
 
 use super::pairs::Pairs;
@@ -37,6 +40,50 @@ impl<'a> Place<'a> {
     ) -> Result<Self, DesignError> {
         let site = site_index(source, site)?;
         Ok(Self { site, name: &source.sites[site], measure: choose_measure(source, measure)? })
+    }
+
+    /// What runs weigh there, by the repair that is asked for.
+    ///
+    /// # Errors
+    /// No repaired spectrum there.
+    pub(super) fn weights(&self, repair: &'a Repair<'a>) -> Result<SiteWeights<'a>, DesignError> {
+        let Self { site, name, measure } = *self;
+        repair.weights((measure, site)).ok_or_else(|| {
+            let (measure, result) = (measure.measure().label(), typed_path(repair.file.path()));
+            JobError::Usage(format!(
+                "--repaired: the result has no repaired spectrum of {name} by {measure}: `uplift consistency {result} \
+                 --repair --details` computes it, or says why there is none"
+            ))
+            .into()
+        })
+    }
+
+    /// How the records miss the hazard there, where the result has a repair that mends it.
+    pub(super) fn unrepaired(&self, file: &ResultFile) -> Result<Option<String>, DesignError> {
+        let found = file.consistency()?;
+        let own = found.iter().find(|of| of.scaled_to == self.measure.measure() && of.is_repaired(self.site));
+        Ok(own.and_then(|of| missed_in_words(of, self.site)))
+    }
+}
+
+/// The weights of a result's repair, where they are asked for.
+pub(super) struct Repair<'a> {
+    file: &'a ResultFile,
+    is_asked: bool,
+    /// None where they are not asked for, and of a result without.
+    reweighing: Option<Reweighing>,
+}
+
+impl<'a> Repair<'a> {
+    pub(super) fn from_file(file: &'a ResultFile, is_asked: bool) -> Result<Self, DesignError> {
+        let reweighing = if is_asked { Reweighing::from_motions(file)? } else { None };
+        Ok(Self { file, is_asked, reweighing })
+    }
+
+    /// What runs weigh by a measure at a site; none where a repair is asked for and missing.
+    pub(super) fn weights<'b>(&'b self, (measure, site): (&'b SpectraOfResult, usize)) -> Option<SiteWeights<'b>> {
+        let runs = self.reweighing.as_ref().and_then(|of| of.weights(measure.measure(), site));
+        (runs.is_some() || !self.is_asked).then(|| SiteWeights::new(&measure.weights[site], runs))
     }
 }
 

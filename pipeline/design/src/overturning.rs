@@ -33,7 +33,7 @@ use super::tables::{risk_path, write_tables};
 use super::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
 use crate::error::DesignError;
 use analysis::{OSCILLATOR, factors};
-pub(crate) use analysis::{OverturningAnalysis, peaks_m};
+pub(crate) use analysis::{OverturningAnalysis, block_leaves_the_ground, peaks_m};
 pub use options::OverturningOptions;
 pub use report::{CollapseReport, ModelReport, OverturningReport, SiteRisk};
 use report::{Collapses, FrameCollapses, reports};

@@ -193,6 +193,12 @@ impl OwnFrame {
         })
     }
 
+    /// Becomes the frame of another structure, to be shaken by the same pairs.
+    pub(super) fn change(&mut self, structure: &Structure) -> Result<(), DesignError> {
+        *self = Self::from_structure(structure, std::mem::take(&mut self.pairs))?;
+        Ok(())
+    }
+
     /// Why it cannot be shaken by a measure at `levels`: its records, scaled, let it leave the ground.
     pub(super) fn leaves_the_ground(
         &self,

@@ -9,7 +9,7 @@ use uplift_uniform_risk::{plan_motions, with_verticals};
 use crate::error::DesignError;
 
 /// Pairs of a study, each with a key of both components, and how many records are of each.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Pairs {
     pub(super) all: Vec<RecordPair>,
     pub(super) keys: Vec<String>,

@@ -8,7 +8,7 @@
 
 mod band;
 mod candidate;
-mod frame;
+mod own;
 mod report;
 mod request;
 mod search;
@@ -16,16 +16,16 @@ mod table;
 mod trial;
 mod words;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use uplift_hazard::HazardCurve;
-use uplift_risk::risk_targeted_level;
+use uplift_risk::{SiteWeights, risk_targeted_level};
 use uplift_spectra::Noisy;
 use uplift_structure::Quantity;
 use uplift_study::Structure;
 
 pub use band::{TargetBand, TargetUncertainty};
-pub use frame::{TargetFrame, TargetFrameModel, TriedFrame};
+pub use own::{TargetModel, TargetOwn, TriedOwn};
 pub use report::{FoundSystem, GenericTarget, TargetByMeasure, TargetReport, TriedValue};
 pub use request::{Exceeded, TargetEvent, TargetOptions};
 pub use search::Crossing;
@@ -33,14 +33,14 @@ pub use trial::LevelShare;
 
 use super::certainty::Scatter;
 use super::hazard::Hazard;
-use super::opening::{Place, check_tables};
+use super::opening::{Place, Repair, check_tables};
 use super::own_frame::{OwnFrame, STOPPED, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
 use super::risk::own_risk;
 use crate::error::DesignError;
 use band::Frequencies;
 use candidate::Attempt;
-use frame::{FrameTarget, NO_COLUMNS};
+use own::{Judge, OF_SIZE};
 use search::{crossings, digits, extend, lattice, least, narrow, rounded_up, spread};
 use trial::Trials;
 use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
@@ -49,7 +49,7 @@ use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
 use uplift_result::ResultFile;
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult};
-use words::{Words, assumptions, kept, with_mistakes};
+use words::{Words, assumptions, kept, of_weights, with_mistakes};
 
 /// Values tried before the search narrows, over the range.
 const VALUES: usize = 13;
@@ -93,19 +93,18 @@ pub fn target(
     let years = options.poe.and(options.years).unwrap_or(source.study.risk.years);
     let target_per_year = options.target_per_year(years)?;
     let (range, own_value) = range(structure, options)?;
-    let hazard = Hazard::from_file(&file, &source, (measure, site))?;
-    let others = source.measures.iter().filter(|other| other.measure() != measure.measure());
-    let with_hazard = |other| Ok((other, Hazard::from_file(&file, &source, (other, site))?));
-    let others = others.map(with_hazard).collect::<Result<Vec<_>, DesignError>>()?;
+    let repair = Repair::from_file(&file, options.repaired)?;
+    let (weights, hazard) = (place.weights(&repair)?, Hazard::from_file(&file, &source, (measure, site))?);
+    let others = others(&file, &source, place, &repair)?;
     let scatter = Scatter::from_file(&file)?;
+    let of_records = (&hazard, &scatter);
     let wobbles = OwnFrame::is_described(structure);
     let without_frame = why_left_out(structure, options);
     let asked = (options, years, wobbles && !options.proxy && without_frame.is_none());
-    let mut trials = Trials::from_structure(structure, &source, (place, &hazard, &scatter), asked, events)?;
+    let mut trials = Trials::from_structure(structure, &source, (place, weights), of_records, asked, events)?;
     trials.refuse_untellable(place.name, target_per_year)?;
 
     let meets = |attempt: &Attempt| attempt.meets(target_per_year);
-    let of_records = (&hazard, &scatter);
     let Searched { tried, frequencies, safe_value } =
         searched((&mut trials, of_records), range, options.tolerance, target_per_year)?;
     let words = Words { options, target_per_year };
@@ -124,35 +123,37 @@ pub fn target(
     let mut notes = words.notes(&crossings, &tried, &noise);
     // where the safe value itself misses the target
     let safe_value = safe_value.max(value);
-    let judged = FrameTarget { structure, options, place, of_records, target_per_year, years };
-    let (frame, falls) = judged.judge(&mut trials, [safe_value, value, range[1]])?;
-    notes.extend(frame.as_ref().map(|_| what_frames_leave_out(structure)));
-    let by_proxy = wobbles && frame.is_none();
+    let judge = Judge { structure, options, place, of_records, target_per_year, years };
+    let (own, falls) = judge.judge(&mut trials, [safe_value, value, range[1]])?;
+    notes.extend(own.as_ref().filter(|_| wobbles).map(|_| what_frames_leave_out(structure)));
+    let by_proxy = (wobbles || structure.block.is_some()) && own.is_none();
     notes.extend(assumptions(&file, by_proxy));
+    notes.extend(of_weights((&file, &source), structure, options.repaired));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
     let counts = (trials.records.count(), scatter.pairs.len());
     let event = options.event().words();
-    let mut risks = vec![own_risk((&event, found.risk), (place.name, measure), counts)];
-    risks.extend(frame.iter().flat_map(|of| of.own_risks(&event, place, counts)));
-    alarms.extend(own_risk_alarms(&risks));
+    let of_proxy = own_risk((&event, found.risk), (place.name, measure), counts);
+    let of_own = own.iter().flat_map(|of| of.own_risks(&event, place, counts));
+    alarms.extend(own_risk_alarms(&[of_proxy].into_iter().chain(of_own).collect::<Vec<_>>()));
     let bands = frequencies.bands(value, target_per_year);
     let safe = tried.iter().find(|(tried, _)| tried.total_cmp(&safe_value).is_eq());
     let by_other_measures = judged_by(&others, &mut trials, ([safe_value, value], target_per_year))?;
-    let uncertainty = |around| TargetUncertainty::from_tried(around, &tried, target_per_year);
     let mut report = TargetReport {
-        uncertainty: trials.around.as_ref().map(uncertainty),
+        uncertainty: trials.around.as_ref().map(|of| TargetUncertainty::from_tried(of, &tried, target_per_year)),
         structure: StructureReport::from_structure(structure, Some(trials.restitution)),
         site: place.name.to_owned(),
         im: measure.measure().label(),
         im_unit: measure.measure().unit(),
+        repaired: options.repaired,
         quantity: options.quantity.key(),
         quantity_unit: options.quantity.unit(),
         own_value,
         event,
         by_proxy,
-        frame,
-        without_frame: without_frame.or(falls),
+        own,
+        without_own: without_frame.or(falls),
+        unrepaired: if options.repaired { None } else { place.unrepaired(&file)? },
         target_per_year,
         years,
         safe_value,
@@ -173,26 +174,40 @@ pub fn target(
         analyses: trials.analyses,
         notes,
         alarms: ranked(alarms),
+        repeated: options.repeated(),
         files: Vec::new(),
         source: ReportSource::read(&file, &source)?,
     };
-    if let Some(path) = &options.table {
-        table::write(path, &report)?;
-        report.files = vec![path.clone()];
-    }
+    let written = |path: &PathBuf| table::write(path, &report).map(|()| path.clone());
+    report.files = options.table.iter().map(written).collect::<Result<_, _>>()?;
     trials.finish();
     Ok(report)
 }
 
+/// Another measure than that of the search, with its hazard and what runs weigh by it.
+type Other<'a> = (&'a SpectraOfResult, Hazard<'a>, SiteWeights<'a>);
+
+/// The other measures of the result that have the weights asked for at the place.
+fn others<'a>(
+    file: &ResultFile,
+    source: &'a StudyOfResult,
+    Place { site, measure, .. }: Place<'a>,
+    repair: &'a Repair<'a>,
+) -> Result<Vec<Other<'a>>, DesignError> {
+    let others = source.measures.iter().filter(|other| other.measure() != measure.measure());
+    let others = others.filter_map(|other| Some((other, repair.weights((other, site))?)));
+    others.map(|(other, weights)| Ok((other, Hazard::from_file(file, source, (other, site))?, weights))).collect()
+}
+
 /// What other measures say of the safe value, or of the best estimate where there is none.
 fn judged_by<'a>(
-    others: &'a [(&'a SpectraOfResult, Hazard<'a>)],
+    others: &'a [Other<'a>],
     trials: &mut Trials<'a>,
     ([safe_value, value], target_per_year): ([f64; 2], f64),
 ) -> Result<Vec<TargetByMeasure>, DesignError> {
     let value = if safe_value.is_finite() { safe_value } else { value };
-    let judged = |(measure, hazard): &'a (&'a SpectraOfResult, Hazard<'a>)| {
-        let attempt = trials.attempt_by(value, (*measure, hazard))?;
+    let judged = |(measure, hazard, weights): &'a Other<'a>| {
+        let attempt = trials.attempt_by(value, (*measure, hazard, *weights))?;
         let is_told = attempt.risk.at_most_per_year.is_none_or(|bound| bound <= target_per_year);
         let is_met = is_told.then(|| attempt.meets(target_per_year));
         Ok(TargetByMeasure { im: measure.measure().label(), risk: attempt.risk, is_met })
@@ -206,7 +221,8 @@ fn alarms_before(
     place: Place<'_>,
     (structure, options): (&Structure, &TargetOptions),
 ) -> Result<Vec<Alarm>, DesignError> {
-    let scope = Scope { site: Some(place.site), measure: Some(place.measure.measure()), ..Scope::default() };
+    let (site, measure) = (Some(place.site), Some(place.measure.measure()));
+    let scope = Scope { site, measure, repaired: options.repaired, ..Scope::default() };
     let mut alarms = alarms_of_inputs(file, &scope)?;
     alarms.extend(structure_alarms(structure));
     alarms.extend(options.doubtful());
@@ -218,7 +234,7 @@ fn why_left_out(structure: &Structure, options: &TargetOptions) -> Option<String
     let is_asked = OwnFrame::is_described(structure) && !options.proxy;
     let has_columns = !matches!(options.quantity, Quantity::Strength | Quantity::Capacity);
     match (OwnFrame::can_be_shaken(structure), has_columns) {
-        (true, false) if is_asked => Some(NO_COLUMNS.to_owned()),
+        (true, false) if is_asked => Some(OF_SIZE.to_owned()),
         (false, _) if is_asked => Some(STOPPED.to_owned()),
         _ => None,
     }
@@ -236,19 +252,21 @@ struct Searched {
 
 /// Tries values of the `range`: few all over it, more within the band, and most just above the best estimate.
 fn searched(
-    (trials, of_records): (&mut Trials<'_>, (&Hazard<'_>, &Scatter)),
+    (trials, (hazard, scatter)): (&mut Trials<'_>, (&Hazard<'_>, &Scatter)),
     range: [f64; 2],
     tolerance: f64,
     target_per_year: f64,
 ) -> Result<Searched, DesignError> {
     let meets = |attempt: &Attempt| attempt.meets(target_per_year);
+    let repaired = trials.weights.repaired();
+    let frequencies = |tried: &[(f64, Attempt)]| Frequencies::from_trials(tried, (hazard, repaired), scatter);
     let digits = digits(tolerance);
     let mut tried = Vec::new();
     let attempt = &mut |values: &[f64]| trials.attempt(values);
     extend(&mut tried, spread(range, VALUES, digits), attempt)?;
     for (part, step) in STEPS.into_iter().enumerate() {
         for _ in 0..ROUNDS {
-            let [best, lower, upper] = Frequencies::from_trials(&tried, of_records)?.crossings(target_per_year);
+            let [best, lower, upper] = frequencies(&tried)?.crossings(target_per_year);
             // missed by the largest, or met by all
             if least(&tried, meets).is_none_or(|at| at == 0) {
                 break;
@@ -261,7 +279,7 @@ fn searched(
         }
     }
     narrow(&mut tried, (tolerance, digits), &mut *attempt, meets)?;
-    let frequencies = Frequencies::from_trials(&tried, of_records)?;
+    let frequencies = frequencies(&tried)?;
     // by these, whatever the safe value shows
     let [_, _, upper] = frequencies.crossings(target_per_year);
     let best = least(&tried, meets).map_or(f64::INFINITY, |at| tried[at].0);

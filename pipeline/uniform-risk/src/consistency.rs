@@ -30,7 +30,7 @@ pub use question::Question;
 pub use repairs::{Repairs, least_effective};
 pub use report::{
     AgreementRow, ConsistencyReport, ConsistencyRow, EarthquakeRow, MissRow, NearestRow, RepairRow, TargetRow,
-    TwoSidedRow, times_in_words,
+    TwoSidedRow, missed_in_words, times_in_words,
 };
 pub use reweighing::{RepairedAnalysis, Reweighed, ReweighedBranch, Reweighing};
 pub use uplift_consistency::Verdict;

@@ -2,11 +2,13 @@
 
 use std::io::Write;
 
-use uplift::structure::{LimitEvent, TargetBand, TargetFrame, TargetReport};
+use uplift::structure::{LimitEvent, TargetBand, TargetOwn, TargetReport};
 use uplift::text::{self, Table, per_cent, short, thousands};
 
 use super::alarms::print_warnings;
-use super::structure::{fewer_levels, measure_option, print_notes, print_structure, rate, record_set, risk_cells};
+use super::structure::{
+    BLOCK, fewer_levels, measure_option, print_notes, print_structure, rate, record_set, risk_cells,
+};
 use super::uncertainty::{kind_in_words, print_quantities};
 use super::{print_more, shown_path, typed_path};
 use crate::error::CommandError;
@@ -25,7 +27,8 @@ pub(crate) fn print_target(report: &TargetReport, terminal: &Terminal) -> Result
 
 /// The safe value, then the best estimate with its band, and what they are for.
 fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
-    let TargetReport { event, site, im, quantity, target_per_year, value, .. } = report;
+    let TargetReport { event, site, quantity, target_per_year, value, .. } = report;
+    let im = text::spectrum_words(report.im, report.repaired);
     // values that were tried have few digits: printed whole, they can be tried again
     let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
     let safe = limit(report.safe_value, report);
@@ -37,26 +40,27 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         format!(" (90 % band {below}{} to {upper}, by {})", short(band.value[0]), band.of)
     });
     let best = format!("best estimate {}{band}", unit(value.to_string()));
-    let alone = if report.frame.as_ref().is_some_and(|frame| frame.passes_limit_above(*target_per_year)) {
+    let alone = if report.own.as_ref().is_some_and(|own| own.passes_limit_above(*target_per_year)) {
         " against overturning alone"
     } else {
         ""
     };
-    match &report.frame {
-        Some(frame) if frame.wobbling().is_safe => {
-            writeln!(out, "Safe {quantity}{alone} {safe} by wobbling frame and proxy; {best} of the proxy")?;
+    match &report.own {
+        Some(own) if own.decisive().is_safe => {
+            writeln!(out, "Safe {quantity}{alone} {safe} by {} and proxy; {best} of the proxy", noun(report, own))?;
         }
-        Some(frame) => {
-            let needs = if frame.safe_value.is_finite() {
-                format!("needs {}", limit(frame.safe_value, report))
+        Some(own) => {
+            let needs = if own.safe_value.is_finite() {
+                format!("needs {}", limit(own.safe_value, report))
             } else {
-                format!("misses the target up to {}", unit(frame.missed_at.unwrap_or(frame.value).to_string()))
+                format!("misses the target up to {}", unit(own.missed_at.unwrap_or(own.value).to_string()))
             };
             writeln!(
                 out,
-                "Safe {quantity}{alone}: the wobbling frame {needs}, its proxy {safe}; at {} {}",
-                unit(frame.value.to_string()),
-                how_often(frame, *target_per_year)
+                "Safe {quantity}{alone}: the {} {needs}, its proxy {safe}; at {} {}",
+                noun(report, own),
+                unit(own.value.to_string()),
+                how_often(report, own)
             )?;
         }
         None => {
@@ -64,22 +68,22 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
             writeln!(out, "Safe {quantity} {safe}; {best}{whose}")?;
         }
     }
-    if let Some(frame) = &report.frame {
-        print_limit(out, report, frame)?;
+    if let Some(own) = &report.own {
+        print_limit(out, report, own)?;
     }
     let years = 1.0 / target_per_year;
     writeln!(out, "Target    {event} at most {} per year (once in {years:.0} years)", rate(*target_per_year))?;
     let [per_year, ..] = risk_cells(&report.risk);
-    // the line above has the best estimate but for a frame that wobbles
-    let [whose, best] = match &report.frame {
-        Some(frame) if !frame.wobbling().is_safe => ["proxy: ".to_owned(), format!(" {}", unit(value.to_string()))],
+    // the line above has the best estimate but where the structure itself needs more
+    let [whose, best] = match &report.own {
+        Some(own) if !own.decisive().is_safe => ["proxy: ".to_owned(), format!(" {}", unit(value.to_string()))],
         _ => [String::new(), String::new()],
     };
     let at_safe =
         report.safe_risk.map_or_else(String::new, |risk| format!(", {} at the safe value", risk_cells(&risk)[0]));
     writeln!(out, "Risk      {whose}{per_year} per year at the best estimate{best}{at_safe}")?;
     let at = unit(if report.safe_value.is_finite() { report.safe_value } else { *value }.to_string());
-    let whose = if report.frame.is_some() || report.by_proxy { "its proxy by" } else { "by" };
+    let whose = if report.own.is_some() || report.by_proxy { "its proxy by" } else { "by" };
     for other in &report.by_other_measures {
         let [per_year, ..] = risk_cells(&other.risk);
         let verdict = match other.is_met {
@@ -89,6 +93,9 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         };
         writeln!(out, "          {whose} {} {per_year} per year at {at}: {verdict}", other.im)?;
     }
+    if let Some(misses) = &report.unrepaired {
+        writeln!(out, "Weights   equal, and the records have {misses}: --repaired searches by the repair's weights")?;
+    }
     if !report.kept.is_empty() {
         writeln!(
             out,
@@ -96,11 +103,11 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
             report.kept
         )?;
     }
-    if let Some(frame) = &report.frame {
-        print_frame(out, report, frame)?;
+    if let Some(own) = &report.own {
+        print_own(out, report, own)?;
     }
-    if let Some(reason) = &report.without_frame {
-        writeln!(out, "Frame     left out: {reason}")?;
+    if let Some(reason) = &report.without_own {
+        writeln!(out, "Itself    left out: {reason}")?;
     }
     if report.least_met < report.missed_at {
         let [met, missed] = [report.least_met, report.missed_at].map(|value| unit(value.to_string()));
@@ -113,27 +120,39 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let own = report
         .own_value
         .map_or_else(String::new, |own| format!("; the structure's {quantity} is {}", unit(short(own))));
-    let frame = report.frame.iter().map(|frame| (frame.levels.len(), frame.levels_of_study, &im[..]));
-    let records = record_set(&report.source.record_set, report.frame.is_some());
-    writeln!(out, "At        {site} by {im}; {records}{}{own}", fewer_levels(frame))?;
+    let own_levels = report.own.iter().map(|own| (own.levels.len(), own.levels_of_study, report.im));
+    let wobbles = report.own.as_ref().is_some_and(|own| own.models.len() > 1);
+    let records = record_set(&report.source.record_set, wobbles);
+    writeln!(out, "At        {site} by {im}; {records}{}{own}", fewer_levels(own_levels))?;
     Ok(())
 }
 
-/// How the wobbling frame misses a target at the value of its proxy, in words.
-fn how_often(frame: &TargetFrame, target_per_year: f64) -> String {
-    let own = frame.wobbling();
-    if own.is_met {
-        "the frame's rate meets the target, its upper limit does not".to_owned()
-    } else {
-        format!("the frame's rate is {:.2} times the target", own.risk.per_year / target_per_year)
+/// What decides of the structure itself: of a frame that does not wobble the block that rotates as it does.
+fn noun(report: &TargetReport, own: &TargetOwn) -> &'static str {
+    match own.decisive().model {
+        BLOCK if report.structure.kind != BLOCK => "equivalent block",
+        model => model,
     }
 }
 
-/// The rates of the frame at the value of its proxy, with a verdict by each model.
-fn print_frame(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame) -> Result<(), CommandError> {
-    let value = format!("{} {}", frame.value, report.quantity_unit);
-    let table = Table::from_rows(&frame.models)
-        .left("model", |own| own.model)
+/// How it misses a target at the value of its proxy, in words.
+fn how_often(report: &TargetReport, own: &TargetOwn) -> String {
+    let (noun, own) = (noun(report, own), own.decisive());
+    if own.is_met {
+        format!("the {noun}'s rate meets the target, its upper limit does not")
+    } else {
+        format!("the {noun}'s rate is {:.2} times the target", own.risk.per_year / report.target_per_year)
+    }
+}
+
+/// The rates of the structure itself at the value of its proxy, with a verdict by each model.
+fn print_own(out: &mut impl Write, report: &TargetReport, own: &TargetOwn) -> Result<(), CommandError> {
+    let value = format!("{} {}", own.value, report.quantity_unit);
+    let table = Table::from_rows(&own.models)
+        .left("model", |own| match own.model {
+            BLOCK => format!("block, restitution {:.3}", own.restitution),
+            of_frame => of_frame.to_owned(),
+        })
         .right(format!("per year at {}", value.trim_end()), |own| {
             let band = own.bands.map_or_else(String::new, |bands| {
                 let [lower, upper] = bands.fullest().map(text::rate);
@@ -142,7 +161,7 @@ fn print_frame(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame)
             risk_cells(&own.risk)[0].clone() + &band
         })
         .right("travel at the target rate, m", |own| {
-            if own.demand_m.is_finite() { format!("{:.2}", own.demand_m) } else { "overturns".to_owned() }
+            if own.demand_m.is_finite() { text::two_digits(own.demand_m) } else { "overturns".to_owned() }
         })
         .left("verdict", |own| match (own.is_met, own.is_safe) {
             (_, true) => "safe",
@@ -153,11 +172,11 @@ fn print_frame(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame)
 }
 
 /// How often the frame passes its limit, where that says more than how often it overturns.
-fn print_limit(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame) -> Result<(), CommandError> {
-    let (Some(limit), Some(beyond)) = (&frame.limit, &frame.beyond_limit) else { return Ok(()) };
+fn print_limit(out: &mut impl Write, report: &TargetReport, own: &TargetOwn) -> Result<(), CommandError> {
+    let (Some(limit), Some(beyond)) = (&own.limit, &own.beyond_limit) else { return Ok(()) };
     let [per_year, ..] = risk_cells(&beyond.risk);
-    let at = format!("{} {}", frame.value, report.quantity_unit);
-    let is_more = frame.passes_limit_above(report.target_per_year);
+    let at = format!("{} {}", own.value, report.quantity_unit);
+    let is_more = own.passes_limit_above(report.target_per_year);
     let more = if is_more { ", more often than the target. Search for the limit:" } else { "" };
     let (limit_in_words, at) = (limit.in_words(), at.trim_end());
     writeln!(
@@ -175,10 +194,11 @@ fn print_limit(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame)
         writeln!(
             out,
             "          uplift target {structure} --urs {result} --site {site} {} --vary {} --exceed {exceeded} \
-             --per-year {}",
+             --per-year {}{}",
             measure_option(report.im),
             report.quantity,
-            report.target_per_year
+            report.target_per_year,
+            report.repeated
         )?;
     }
     Ok(())
@@ -187,7 +207,8 @@ fn print_limit(out: &mut impl Write, report: &TargetReport, frame: &TargetFrame)
 fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
     print_structure(out, &report.structure)?;
     writeln!(out, "records    {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;
-    let TargetReport { event, site, im, quantity, target_per_year, value, .. } = report;
+    let TargetReport { event, site, quantity, target_per_year, value, .. } = report;
+    let im = text::spectrum_words(report.im, report.repaired);
     let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
     writeln!(
         out,
@@ -231,13 +252,13 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
         )?;
         print_quantities(out, &uncertain.quantities)?;
     }
-    if let Some(frame) = report.frame.as_ref().filter(|frame| frame.tried.len() > 1) {
-        let table = Table::from_rows(&frame.tried)
+    if let Some(own) = report.own.as_ref().filter(|own| own.tried.len() > 1) {
+        let table = Table::from_rows(&own.tried)
             .right(report.quantity, |tried| tried.value)
             .right("per year", |tried| rate(tried.per_year))
             .right("upper limit", |tried| rate(tried.upper_per_year))
             .left("", |tried| if tried.is_safe { "safe" } else { "not safe" });
-        writeln!(out, "\nThe wobbling frame at other values\n{table}")?;
+        writeln!(out, "\nThe {} at other values\n{table}", noun(report, own))?;
     }
     print_crossings(out, report)?;
     print_beside(out, report)

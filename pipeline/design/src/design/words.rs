@@ -1,14 +1,12 @@
 //! What a design says in words: how the structure and the study differ, and what could not be done.
 
 use uplift_job::JobError;
-use uplift_job::text::{rounded, typed_path};
+use uplift_job::text::rounded;
 use uplift_oscillator::PostUplift;
 use uplift_study::Structure;
 use uplift_uniform_risk::StudyOfResult;
 
-use super::options::DesignOptions;
 use crate::error::DesignError;
-use crate::opening::Place;
 use crate::spectrum::SpectrumDemand;
 
 /// The rules start from the ZSBE system: a spectrum of another says nothing to them.
@@ -28,21 +26,9 @@ pub(super) fn require_zero_stiffness(source: &StudyOfResult) -> Result<(), Desig
     .into())
 }
 
-/// Why there is no repaired spectrum of a site.
-pub(super) fn not_repaired(source: &StudyOfResult, place: Place<'_>) -> DesignError {
-    JobError::Usage(format!(
-        "--repaired: the result has no repaired spectrum of {} by {}: `uplift consistency {} --repair --details` \
-         computes it, or says why there is none",
-        place.name,
-        place.measure.measure().label(),
-        typed_path(&source.path)
-    ))
-    .into()
-}
-
 /// Why the structures that it may be are not analysed.
-pub(super) fn without_uncertainty(options: &DesignOptions, source: &StudyOfResult) -> String {
-    let reason = if options.repaired {
+pub(crate) fn without_uncertainty(is_repaired: bool, source: &StudyOfResult) -> String {
+    let reason = if is_repaired {
         "their risk is not computed with repaired weights (leave --repaired out)"
     } else if source.study.records.at_level.is_some() {
         "their risk is not computed with records of their own at each level (records.at_level)"

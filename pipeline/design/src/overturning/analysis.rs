@@ -54,7 +54,7 @@ impl<'a> OverturningAnalysis<'a> {
             Some(measure) => vec![choose_measure(source, Some(measure))?],
             None => source.measures.iter().collect(),
         };
-        let mut models = models(structure, source, options.restitution, notes)?;
+        let mut models = models(structure, &source.study, options.restitution, notes)?;
         let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
         let stops = OwnFrame::is_described(structure) && !OwnFrame::can_be_shaken(structure) && !options.proxy;
         let mut without_frame = stops.then(|| STOPPED.to_owned());
@@ -139,7 +139,7 @@ pub(super) fn factors() -> Vec<f64> {
 }
 
 /// Why the block among `models` cannot be shaken: its records, scaled, let it leave the ground.
-fn block_leaves_the_ground(
+pub(crate) fn block_leaves_the_ground(
     models: &[(System, &'static str)],
     study: &UniformRiskStudy,
     measures: &[&SpectraOfResult],

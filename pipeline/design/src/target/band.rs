@@ -1,8 +1,11 @@
 //! How sure a found value is: where the band of the frequency, by all records like those at hand, meets the target.
 
 use serde::Serialize;
-use uplift_bootstrap::{crossing, falling, inferred_mean, inferred_mean_over_alternatives, is_too_narrow};
+use uplift_bootstrap::{
+    crossing, falling, inferred_mean, inferred_mean_over_alternatives, inferred_weighted_rate, is_too_narrow,
+};
 use uplift_fragility::quantile;
+use uplift_risk::{RiskError, RunWeights};
 
 use super::candidate::{Attempt, StructureRisk};
 use crate::certainty::{CONFIDENCE, Scatter};
@@ -38,27 +41,31 @@ pub(super) struct Frequencies {
 }
 
 impl Frequencies {
-    /// Of what was `tried`, ascending.
+    /// Of what was `tried`, ascending. With `repaired` weights they are of the mean hazard curve alone.
     pub(super) fn from_trials(
         tried: &[(f64, Attempt)],
-        (hazard, scatter): (&Hazard<'_>, &Scatter),
+        (hazard, repaired): (&Hazard<'_>, Option<&RunWeights>),
+        scatter: &Scatter,
     ) -> Result<Self, DesignError> {
         let values: Vec<f64> = tried.iter().map(|(value, _)| *value).collect();
         // [value][record], of one hazard curve or structure
         let fallen = |of: &dyn Fn(&Attempt) -> &[f64]| {
             falling(&values, &tried.iter().map(|(_, attempt)| of(attempt)).collect::<Vec<_>>())
         };
-        let contributions = fallen(&|attempt| &attempt.record_per_year);
-        let means = contributions.iter().map(|of| of.iter().sum::<f64>() / of.len() as f64).collect();
-        let by_units = |units: &[Vec<usize>]| {
-            contributions
-                .iter()
-                .map(|of| Ok(inferred_mean(of, units, CONFIDENCE)?))
-                .collect::<Result<Vec<_>, DesignError>>()
+        // of each record, or of each of its runs
+        let contributions =
+            fallen(&|attempt| if repaired.is_some() { &attempt.happens } else { &attempt.record_per_year });
+        let told = |of: &Vec<f64>, units: &[Vec<usize>]| match repaired {
+            Some(weights) => inferred_weighted_rate(of, weights, units, CONFIDENCE),
+            None => Ok((of.iter().sum::<f64>() / of.len() as f64, inferred_mean(of, units, CONFIDENCE)?)),
         };
-        let by_record = by_units(&scatter.pairs)?;
+        let by_units = |units: &Vec<Vec<usize>>| {
+            contributions.iter().map(|of| told(of, units)).collect::<Result<Vec<_>, RiskError>>()
+        };
+        let (means, by_record): (Vec<f64>, Vec<_>) = by_units(&scatter.pairs)?.into_iter().unzip();
         let earthquakes = scatter.earthquakes.as_ref().filter(|earthquakes| earthquakes.len() > 1);
-        let by_earthquake = earthquakes.map(|earthquakes| by_units(earthquakes)).transpose()?;
+        let by_earthquake = earthquakes.map(by_units).transpose()?;
+        let by_earthquake = by_earthquake.map(|of| of.into_iter().map(|(_, limits)| limits).collect::<Vec<_>>());
         let is_wider = by_earthquake.as_ref().is_some_and(|wider| is_too_narrow(middle(&by_record), middle(wider)));
         let (records, units) = match earthquakes {
             Some(earthquakes) if is_wider => ("earthquakes", earthquakes),
@@ -78,15 +85,16 @@ impl Frequencies {
             bands.push((of, (0..values.len()).map(at).collect::<Result<_, DesignError>>()?));
             Ok(())
         };
-        if !hazard.branches.is_empty() {
+        let branches = if repaired.is_some() { &[] } else { &hazard.branches[..] };
+        if !branches.is_empty() {
             let by_curve = |(place, (weight, _)): (usize, &(f64, _))| (*weight, fallen(&|of| &of.by_branch[place]));
-            over(format!("{records} and hazard"), hazard.branches.iter().enumerate().map(by_curve).collect())?;
+            over(format!("{records} and hazard"), branches.iter().enumerate().map(by_curve).collect())?;
         }
         let structures = tried.first().map_or(1, |(_, attempt)| attempt.structures.len());
         if structures > 1 {
             // every structure with the hazard curve that goes with it
             let by_structure = |place: usize| (1.0, fallen(&|of| of.structures[place].with_its_hazard()));
-            let of = if hazard.branches.is_empty() {
+            let of = if branches.is_empty() {
                 format!("structure and {records}")
             } else {
                 format!("structure, {records} and hazard")

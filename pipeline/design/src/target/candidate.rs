@@ -23,7 +23,10 @@ pub(super) struct Attempt {
     pub(super) candidate: Candidate,
     /// On average over the structures that it may be.
     pub(super) risk: EventRisk,
-    /// What each record contributes on average by the mean hazard curve, 1/yr: their mean is the frequency.
+    /// In which share of the structures that it may be it happens, `[record, level]`.
+    pub(super) happens: Vec<f64>,
+    /// What each record contributes on average by the mean hazard curve, 1/yr: their mean is the frequency, where
+    /// records count alike.
     pub(super) record_per_year: Vec<f64>,
     /// The same by every weighted hazard curve, `[curve][record]`; none where there is but one.
     pub(super) by_branch: Vec<Vec<f64>>,

@@ -10,7 +10,7 @@ use uplift_uniform_risk::EventRisk;
 
 use super::band::{TargetBand, TargetUncertainty};
 use super::candidate::Attempt;
-use super::frame::TargetFrame;
+use super::own::TargetOwn;
 use super::search::Crossing;
 use super::trial::LevelShare;
 use crate::report::{ReportSource, StructureReport};
@@ -30,6 +30,8 @@ pub struct TargetReport {
     pub im: &'static str,
     /// Unit of its levels.
     pub im_unit: &'static str,
+    /// Whether its records have the weights of a repair.
+    pub repaired: bool,
     /// What is varied: `width`.
     pub quantity: &'static str,
     /// Its unit.
@@ -38,14 +40,18 @@ pub struct TargetReport {
     pub own_value: Option<f64>,
     /// What must not happen more often: `overturning`, or which displacement is exceeded.
     pub event: String,
-    /// Whether it is a frame that can wobble, and all numbers are those of its proxy, the oscillator.
+    /// Whether it is a frame that can wobble or a block, and all numbers are those of its proxy, the oscillator.
     pub by_proxy: bool,
-    /// What the frame itself says; none of a structure that cannot wobble, and by its proxy.
+    /// What the structure itself says, a frame that can wobble or a block; none of any other, and by its proxy.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub frame: Option<TargetFrame>,
-    /// Why a frame that can wobble is left out although no `--proxy` asks for that.
+    pub own: Option<TargetOwn>,
+    /// Why it is left out although no `--proxy` asks for that.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub without_frame: Option<String>,
+    pub without_own: Option<String>,
+    /// How the records miss the site's hazard, which the repair of the result would mend; none with its weights, and
+    /// where they do not miss it.
+    #[serde(skip)]
+    pub unrepaired: Option<String>,
     /// How often it may happen, 1/yr.
     pub target_per_year: f64,
     /// Years that probabilities refer to.
@@ -91,6 +97,9 @@ pub struct TargetReport {
     pub notes: Vec<String>,
     /// What to know before using the numbers, the worst first.
     pub alarms: Vec<Alarm>,
+    /// What a command has to repeat of the one that asked, with a space before each.
+    #[serde(skip)]
+    pub repeated: String,
     /// What was written.
     #[serde(skip)]
     pub files: Vec<PathBuf>,

@@ -7,6 +7,7 @@ use uplift_alarms::number_alarms;
 use uplift_hazard::rate_from_probability;
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
+use uplift_job::text::typed_path;
 use uplift_job::typed::{Overwriting, RARE, number, number_or_per_cent, one_of};
 use uplift_motion::IntensityMeasure;
 use uplift_plausible::{
@@ -88,6 +89,9 @@ pub struct TargetOptions {
     /// Intensity measure [default: pgv]
     #[arg(long)]
     pub measure: Option<IntensityMeasure>,
+    /// Use records weighted for hazard consistency (uplift consistency --repair)
+    #[arg(long)]
+    pub repaired: bool,
     /// Quantity to vary
     #[arg(
         long = "vary",
@@ -164,6 +168,7 @@ impl TargetOptions {
             manifest: None,
             site: None,
             measure: None,
+            repaired: false,
             quantity,
             overturning: None,
             exceed: None,
@@ -182,6 +187,17 @@ impl TargetOptions {
             table: None,
             overwriting: Overwriting::default(),
         }
+    }
+
+    /// What a command has to repeat of this one, with a space before each, to ask the same of another event.
+    pub(super) fn repeated(&self) -> String {
+        let manifest = self.manifest.as_deref().map(|path| format!(" --manifest {}", typed_path(path)));
+        let repaired = self.repaired.then(|| " --repaired".to_owned());
+        let numbers = [("from", self.from), ("to", self.to), ("tolerance", Some(self.tolerance))];
+        let given = numbers.into_iter().filter_map(|(name, number)| Some((name, number?)));
+        let given = given.filter(|given| *given != ("tolerance", TOLERATED));
+        let numbers = given.map(|(name, number)| format!(" --{name} {number}"));
+        manifest.into_iter().chain(repaired).chain(numbers).collect()
     }
 
     /// What must not happen too often.

@@ -6,12 +6,13 @@ use std::path::Path;
 use serde::Serialize;
 use uplift_engine::analysis::{Analysed, LabelledPlan, Work};
 use uplift_engine::checkpoint::Checkpoint;
+use uplift_fragility::Stripes as Stripe;
 use uplift_hazard::HazardCurve;
 use uplift_ida::{Peaks, Plan, System};
 use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::text::{counted, rate, records_in_words, thousands};
-use uplift_risk::{SiteWeights, StripeWeights};
+use uplift_risk::{PooledDemand, SiteWeights, StripeWeights};
 use uplift_structure::Quantity;
 use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_levels};
@@ -22,6 +23,7 @@ use crate::certainty::Scatter;
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::{Place, ShakenRecords, job_name, records_and_pairs, required, restitution};
+use crate::overturning::peaks_m;
 use crate::own_frame::{FrameLevels, FramePeaks, OwnFrame};
 use crate::pairs::Pairs;
 use crate::risk::{HAPPENS, OVERTURNING_M, bounded, happenings, risk_of_exceeding};
@@ -49,9 +51,9 @@ pub(super) struct Trials<'a> {
     structure: &'a Structure,
     result: &'a Path,
     /// The study of the result, with what happens after the end of a record.
-    study: UniformRiskStudy,
+    pub(super) study: UniformRiskStudy,
     measure: &'a SpectraOfResult,
-    weights: SiteWeights<'a>,
+    pub(super) weights: SiteWeights<'a>,
     hazard: &'a Hazard<'a>,
     scatter: &'a Scatter,
     options: &'a TargetOptions,
@@ -61,7 +63,7 @@ pub(super) struct Trials<'a> {
     pub(super) components: Option<Pairs>,
     /// Coefficient of restitution of the oscillators.
     pub(super) restitution: f64,
-    /// The structures that every value may be; none where all of it is known.
+    /// The structures that every value may be; none where all of it is known, and with repaired weights.
     pub(super) around: Option<Around<'a>>,
     events: &'a dyn Events,
     name: String,
@@ -76,7 +78,8 @@ impl<'a> Trials<'a> {
     pub(super) fn from_structure(
         structure: &'a Structure,
         source: &'a StudyOfResult,
-        (place, hazard, scatter): (Place<'a>, &'a Hazard<'a>, &'a Scatter),
+        (place, weights): (Place<'a>, SiteWeights<'a>),
+        (hazard, scatter): (&'a Hazard<'a>, &'a Scatter),
         (options, years, with_pairs): (&'a TargetOptions, f64, bool),
         events: &'a dyn Events,
     ) -> Result<Self, DesignError> {
@@ -86,12 +89,16 @@ impl<'a> Trials<'a> {
         // what is lost when a record ends has overturned, whoever looks
         study.oscillator.free_vibration |= options.event() == TargetEvent::Overturning;
         let restitution = restitution(structure, &study);
+        let around = match weights {
+            SiteWeights::Alike(_) => Around::from_structure(structure, restitution, records.count())?,
+            SiteWeights::Repaired(_) => None,
+        };
         Ok(Self {
-            around: Around::from_structure(structure, restitution, records.count())?,
+            around,
             structure,
             result: &source.path,
             measure: place.measure,
-            weights: SiteWeights::Alike(hazard.mean),
+            weights,
             hazard,
             scatter,
             options,
@@ -121,6 +128,19 @@ impl<'a> Trials<'a> {
         let (analysed, checkpoint) = Work::new(&self.name, plans).asked_of(self.result, &[], self.events)?;
         self.checkpoint = Some(checkpoint);
         Ok(frame.peaks(analysed.first().ok_or(JobError::Interrupted)?, analysed.get(1)))
+    }
+
+    /// The peaks of a `block` at all levels, m, and how many analyses they took.
+    pub(super) fn rock(&mut self, block: &System) -> Result<(PooledDemand, u64), DesignError> {
+        drop(self.checkpoint.take());
+        let (measure, levels) = (self.measure.measure(), &self.measure.plan.levels);
+        let plan = plan_levels(&self.study, (measure, levels), &self.records.set, std::slice::from_ref(block))?;
+        let (label, analyses) = (format!("{}, {}", measure.label(), block.kind()), plan.analyses());
+        let labelled = LabelledPlan { label, remark: None, plan, motions: &self.records.motions, known: None };
+        let (analysed, checkpoint) = Work::new(&self.name, vec![labelled]).asked_of(self.result, &[], self.events)?;
+        self.checkpoint = Some(checkpoint);
+        let peaks_m = peaks_m(analysed.first().ok_or(JobError::Interrupted)?, levels.len(), 0);
+        Ok((PooledDemand::new(&Stripe::new(levels, &peaks_m)?)?, analyses))
     }
 
     /// Refuses a target rarer than what a structure may do of which no run shows it: whatever is found, the stripes
@@ -161,19 +181,19 @@ impl<'a> Trials<'a> {
         candidates.into_iter().enumerate().map(weigh).collect()
     }
 
-    /// The risk of `value` by another measure, whose hazard is this.
+    /// The risk of `value` by another measure with this hazard, by which runs weigh so much.
     ///
     /// # Errors
     /// As [`attempt`](Self::attempt).
     pub(super) fn attempt_by(
         &mut self,
         value: f64,
-        (measure, hazard): (&'a SpectraOfResult, &'a Hazard<'a>),
+        (measure, hazard, weights): (&'a SpectraOfResult, &'a Hazard<'a>, SiteWeights<'a>),
     ) -> Result<Attempt, DesignError> {
-        let (own_measure, own_hazard) = (self.measure, self.hazard);
-        (self.measure, self.hazard, self.weights) = (measure, hazard, SiteWeights::Alike(hazard.mean));
+        let own = (self.measure, self.hazard, self.weights);
+        (self.measure, self.hazard, self.weights) = (measure, hazard, weights);
         let found = self.attempt(&[value]);
-        (self.measure, self.hazard, self.weights) = (own_measure, own_hazard, SiteWeights::Alike(own_hazard.mean));
+        (self.measure, self.hazard, self.weights) = own;
         found?.pop().ok_or(JobError::Interrupted.into())
     }
 
@@ -198,15 +218,15 @@ impl<'a> Trials<'a> {
     /// What the `peaks` of the candidate at `place` among others say.
     fn weigh(&self, peaks: &Peaks, place: usize, candidate: Candidate) -> Result<Attempt, DesignError> {
         let all = place * self.per_record()..(place + 1) * self.per_record();
-        let mut happens = vec![0_u32; self.records.count() * self.measure.plan.levels.len()];
-        let mut of_places = |places| self.risk_of(peaks, places, (&candidate, &mut happens));
+        let mut counts = vec![0_u32; self.records.count() * self.measure.plan.levels.len()];
+        let mut of_places = |places| self.risk_of(peaks, places, (&candidate, &mut counts));
         // structures of each record are one fragility together, branches one each
         let structures: Vec<StructureRisk> = if self.is_of_each_record() {
             vec![of_places(all)?]
         } else {
             all.map(|place| of_places(place..place + 1)).collect::<Result<_, _>>()?
         };
-        let happening: Vec<f64> = happens.iter().map(|&count| f64::from(count) / self.per_record() as f64).collect();
+        let happens: Vec<f64> = counts.iter().map(|&count| f64::from(count) / self.per_record() as f64).collect();
         let of = |value: &dyn Fn(&StructureRisk) -> f64| mean(structures.iter().map(value).collect());
         let tail = |share: fn(&EventRisk) -> f64| of(&|one: &StructureRisk| share(&one.risk) * one.risk.per_year);
         let mut risk = if let [one] = &structures[..] {
@@ -227,19 +247,19 @@ impl<'a> Trials<'a> {
         let by_curve = |(_, stripes): &(f64, StripeWeights)| -> Vec<f64> {
             let per_year = stripes.per_year();
             let of_record = |shares: &[f64]| shares.iter().zip(&per_year).map(|(share, weight)| share * weight).sum();
-            happening.chunks_exact(per_year.len()).map(of_record).collect()
+            happens.chunks_exact(per_year.len()).map(of_record).collect()
         };
         let by_branch = self.hazard.branches.iter().map(by_curve).collect();
-        Ok(Attempt { candidate, risk, record_per_year, by_branch, structures })
+        Ok(Attempt { candidate, risk, happens, record_per_year, by_branch, structures })
     }
 
-    /// The risk of the structures at `places` of a `candidate`, each with its own threshold; counts in `happens` to how
+    /// The risk of the structures at `places` of a `candidate`, each with its own threshold; counts in `counts` to how
     /// many of them it happens, `[record, level]`.
     fn risk_of(
         &self,
         peaks: &Peaks,
         places: Range<usize>,
-        (candidate, happens): (&Candidate, &mut [u32]),
+        (candidate, counts): (&Candidate, &mut [u32]),
     ) -> Result<StructureRisk, DesignError> {
         let (records, draws) = (self.records.count(), places.len());
         let run = |record: usize, place: usize| {
@@ -258,9 +278,9 @@ impl<'a> Trials<'a> {
             };
             (0..records).map(|record| of_record(record).map(of_run).sum::<f64>() / draws as f64).collect()
         };
-        for (record, happens) in happens.chunks_exact_mut(self.measure.plan.levels.len()).enumerate() {
+        for (record, counts) in counts.chunks_exact_mut(self.measure.plan.levels.len()).enumerate() {
             for (row_m, threshold_m) in of_record(record) {
-                happens.iter_mut().zip(row_m).for_each(|(count, peak_m)| *count += u32::from(*peak_m > threshold_m));
+                counts.iter_mut().zip(row_m).for_each(|(count, peak_m)| *count += u32::from(*peak_m > threshold_m));
             }
         }
         let number = self.around.as_ref().and_then(|around| around.hazard_number(places.start % self.per_record()));

@@ -458,6 +458,14 @@ fn pairs<'a>(first_m: &'a [f64], second_m: &'a [f64]) -> impl Iterator<Item = (f
     first_m.iter().copied().zip(second_m.iter().copied())
 }
 
+/// What the records have of the other measure where they miss the site's hazard of it, `2.5 times the site's PGV`; none
+/// where they have it.
+pub fn missed_in_words(consistency: &StoredConsistency, site: usize) -> Option<String> {
+    let is_missed = consistency.verdict[site] == Verdict::Inconsistent.key();
+    let times = || times_in_words(consistency, site, consistency.bias[site]);
+    is_missed.then(|| format!("{} times the site's {}", times(), consistency.other.label()))
+}
+
 /// How many times the site's level scaled records have: `times` where that alone is inconsistent, `1.6`; else what they
 /// have at the rates compared, `0.5 to 2.1`.
 pub fn times_in_words(consistency: &StoredConsistency, site: usize, times: f64) -> String {

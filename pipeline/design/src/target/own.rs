@@ -1,32 +1,36 @@
-//! The frame itself at the value that its proxy was found to need, and the value that the wobbling frame needs.
+//! The structure itself, a frame that can wobble or a block, at the value that its equivalent oscillator was found to
+//! need, and the value that it needs itself.
 
 use serde::Serialize;
 use uplift_alarms::OwnRisk;
-use uplift_risk::SiteWeights;
-use uplift_study::Structure;
+use uplift_ida::System;
+use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::EventRisk;
 
 use super::search::{digits, least, rounded_up};
 use super::trial::Trials;
 use super::{TargetEvent, TargetOptions};
-use crate::certainty::{Bands, Scatter};
+use crate::certainty::{Bands, Scatter, rate_bands};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::limit::{FrameLimit, LimitRisk};
+use crate::models::models;
 use crate::opening::Place;
+use crate::overturning::block_leaves_the_ground;
 use crate::own_frame::{FrameLevels, FrameModel, FrameQuestion, FrameReport, OwnFrame};
-use crate::risk::own_risk;
+use crate::pairs::Pairs;
+use crate::risk::{OVERTURNING_M, bounded, own_risk, risk_of_exceeding};
 
-/// Most values at which a wobbling frame is shaken.
+/// Most values at which it is shaken.
 const MOST_VALUES: usize = 8;
 /// How near the last value that is not safe lies to the first that is, as a share of it.
 const NEAR: f64 = 0.02;
 /// Least and largest factor from one value to the next while none is safe.
 const STEPS: [f64; 2] = [1.05, 1.5];
 
-/// The frame itself, where a structure describes one that can wobble.
+/// The structure itself: a frame that can wobble, or a block.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TargetFrame {
+pub struct TargetOwn {
     /// The value at which both models are judged: the safe value of the proxy, or the best estimate where that is
     /// beyond the range.
     pub value: f64,
@@ -37,32 +41,32 @@ pub struct TargetFrame {
     pub levels_of_study: usize,
     /// Nonlinear time histories.
     pub analyses: u64,
-    /// Wobbling under both components, then in the plane of the study's component.
-    pub models: Vec<TargetFrameModel>,
+    /// Wobbling under both components, then in the plane of the study's component; or the block alone.
+    pub models: Vec<TargetModel>,
     /// The limit that the wobbling frame passes at the value more often than it overturns; none where overturning is
-    /// not what is asked for, and where it tells how often the frame fails.
+    /// not what is asked for, where it tells how often the frame fails, and of a block.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<FrameLimit>,
     /// How often it passes that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond_limit: Option<LimitRisk>,
-    /// The least value tried at which the upper limit of the wobbling frame's rate meets the target, and at all larger
-    /// ones; infinite beyond the range.
+    /// The least value tried at which the upper limit of its rate meets the target, and at all larger ones; infinite
+    /// beyond the range.
     pub safe_value: f64,
     /// The largest value tried at which it does not; none where the first value is safe.
     pub missed_at: Option<f64>,
-    /// Every value at which the wobbling frame was shaken, ascending.
-    pub tried: Vec<TriedFrame>,
+    /// Every value at which it was shaken, ascending.
+    pub tried: Vec<TriedOwn>,
 }
 
-/// One model of the frame at the value.
+/// One model at the value.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TargetFrameModel {
-    /// `wobbling frame` or `planar frame`.
+pub struct TargetModel {
+    /// `wobbling frame`, `planar frame` or `block`.
     pub model: &'static str,
     /// Velocity after over before an impact.
     pub restitution: f64,
-    /// Travel of the deck at the target rate, m; infinite where it overturns more often.
+    /// Travel of the deck, or of the block's top, at the target rate, m; infinite where it overturns more often.
     pub demand_m: f64,
     /// How often it happens.
     pub risk: EventRisk,
@@ -74,9 +78,9 @@ pub struct TargetFrameModel {
     pub is_safe: bool,
 }
 
-/// A value at which the wobbling frame was shaken.
+/// A value at which the structure itself was shaken.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct TriedFrame {
+pub struct TriedOwn {
     /// The value.
     pub value: f64,
     /// How often it happens, 1/yr.
@@ -87,37 +91,67 @@ pub struct TriedFrame {
     pub is_safe: bool,
 }
 
-impl TargetFrame {
-    /// The wobbling frame.
-    pub fn wobbling(&self) -> &TargetFrameModel {
+impl TargetOwn {
+    /// Of `models` at the first value, and what was `tried`, ascending; without a limit.
+    fn new(
+        (levels, levels_of_study): (Vec<f64>, usize),
+        analyses: u64,
+        (value, models): (f64, Vec<TargetModel>),
+        tried: &[(f64, TargetModel)],
+    ) -> Self {
+        let at = least(tried, |model| model.is_safe);
+        let of_tried = |(value, model): &(f64, TargetModel)| TriedOwn {
+            value: *value,
+            per_year: model.risk.per_year,
+            upper_per_year: model.upper_per_year(),
+            is_safe: model.is_safe,
+        };
+        Self {
+            value,
+            levels,
+            levels_of_study,
+            analyses,
+            models,
+            limit: None,
+            beyond_limit: None,
+            safe_value: at.map_or(f64::INFINITY, |at| tried[at].0),
+            missed_at: at.unwrap_or(tried.len()).checked_sub(1).map(|at| tried[at].0),
+            tried: tried.iter().map(of_tried).collect(),
+        }
+    }
+
+    /// The model that decides: the wobbling frame, or the block.
+    pub fn decisive(&self) -> &TargetModel {
         &self.models[0]
     }
 
     /// Risks of it that may come from outside the levels.
     pub(super) fn own_risks(&self, event: &str, place: Place<'_>, counts: (usize, usize)) -> Vec<OwnRisk> {
-        let of = |own: &TargetFrameModel| {
+        let of = |own: &TargetModel| {
             own_risk((&format!("{event} of the {}", own.model), own.risk), (place.name, place.measure), counts)
         };
         self.models.iter().map(of).collect()
     }
 }
 
-impl TargetFrameModel {
-    /// Of a model whose `threshold_m` must not be exceeded; none where it must not overturn.
-    fn from_model(of: &FrameModel, threshold_m: Option<f64>, target_per_year: f64) -> Self {
+impl TargetModel {
+    /// Of a frame whose `threshold_m` must not be exceeded; none where it must not overturn.
+    fn from_frame(of: &FrameModel, threshold_m: Option<f64>, target_per_year: f64) -> Self {
         let (risk, bands) = match (threshold_m, of.beyond_capacity) {
             (Some(_), Some(risk)) => (risk, of.bands.and_then(|bands| bands.beyond_capacity_per_year)),
             _ => (of.overturning, of.bands.and_then(|bands| bands.overturning_per_year)),
         };
-        let mut own = Self {
-            model: of.model,
-            restitution: of.restitution,
-            demand_m: of.demand_m,
-            risk,
-            bands,
-            is_met: risk.per_year <= target_per_year,
-            is_safe: false,
-        };
+        Self::new((of.model, of.restitution), of.demand_m, (risk, bands), target_per_year)
+    }
+
+    fn new(
+        (model, restitution): (&'static str, f64),
+        demand_m: f64,
+        (risk, bands): (EventRisk, Option<Bands>),
+        target_per_year: f64,
+    ) -> Self {
+        let is_met = risk.per_year <= target_per_year;
+        let mut own = Self { model, restitution, demand_m, risk, bands, is_met, is_safe: false };
         own.is_safe = own.upper_per_year() <= target_per_year;
         own
     }
@@ -129,15 +163,15 @@ impl TargetFrameModel {
     }
 }
 
-impl TargetFrame {
+impl TargetOwn {
     /// Whether the wobbling frame passes its limit more often than the target, which is of overturning alone.
     pub fn passes_limit_above(&self, target_per_year: f64) -> bool {
         self.limit.is_some() && self.beyond_limit.is_some_and(|beyond| beyond.risk.per_year > target_per_year)
     }
 }
 
-/// Where and by what a frame is judged.
-pub(super) struct FrameTarget<'a> {
+/// Where and by what it is judged.
+pub(super) struct Judge<'a> {
     pub(super) structure: &'a Structure,
     pub(super) options: &'a TargetOptions,
     pub(super) place: Place<'a>,
@@ -147,56 +181,125 @@ pub(super) struct FrameTarget<'a> {
     pub(super) years: f64,
 }
 
-impl FrameTarget<'_> {
-    /// The frame at the `safe` value of its proxy, or at the `best` estimate where that is infinite, and the value that
-    /// it needs up to `most`; none where it is not asked for, and with the reason where it leaves the ground.
+impl Judge<'_> {
+    /// The structure itself at the `safe` value of its proxy, or at the `best` estimate where that is infinite, and the
+    /// value that it needs up to `most`; none where it is not asked for, and with the reason where it leaves the
+    /// ground.
     pub(super) fn judge(
         &self,
         trials: &mut Trials<'_>,
         [safe, best, most]: [f64; 3],
-    ) -> Result<(Option<TargetFrame>, Option<String>), DesignError> {
-        let Some(pairs) = trials.components.take() else { return Ok((None, None)) };
+    ) -> Result<(Option<TargetOwn>, Option<String>), DesignError> {
         let value = if safe.is_finite() { safe } else { best };
-        let Some(first) = self.structure_at(value)? else { return Ok((None, Some(NO_COLUMNS.to_owned()))) };
+        match trials.components.take() {
+            Some(pairs) => self.judge_frame(trials, pairs, [value, most]),
+            None => self.judge_block(trials, [value, most]),
+        }
+    }
+
+    fn judge_frame(
+        &self,
+        trials: &mut Trials<'_>,
+        pairs: Pairs,
+        [value, most]: [f64; 2],
+    ) -> Result<(Option<TargetOwn>, Option<String>), DesignError> {
+        let Some(first) = self.structure_at(value)? else { return Ok((None, Some(OF_SIZE.to_owned()))) };
         let mut frame = OwnFrame::from_structure(&first, pairs)?;
         let levels = frame.levels(&trials.records.set, self.place.measure);
         let at = (self.place.measure.measure(), &levels);
         if let Some(reason) = frame.leaves_the_ground(&trials.records.set, at)? {
             return Ok((None, Some(reason)));
         }
-        let (mut report, models) = self.shaken(trials, (&frame, &first), &levels, true)?;
-        let mut tried = vec![(value, models[0].clone())];
-        while tried.len() < MOST_VALUES {
-            let Some(next) = self.next(&tried, most) else { break };
-            let Some(structure) = self.structure_at(next)? else { break };
-            frame = OwnFrame::from_structure(&structure, frame.pairs)?;
+        let (report, models) = self.shaken(trials, (&frame, &first), &levels, true)?;
+        let mut analyses = report.analyses;
+        let tried = self.searched((value, models[0].clone()), most, |next| {
+            let Some(structure) = self.structure_at(next)? else { return Ok(None) };
+            frame.change(&structure)?;
             let levels = frame.levels(&trials.records.set, self.place.measure);
             let (own, models) = self.shaken(trials, (&frame, &structure), &levels, false)?;
-            report.analyses += own.analyses;
-            tried.extend(models.into_iter().map(|model| (next, model)));
+            analyses += own.analyses;
+            Ok(models.into_iter().next())
+        })?;
+        let limit = report.governing_limit();
+        let beyond_limit = limit.and_then(|_| report.wobbling().beyond_limit);
+        let own = TargetOwn::new((levels.values, report.levels_of_study), analyses, (value, models), &tried);
+        Ok((Some(TargetOwn { limit, beyond_limit, ..own }), None))
+    }
+
+    /// Tries values from the `first` on, up to `most`, until the least safe one is known well enough; ascending.
+    fn searched(
+        &self,
+        first: (f64, TargetModel),
+        most: f64,
+        mut shake: impl FnMut(f64) -> Result<Option<TargetModel>, DesignError>,
+    ) -> Result<Vec<(f64, TargetModel)>, DesignError> {
+        let mut tried = vec![first];
+        while tried.len() < MOST_VALUES {
+            let Some(next) = self.next(&tried, most) else { break };
+            let Some(model) = shake(next)? else { break };
+            tried.push((next, model));
             tried.sort_by(|a, b| a.0.total_cmp(&b.0));
         }
-        let at = least(&tried, |model| model.is_safe);
-        let of_tried = |(value, model): &(f64, TargetFrameModel)| TriedFrame {
-            value: *value,
-            per_year: model.risk.per_year,
-            upper_per_year: model.upper_per_year(),
-            is_safe: model.is_safe,
+        Ok(tried)
+    }
+
+    /// The block where overturning is asked for; anything else is measured at another point of it.
+    fn judge_block(
+        &self,
+        trials: &mut Trials<'_>,
+        [value, most]: [f64; 2],
+    ) -> Result<(Option<TargetOwn>, Option<String>), DesignError> {
+        let is_asked = !self.options.proxy && self.options.event() == TargetEvent::Overturning;
+        if self.structure.block.is_none() || !is_asked {
+            return Ok((None, None));
+        }
+        let mut notes = Vec::new();
+        let Some(first) = self.models_at(value, &trials.study, &mut notes)? else {
+            return Ok((None, Some(OF_SIZE.to_owned())));
         };
-        let limit = report.governing_limit();
-        let found = TargetFrame {
-            value,
-            levels: levels.values,
-            levels_of_study: report.levels_of_study,
-            analyses: report.analyses,
-            models,
-            limit,
-            beyond_limit: limit.and_then(|_| report.wobbling().beyond_limit),
-            safe_value: at.map_or(f64::INFINITY, |at| tried[at].0),
-            missed_at: at.unwrap_or(tried.len()).checked_sub(1).map(|at| tried[at].0),
-            tried: tried.iter().map(of_tried).collect(),
-        };
-        Ok((Some(found), None))
+        if let Some(reason) =
+            block_leaves_the_ground(&first, &trials.study, &[self.place.measure], &trials.records.set)?
+        {
+            return Ok((None, Some(reason)));
+        }
+        let Some((model, mut analyses)) = self.rocked(trials, &first)? else { return Ok((None, notes.pop())) };
+        let tried = self.searched((value, model.clone()), most, |next| {
+            let Some(models) = self.models_at(next, &trials.study, &mut Vec::new())? else { return Ok(None) };
+            let Some((model, own)) = self.rocked(trials, &models)? else { return Ok(None) };
+            analyses += own;
+            Ok(Some(model))
+        })?;
+        let levels = self.place.measure.plan.levels.to_vec();
+        let of_study = levels.len();
+        Ok((Some(TargetOwn::new((levels, of_study), analyses, (value, vec![model]), &tried)), None))
+    }
+
+    /// Oscillator and block at a value, with why there is no block in `notes`; none where a value does not change it.
+    fn models_at(
+        &self,
+        value: f64,
+        study: &UniformRiskStudy,
+        notes: &mut Vec<String>,
+    ) -> Result<Option<Vec<(System, &'static str)>>, DesignError> {
+        let Some(structure) = self.structure_at(value)? else { return Ok(None) };
+        models(&structure, study, None, notes).map(Some)
+    }
+
+    /// The block among `models`, shaken, and how many analyses it took; none where no block rocks so.
+    fn rocked(
+        &self,
+        trials: &mut Trials<'_>,
+        models: &[(System, &'static str)],
+    ) -> Result<Option<(TargetModel, u64)>, DesignError> {
+        let Some((block @ System::Block(_), _)) = models.last() else { return Ok(None) };
+        let (pool, analyses) = trials.rock(block)?;
+        let (weights, (hazard, scatter)) = (trials.weights, self.of_records);
+        let risk = risk_of_exceeding(&pool, &weights, OVERTURNING_M, self.years)?;
+        let risk = bounded(risk, &weights, &scatter.pairs);
+        let bands = rate_bands(&pool, (hazard, weights.repaired()), scatter, OVERTURNING_M)?;
+        let demand_m = weights.curve(&pool)?.exact_ordinate(self.target_per_year)?.displacement_m;
+        let model = (block.kind(), block.restitution());
+        Ok(Some((TargetModel::new(model, demand_m, (risk, bands), self.target_per_year), analyses)))
     }
 
     fn structure_at(&self, value: f64) -> Result<Option<Structure>, DesignError> {
@@ -211,7 +314,7 @@ impl FrameTarget<'_> {
         (frame, structure): (&OwnFrame, &Structure),
         levels: &FrameLevels,
         with_planar: bool,
-    ) -> Result<(FrameReport, Vec<TargetFrameModel>), DesignError> {
+    ) -> Result<(FrameReport, Vec<TargetModel>), DesignError> {
         let peaks = trials.shake(frame, levels, with_planar)?;
         let threshold_m = match self.options.event() {
             TargetEvent::Overturning => None,
@@ -222,7 +325,7 @@ impl FrameTarget<'_> {
         let question = FrameQuestion {
             levels,
             place: self.place,
-            weights: &SiteWeights::Alike(hazard.mean),
+            weights: &trials.weights,
             hazard,
             scatter,
             target_per_year: self.target_per_year,
@@ -233,14 +336,14 @@ impl FrameTarget<'_> {
             proxy_beyond_limit: None,
         };
         let report = question.answer(&peaks)?;
-        let of = |model: &FrameModel| TargetFrameModel::from_model(model, threshold_m, self.target_per_year);
+        let of = |model: &FrameModel| TargetModel::from_frame(model, threshold_m, self.target_per_year);
         let models = report.models.iter().map(of).collect();
         Ok((report, models))
     }
 
     /// The next value to try; none where the first is safe, where the last that is not lies near enough to the next,
     /// and where the largest is not.
-    fn next(&self, tried: &[(f64, TargetFrameModel)], most: f64) -> Option<f64> {
+    fn next(&self, tried: &[(f64, TargetModel)], most: f64) -> Option<f64> {
         let rates: Vec<(f64, f64)> = tried.iter().map(|(value, of)| (*value, of.upper_per_year())).collect();
         let next = next_value(&rates, self.target_per_year, self.options.tolerance.max(NEAR))?.min(most);
         let next = rounded_up(next, digits(self.options.tolerance)).min(most);
@@ -248,9 +351,8 @@ impl FrameTarget<'_> {
     }
 }
 
-/// Why a frame is left out where strength or capacity vary.
-pub(super) const NO_COLUMNS: &str =
-    "strength and capacity follow from the size of the columns: vary width, size or tendon-stiffness";
+/// Why the structure itself is left out where strength or capacity vary.
+pub(super) const OF_SIZE: &str = "strength and capacity follow from its size: vary width, size or tendon-stiffness";
 
 /// The value to try after those of these upper limits, `(value, 1/yr)`, ascending; none where enough are tried.
 fn next_value(rates: &[(f64, f64)], target_per_year: f64, near: f64) -> Option<f64> {
