@@ -437,7 +437,14 @@ fn repaired_weights_stand_beside_the_plain_ones() {
     let athens = json(&study, &["risk", "frame.toml", "--site", "Athens &lt; 1", "--measure", "pgv"]);
     let row = &athens["demands"][0];
     assert!(number(&row["repaired_m"]) > 0.0 && row["repaired_m"] != row["demand_m"]["value"], "{row}");
-    assert!(!athens["overturning"]["repaired"].is_null());
+    let rate = number(&athens["overturning"]["repaired"]["per_year"]);
+    let ask = ["--urs", "r.h5", "--site", "Athens &lt; 1", "--measure", "pgv", "-q"];
+    let shown = |command: &str| study.uplift(&[&[command, "frame.toml"], &ask[..]].concat()).ok().stdout;
+    let risk = shown("risk");
+    assert!(risk.lines().next().unwrap().contains("; repaired "), "{risk}");
+    assert!(risk.contains(&format!("; repaired {}\n", uplift::text::rate(rate))), "{risk}");
+    let rates = shown("overturning");
+    assert!(rates.contains(" repaired ") && rates.contains("\nrepaired: the records weighted for"), "{rates}");
     let montreux = json(&study, &["risk", "frame.toml", "--site", "Montreux", "--measure", "pgv"]);
     assert!(montreux["demands"][0]["repaired_m"].is_null() && montreux["overturning"]["repaired"].is_null());
 }

@@ -69,7 +69,7 @@ pub(super) fn repair_alarms(evidence: &Evidence, scope: &Scope) -> impl Iterator
 }
 
 /// Repairs whose weights leave few records that count.
-fn few_effective(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
+pub(super) fn few_effective(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let (mut cases, advised) = (Vec::new(), evidence.study.consistency.least_effective);
     for (consistency, least) in evidence.consistency.iter().zip(&evidence.least_effective) {
         for (site, (name, &least)) in evidence.spectra.sites.iter().zip(least.iter().flatten()).enumerate() {

@@ -38,7 +38,8 @@ pub struct Scope {
     pub poe: Option<usize>,
     /// The strengths between which the spectra are read, both included.
     pub strengths: Option<(f64, f64)>,
-    /// Whether it is asked by repaired spectra, so that what is wrong with the plain ones is of no account.
+    /// Whether it is asked by repaired spectra, so that what is wrong with the plain ones is of no account; of rates of
+    /// structures, whether those by repaired weights are told.
     pub repaired: bool,
 }
 

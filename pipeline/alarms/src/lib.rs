@@ -104,12 +104,9 @@ pub fn alarms_of_inputs(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, 
     let mut alarms = inputs::result_alarms(file)?;
     let evidence = Evidence::read(file, scope)?;
     alarms.extend(hazard::alarms(&evidence, scope));
-    if scope.repaired {
-        alarms.extend(consistency::repair_alarms(&evidence, scope));
-    } else {
-        // of what is repaired already a note says how to read the spectrum, which is another question
-        alarms.extend(consistency::alarms(&evidence, scope).filter(|alarm| alarm.severity != Severity::Note));
-    }
+    // of what is repaired already a note says how to read the spectrum, which is another question
+    alarms.extend(consistency::alarms(&evidence, scope).filter(|alarm| alarm.severity != Severity::Note));
+    alarms.extend(scope.repaired.then(|| consistency::few_effective(&evidence, scope)).flatten());
     Ok(alarms)
 }
 

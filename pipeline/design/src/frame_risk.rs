@@ -160,7 +160,7 @@ pub fn frame_risk(
         |limit: FrameLimit| LimitRisk::new(&counted, (&hazard, None), scatter, (limit.displacement_m, years));
     let beyond_limit = limit.map(of_limit).transpose()?;
     let mut of_fit = lognormal_bands((levels, own_m), &[hazard], scatter)?;
-    let scope = Scope { site: Some(site), measure: Some(measure.measure()), ..Scope::default() };
+    let scope = Scope { site: Some(site), measure: Some(measure.measure()), repaired: true, ..Scope::default() };
     let mut alarms = alarms_of_inputs(&file, &scope)?;
     alarms.extend(structure_alarms(structure));
     let counts = (runs_m.len() / levels.len(), pairs.len());

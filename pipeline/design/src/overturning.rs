@@ -98,7 +98,8 @@ pub fn overturning(
         .map(|uncertain| uncertainty_report(uncertain, (&found, &weighed, &names), (analysed, &records.set)))
         .transpose()?;
     let site = sites.first().copied().filter(|_| sites.len() == 1);
-    let mut alarms = alarms_of_inputs(&file, &Scope { site, measure: options.measure, ..Scope::default() })?;
+    let mut alarms =
+        alarms_of_inputs(&file, &Scope { site, measure: options.measure, repaired: true, ..Scope::default() })?;
     alarms.extend(structure_alarms(structure));
     let counts = (records.count(), scatter.pairs.len());
     alarms.extend(own_risk_alarms(&own_risks(models, (&found, &of_frame), &names, counts)));

@@ -53,12 +53,13 @@ pub fn metres_or_overturns(value_m: f64) -> String {
     if value_m.is_infinite() { "overturns".to_owned() } else { format!("{value_m:.4}") }
 }
 
-/// The relative error of a demand: `+12.3 %`. It is infinite where a structure that stands was expected to overturn,
-/// and NaN where there is none.
+/// The relative error of a demand: `+12.3 %`, or `×25` from ten times the demand on. It is infinite where a structure
+/// that stands was expected to overturn, and NaN where there is none.
 pub fn relative_error_in_words(error: f64) -> String {
     match error {
         _ if error.is_nan() => "-".to_owned(),
         _ if error.is_infinite() => "too safe".to_owned(),
+        _ if error >= 9.0 => format!("×{}", two_digits(1.0 + error)),
         _ => format!("{:+.1} %", 100.0 * error),
     }
 }

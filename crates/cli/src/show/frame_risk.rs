@@ -43,11 +43,17 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     let Banded { value, lower, upper } = frame.demand_m;
     let by_whom = if frame.band_of == Some("earthquakes") { " by earthquake" } else { "" };
     let demand = demand_in_words(value, Some([lower, upper]), by_whom);
+    let of_repair = |demand_m| format!("; repaired {}", metres_with_band(demand_m, None));
+    let repaired = frame.repaired_m.map_or_else(String::new, of_repair);
     let name = &report.structure.name;
     if is_block(report) && frame.model != WOBBLING {
-        writeln!(out, "Demand       {demand} on {name} itself, restitution {:.4}", report.planar_restitution)?;
+        writeln!(
+            out,
+            "Demand       {demand} on {name} itself, restitution {:.4}{repaired}",
+            report.planar_restitution
+        )?;
     } else {
-        writeln!(out, "Demand       {demand} on {name}, {}", own_word(report, frame.model))?;
+        writeln!(out, "Demand       {demand} on {name}, {}{repaired}", own_word(report, frame.model))?;
     }
     if let Some(exceeded) = exceeded(report, value) {
         writeln!(out, "  {exceeded}")?;
@@ -69,7 +75,10 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     if let Some((limit, beyond)) = report.governing_limit() {
         writeln!(out, "Limit        {}, passed {}", limit.in_words(), how_often(&beyond.risk, beyond.bands))?;
     }
-    writeln!(out, "Overturning  {}", how_often(&report.overturning.risk, report.overturning.bands))?;
+    let overturning = &report.overturning;
+    let of_repair = |risk: EventRisk| format!("; repaired {}", risk_cells(&risk)[0]);
+    let repaired = overturning.repaired.map_or_else(String::new, of_repair);
+    writeln!(out, "Overturning  {}{repaired}", how_often(&overturning.risk, overturning.bands))?;
     let risk = risk_in_words(report.poe, report.years);
     write!(out, "At           {} by {}", report.site, report.im)?;
     for im in &report.other_measures {

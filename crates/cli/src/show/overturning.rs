@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{Bands, CollapseReport, FrameLimit, LimitRisk, OverturningReport, SiteRisk};
+use uplift::structure::{Bands, CollapseReport, EventRisk, FrameLimit, LimitRisk, OverturningReport, SiteRisk};
 use uplift::text::{self, Table, share, two_digits};
 use uplift_spectra::Noisy;
 
@@ -36,33 +36,38 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
         per_year + &marked(of.bands)
     };
     let passes = |of: &LimitRisk| risk_cells(&of.risk)[0].clone() + &marked(of.bands);
-    let cell = |of: &SiteRisk, event: Option<FrameLimit>| match (event, &of.beyond_limit) {
-        (Some(_), Some(limit)) => passes(limit),
-        (Some(_), None) => "-".to_owned(),
-        (None, _) => overturns(of),
+    let repaired = |of: &SiteRisk, risk: EventRisk| risk_cells(&risk)[0].clone() + &marked(of.repaired_bands);
+    let cell = |of: &SiteRisk, event: Event| {
+        let shown = match event {
+            Event::PassesLimit(_) => of.beyond_limit.as_ref().map(passes),
+            Event::Overturns => Some(overturns(of)),
+            Event::OverturnsRepaired => of.repaired.map(|risk| repaired(of, risk)),
+        };
+        shown.unwrap_or_else(|| "-".to_owned())
     };
+    let is_repaired = report.overturning.iter().flat_map(|found| &found.sites).any(|of| of.repaired.is_some());
+    let events: Vec<Event> = limit.map(Event::PassesLimit).into_iter().chain(Event::overturning(is_repaired)).collect();
     let table = if has_frame {
         // a row a site, model and event, a column a measure
         let of_measures: Vec<&[CollapseReport]> = report.overturning.chunks(report.models.len()).collect();
         let models = report.models.len();
-        let events: Vec<Option<FrameLimit>> = limit.into_iter().map(Some).chain([None]).collect();
         let of_model = |site, model| events.iter().enumerate().map(move |(at, event)| (site, model, at, *event));
         let rows = (0..sites.len()).flat_map(|site| (0..models).flat_map(move |model| of_model(site, model)));
         Table::from_rows(rows)
             .left("site", |(site, model, at, _)| if model + at == 0 { &sites[site].site } else { "" })
             .left("model", |(_, model, at, _)| if at == 0 { report.models[model].model } else { "" })
-            .when(limit.is_some(), |table| {
-                table.left("event", |(.., event)| event.map_or("overturns", |limit| limit.event.words()))
-            })
+            .when(events.len() > 1, |table| table.left("event", |(.., event)| event.words()))
             .each(of_measures, |table, found| {
                 table.right(found[0].im, |(site, model, _, event)| cell(&found[model].sites[site], event))
             })
             .to_string()
     } else {
-        Table::from_rows(sites.iter().enumerate())
-            .left("site", |(_, of)| &of.site)
+        let of_site = |(at, of): (usize, _)| events.iter().map(move |event| (at, of, *event));
+        Table::from_rows(sites.iter().enumerate().flat_map(of_site))
+            .left("site", |(_, of, event)| if event == Event::Overturns { &of.site } else { "  repaired" })
             .each(&report.overturning, |table, found| {
-                table.right(format!("{}, {}", found.model, found.im), |(site, _)| cell(&found.sites[site], None))
+                let head = format!("{}, {}", found.model, found.im);
+                table.right(head, |(site, _, event)| cell(&found.sites[site], event))
             })
             .to_string()
     };
@@ -71,6 +76,9 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
         writeln!(out, "Frame left out: {reason}")?;
     }
     print_by_earthquake(out, &table)?;
+    if is_repaired {
+        writeln!(out, "repaired: the records weighted for the site's hazard")?;
+    }
     if table.contains('*') {
         writeln!(out, "* the last digits are not significant (rounding)")?;
     }
@@ -82,6 +90,29 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
     let levels = levels_of(WOBBLING).zip(levels_of("oscillator"));
     let levels = fewer_levels(levels.map(|(own, all)| (own.levels.len(), all.levels.len(), own.im)));
     Ok(writeln!(out, "{}{levels}", record_set(&report.source.record_set, has_frame))?)
+}
+
+/// What a row of rates is of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Event {
+    PassesLimit(FrameLimit),
+    Overturns,
+    /// With the weights of a repair.
+    OverturnsRepaired,
+}
+
+impl Event {
+    fn overturning(is_repaired: bool) -> impl Iterator<Item = Self> {
+        [Self::Overturns].into_iter().chain(is_repaired.then_some(Self::OverturnsRepaired))
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::PassesLimit(limit) => limit.event.words(),
+            Self::Overturns => "overturns",
+            Self::OverturnsRepaired => "repaired",
+        }
+    }
 }
 
 /// Which event the rates are of: where a frame passes its `limit` more often than it overturns, that comes first.
