@@ -47,6 +47,11 @@ def result(folder):
         ("target", {"vary": "size", "overturning": 1e-4}, ["--vary=size", "--overturning=1e-4"]),
         (
             "target",
+            {"vary": "width", "exceed": "capacity", "safety_factor": 2.0, "per_year": 1e-4, "proxy": True},
+            ["--vary=width", "--exceed=capacity", "--safety-factor=2.0", "--per-year=1e-4", "--proxy"],
+        ),
+        (
+            "target",
             {"vary": "capacity", "exceed": "capacity", "return_period": 10000, "between": (0.2, 2)},
             ["--vary=capacity", "--exceed=capacity", "--return-period=10000", "--from=0.2", "--to=2"],
         ),
@@ -68,6 +73,8 @@ def test_what_cannot_be_answered_is_an_error(folder, result):
         result.compute_design(folder / "frame.toml", site="Nowhere")
     with pytest.raises(uplift.StudyError, match="deck_mass_kg"):
         result.compute_overturning({**FRAME, "deck_mass_kg": -1})
+    with pytest.raises(uplift.StudyError, match="no repaired spectrum"):
+        result.compute_target(FRAME, "width", overturning=1e-4, repaired=True)
     with pytest.raises(FileNotFoundError, match="missing.toml"):
         result.compute_risk("missing.toml")
     with pytest.raises(uplift.Cancelled):

@@ -146,6 +146,7 @@ class StructureCommands:
         *,
         overturning: float | None = None,
         exceed: float | Literal["capacity"] | None = None,
+        safety_factor: float | None = None,
         per_year: float | None = None,
         poe: float | None = None,
         return_period: float | None = None,
@@ -157,6 +158,8 @@ class StructureCommands:
         generic_probability: float | None = None,
         site: str | None = None,
         measure: str | None = None,
+        repaired: bool = False,
+        proxy: bool = False,
         manifest: _PathLike | None = None,
         threads: int | None = None,
         progress: Progress | None = None,
@@ -173,6 +176,8 @@ class StructureCommands:
         exceed : float or "capacity", optional
             Target displacement, m, or the structure's own capacity, instead of overturning; with one of `per_year`
             (1/yr), `poe` in `years`, `return_period` (years).
+        safety_factor : float, optional
+            What the capacity is divided by, with ``exceed="capacity"``.
         between : tuple of float
             Least and largest value tried, in SI units; default: a quarter and four times the structure's own.
         tolerance : float, optional
@@ -181,6 +186,10 @@ class StructureCommands:
             Return periods, years, at whose levels the fragility is reported.
         generic_dispersion, generic_probability : float, optional
             A generic lognormal fragility to compare with: the risk-targeted motion.
+        repaired : bool
+            Whether the records have the weights of a repair, after ``compute_consistency(repair=True)``.
+        proxy : bool
+            Whether to leave out the structure itself, a frame that can wobble or a block.
         site, measure, manifest
             As for `compute_design`.
 
@@ -193,6 +202,7 @@ class StructureCommands:
             "vary": vary,
             "overturning": overturning,
             "exceed": exceed,
+            "safety_factor": safety_factor,
             "per_year": per_year,
             "poe": poe,
             "return_period": return_period,
@@ -205,6 +215,8 @@ class StructureCommands:
             "generic_probability": generic_probability,
             "site": site,
             "measure": measure,
+            "repaired": repaired,
+            "proxy": proxy,
             "manifest": manifest,
             "threads": threads,
         }

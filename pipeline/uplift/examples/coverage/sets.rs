@@ -6,7 +6,9 @@ use rayon::prelude::*;
 use uplift::consistency::Question;
 use uplift::result::{ResultFile, StoredMeasure, StoredStripes};
 use uplift_bootstrap::{Band, Replicates, ResamplingPlan, inferred_limits, units, weighted_replicates};
-use uplift_consistency::{DEFAULT_SMOOTHNESS, RecordSet, RepairOptions, Repaired, ScaledAnalysis, Scratch, Solver};
+use uplift_consistency::{
+    DEFAULT_SMOOTHNESS, Exponents, RecordSet, RepairOptions, Repaired, ScaledAnalysis, Scratch, Solver,
+};
 use uplift_fragility::Stripes;
 use uplift_hazard::Extrapolation;
 use uplift_risk::{PooledDemand, RecordSample, RiskCurve, RunWeights};
@@ -34,7 +36,7 @@ pub type Tallies = BTreeMap<(&'static str, u32), Tally>;
 pub struct Population {
     pub stored: StoredStripes,
     pub file: ResultFile,
-    question: Question,
+    pub question: Question,
 }
 
 impl Population {
@@ -159,7 +161,7 @@ impl Place<'_> {
         sample: &RecordSample,
     ) -> Result<Tallies, Failed> {
         let ([im, site], stored) = (self.at, &self.population.stored);
-        let (targets, levels) = (&stored.targets_per_year, self.measure.levels.len());
+        let targets = &stored.targets_per_year;
         let multiplicities = sample.multiplicities();
         let drawn: Vec<usize> = written_out(multiplicities).collect();
         let alone: Vec<Vec<usize>> = (0..drawn.len()).map(|record| vec![record]).collect();
@@ -194,25 +196,12 @@ impl Place<'_> {
         }
 
         let of_all = self.of_all;
-        let solver = Solver::new(analysis, DEFAULT_SMOOTHNESS)?;
-        let mut scratch = Scratch::default();
-        let fit = solver.solve(multiplicities, &of_all.fit.exponents, &mut scratch)?;
-        let all = self.set.len();
-        let mut shares = vec![0.0; levels * all];
-        solver.shares(multiplicities, &fit.exponents, &mut scratch, &mut shares)?;
-        let shares: Vec<f64> = (0..levels)
-            .flat_map(|level| drawn.iter().map(move |&record| (level * all + record, record)))
-            .map(|(place, record)| shares[place] / f64::from(multiplicities[record]))
-            .collect();
-        let effective = |level: usize| {
-            1.0 / shares[level * drawn.len()..][..drawn.len()].iter().map(|share| share * share).sum::<f64>()
-        };
-        let is_enough = (0..levels).filter(|&level| analysis.is_in_range(level)).all(|at| effective(at) >= TOO_FEW);
-        if !(fit.is_reached() && is_enough) {
+        let Some((weights, exponents)) = weights_of_set(analysis, &of_all.fit.exponents, multiplicities)? else {
             found.entry(("repaired", size)).or_default().refuse();
             return Ok(found);
-        }
-        let weights = RunWeights::new(stripes, &shares)?;
+        };
+        let (solver, mut scratch) = (Solver::new(analysis, DEFAULT_SMOOTHNESS)?, Scratch::default());
+        let all = self.set.len();
         let resampled = |plan: &ResamplingPlan| -> Result<Vec<f64>, Failed> {
             let of_population = |sample: &RecordSample| {
                 let mut times = vec![0; all];
@@ -221,7 +210,7 @@ impl Place<'_> {
             };
             let samples = plan.samples().iter().map(of_population).collect::<Result<Vec<_>, _>>()?;
             let weigh = |sample: &RecordSample, shares: &mut [f64]| -> Result<(), Failed> {
-                let own = solver.solve_sample(sample.multiplicities(), &fit.exponents, &mut scratch)?;
+                let own = solver.solve_sample(sample.multiplicities(), &exponents, &mut scratch)?;
                 Ok(solver.shares(sample.multiplicities(), &own.exponents, &mut scratch, shares)?)
             };
             weighted_replicates(self.demands, stripes, targets, &samples, weigh)
@@ -242,6 +231,31 @@ impl Place<'_> {
         }
         Ok(found)
     }
+}
+
+/// The weights of a set drawn from the records of an `analysis`, solved from these `exponents` on, with its own
+/// exponents; none where it cannot be repaired.
+pub fn weights_of_set(
+    analysis: &ScaledAnalysis<'_>,
+    exponents: &Exponents,
+    multiplicities: &[u32],
+) -> Result<Option<(RunWeights, Exponents)>, Failed> {
+    let (solver, mut scratch) = (Solver::new(analysis, DEFAULT_SMOOTHNESS)?, Scratch::default());
+    let fit = solver.solve(multiplicities, exponents, &mut scratch)?;
+    let (all, levels) = (multiplicities.len(), analysis.stripes().level_count());
+    let drawn: Vec<usize> = written_out(multiplicities).collect();
+    let mut shares = vec![0.0; levels * all];
+    solver.shares(multiplicities, &fit.exponents, &mut scratch, &mut shares)?;
+    let shares: Vec<f64> = (0..levels)
+        .flat_map(|level| drawn.iter().map(move |&record| (level * all + record, record)))
+        .map(|(place, record)| shares[place] / f64::from(multiplicities[record]))
+        .collect();
+    let effective = |level: usize| {
+        1.0 / shares[level * drawn.len()..][..drawn.len()].iter().map(|share| share * share).sum::<f64>()
+    };
+    let is_enough = (0..levels).filter(|&level| analysis.is_in_range(level)).all(|at| effective(at) >= TOO_FEW);
+    let weights = (fit.is_reached() && is_enough).then(|| RunWeights::new(analysis.stripes(), &shares)).transpose()?;
+    Ok(weights.map(|weights| (weights, fit.exponents)))
 }
 
 /// The band of a cell, but for a truth of 0.
