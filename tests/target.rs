@@ -136,6 +136,9 @@ fn a_block_is_judged_itself() {
         format!("Safe width: the block needs {needed} m, its proxy {safe} m; at {safe} m the block's rate")
     };
     assert!(shown.starts_with(&first), "{shown}");
+    let size = [&ask[..4], &["--overturning", "1e-3", "--vary", "size", "--tolerance", "0.1", "--no-keep"]].concat();
+    let size = study.uplift(&size).ok().stdout;
+    assert!(size.contains("; the structure's size is 1.0198 m, so all lengths times "), "{size}");
     let alone = study.uplift(&[&ask[..], &["--proxy"]].concat()).ok().stdout;
     assert!(alone.lines().next().unwrap().ends_with(", by its proxy alone") && !alone.contains("block, "), "{alone}");
     // a displacement is that of the oscillator

@@ -117,9 +117,12 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
              estimate on every trial meets it"
         )?;
     }
-    let own = report
-        .own_value
-        .map_or_else(String::new, |own| format!("; the structure's {quantity} is {}", unit(short(own))));
+    let needed = report.own.as_ref().map_or(report.safe_value, |own| own.safe_value);
+    let own = report.own_value.map_or_else(String::new, |own| {
+        let lengths = format!(", so all lengths times {}", short(needed / own));
+        let lengths = if *quantity == "size" && needed.is_finite() { &lengths } else { "" };
+        format!("; the structure's {quantity} is {}{lengths}", unit(short(own)))
+    });
     let own_levels = report.own.iter().map(|own| (own.levels.len(), own.levels_of_study, report.im));
     let wobbles = report.own.as_ref().is_some_and(|own| own.models.len() > 1);
     let records = record_set(&report.source.record_set, wobbles);
