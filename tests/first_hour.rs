@@ -91,7 +91,34 @@ fn an_import_names_the_option_for_the_unit() {
         .write("downloads/a_H1.txt", &format!("accel in mg\n# dt = 0.01 s\n{}", samples.concat().replace(" 0.01", "")));
     let said = study.uplift(&[&import[..], &["m/s2"]].concat()).stderr;
     assert!(said.contains("unknown acceleration unit in \"accel in mg\""), "{said}");
-    assert!(said.contains("Convert the values and correct the line"), "{said}");
+    assert!(said.contains("Convert the values and correct the line, or remove the unit"), "{said}");
+}
+
+#[test]
+fn a_unit_is_given_to_the_files_that_state_none() {
+    let study = SmallStudy::new();
+    std::fs::create_dir(study.path().join("downloads")).unwrap();
+    for (name, head, scale) in [
+        ("stated_H1", "accel in m/s2\n", 0.01),
+        ("stated_H2", "accel in m/s2\n", 0.02),
+        ("silent_H1", "", 0.03),
+        ("silent_H2", "", 0.04),
+    ] {
+        let values: Vec<String> = (0..200).map(|i| format!("{:.3}\n", scale * f64::from(i))).collect();
+        study.write(&format!("downloads/{name}.txt"), &format!("# dt = 0.01 s\n{head}{}", values.concat()));
+    }
+    let import =
+        |unit| study.uplift(&["records", "import", "downloads", "-o", "m.csv", "--force", "--unit", unit]).ok();
+    let manifest = || std::fs::read_to_string(study.path().join("m.csv")).unwrap();
+    // one unit or the other is wrong
+    let done = import("g");
+    assert!(done.stdout.starts_with("1 pair from 4 files"), "{}", done.stdout);
+    assert!(done.stderr.starts_with("not read (2):"), "{}", done.stderr);
+    assert!(done.stderr.contains("stated_H1.txt: states m/s2, but --unit is g: import it without"), "{}", done.stderr);
+    assert!(manifest().contains("records import, 1 pair\n") && !manifest().contains("stated"), "{}", manifest());
+    assert!(import("m/s2").stdout.starts_with("2 pairs"));
+    let units = manifest().lines().filter(|line| line.contains(",m/s2,")).count();
+    assert!(units == 1 && manifest().contains("silent_H2.txt,\"\",\"\",columns,m/s2,"), "{}", manifest());
 }
 
 #[test]

@@ -266,7 +266,7 @@ impl Record {
     }
 
     fn read(recording: Recording, name: String, gravity_m_s2: f64) -> Self {
-        let Recording { accelerogram, description } = recording;
+        let Recording { accelerogram, description, .. } = recording;
         Self { accelerogram: Arc::new(accelerogram), name, gravity_m_s2, description }
     }
 }

@@ -202,7 +202,8 @@ pub enum MotionError {
     /// The head names a unit that is not known.
     #[error(
         "{name}, line {line}: unknown acceleration unit in \"{text}\"; known units: {}. Convert the values and \
-         correct the line",
+         correct the line, or remove the unit from the line and give that of the values (--unit; unit in a manifest \
+         and in Python)",
         AccelerationUnit::ACCEPTED
     )]
     HeaderUnit {
@@ -228,7 +229,8 @@ pub enum MotionError {
     },
     /// Neither the file nor the caller says the unit.
     #[error(
-        "{name}: the file does not say its unit of acceleration; give the unit, one of: {}",
+        "{name}: the file does not say its unit of acceleration; give the unit (--unit; unit in a manifest and in \
+         Python), one of: {}",
         AccelerationUnit::ACCEPTED
     )]
     MissingUnit {

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use crate::accelerogram::Accelerogram;
 use crate::error::MotionError;
 use crate::read::excerpt;
+use crate::unit::AccelerationUnit;
 
 /// Layout of a record file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -123,6 +124,8 @@ pub struct RecordingDescription {
 pub struct Recording {
     /// The motion.
     pub accelerogram: Accelerogram,
+    /// Unit of the values in the file: the one it states, else the caller's.
+    pub unit: AccelerationUnit,
     /// What the file says about it.
     pub description: RecordingDescription,
 }

@@ -34,7 +34,7 @@ fn assert_near(found: f64, expected: f64, tolerance: f64) {
 #[test]
 fn cosmos_volume_1() {
     let Some(recordings) = read("cosmos/Cosmos12TimeSeriesTest.v1", RecordFormat::Cosmos) else { return };
-    let [Recording { accelerogram, description }] = &recordings[..] else { panic!("{}", recordings.len()) };
+    let [Recording { accelerogram, description, .. }] = &recordings[..] else { panic!("{}", recordings.len()) };
     assert_eq!((accelerogram.len(), accelerogram.dt_s()), (7000, 0.01));
     // Stated: -161.962 cm/sec2 at 27.850 s.
     assert_near(accelerogram.acceleration_m_s2()[2785], -1.619_62, 5e-6);
@@ -65,7 +65,7 @@ fn cosmos_volume_1() {
 fn cosmos_volume_2() {
     let name = "cosmos/us1000hyfh_akbmrp_AKBMR--n.1000hyfh.BNZ.--.acc.V2c";
     let Some(recordings) = read(name, RecordFormat::Cosmos) else { return };
-    let [Recording { accelerogram, description }] = &recordings[..] else { panic!("{}", recordings.len()) };
+    let [Recording { accelerogram, description, .. }] = &recordings[..] else { panic!("{}", recordings.len()) };
     assert_eq!((accelerogram.len(), accelerogram.dt_s()), (42_000, 0.005));
     // Stated: -6.851512 cm/sec2 at 76.215 s.
     assert_near(accelerogram.acceleration_m_s2()[15_243], -0.068_515_12, 5e-9);
@@ -99,7 +99,7 @@ fn csmip_volume_2() {
         (Orientation::Vertical, "Chan 2: Up", 20.529, 6117),
         (Orientation::Azimuth(90.0), "Chan 3: 90 Deg", -44.200, 6115),
     ]) {
-        let Recording { accelerogram, description } = recording;
+        let Recording { accelerogram, description, .. } = recording;
         assert_eq!((accelerogram.len(), accelerogram.dt_s()), (12_000, 0.005));
         assert_near(accelerogram.acceleration_m_s2()[peak_index], peak_cm_s2 / 100.0, 5e-6 + 1e-12);
         assert_near(accelerogram.pga_m_s2(), f64::abs(peak_cm_s2) / 100.0, 5e-6 + 1e-12);

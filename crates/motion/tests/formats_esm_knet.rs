@@ -52,7 +52,7 @@ fn stated(path: &std::path::Path, key: &str) -> f64 {
 #[test]
 fn real_esm_files_meet_their_heads() {
     let files = real_files("esm");
-    for (path, Recording { accelerogram, description }) in &files {
+    for (path, Recording { accelerogram, description, .. }) in &files {
         assert_eq!(accelerogram.len() as f64, stated(path, "NDATA:"));
         assert_eq!(accelerogram.dt_s(), stated(path, "SAMPLING_INTERVAL_S:"));
         // Both are printed with six decimals.
@@ -86,7 +86,7 @@ fn real_esm_files_meet_their_heads() {
 #[test]
 fn real_knet_and_kiknet_files_meet_their_heads() {
     for folder in ["knet", "kiknet"] {
-        for (path, Recording { accelerogram, description }) in real_files(folder) {
+        for (path, Recording { accelerogram, description, .. }) in real_files(folder) {
             let frequency_hz = stated(&path, "Sampling Freq(Hz)");
             assert_eq!(accelerogram.dt_s(), 1.0 / frequency_hz);
             assert_eq!(accelerogram.len() as f64, stated(&path, "Duration Time(s)") * frequency_hz);

@@ -32,6 +32,7 @@ use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_job::table::{table_text, write_atomically};
+use uplift_job::text::counted;
 use uplift_job::typed::Overwriting;
 
 /// Columns of a manifest by which records are chosen, and which not every file says.
@@ -145,8 +146,8 @@ pub fn import(options: &ImportOptions, events: &dyn Events) -> Result<ImportRepo
         seconds: 0.0,
     };
     if !imported.pairs.is_empty() {
-        let line =
-            format!("uplift {} ({}), records import, {} pairs", uplift_job::VERSION, uplift_job::COMMIT, report.pairs);
+        let pairs = counted(report.pairs, "pair");
+        let line = format!("uplift {} ({}), records import, {pairs}", uplift_job::VERSION, uplift_job::COMMIT);
         let columns = table::manifest_columns(&imported.pairs, folder_of(&manifest), options.files);
         report.blank_columns = WANTED
             .into_iter()

@@ -74,9 +74,7 @@ fn import(options: &ImportOptions, terminal: &Terminal) -> Result<(), CommandErr
             counted(report.files, "file")
         )));
     }
-    print_import(&report, terminal)?;
-    tell_remarks(&report, terminal);
-    Ok(())
+    print_import(&report, terminal)
 }
 
 fn synthesize(options: &SynthesizeOptions, terminal: &Terminal) -> Result<(), CommandError> {

@@ -27,18 +27,20 @@ pub(crate) fn tell_remarks(report: &ImportReport, terminal: &Terminal) {
     }
 }
 
+/// The pairs found and their manifest, what was not read, what the manifest lacks.
 pub(crate) fn print_import(report: &ImportReport, terminal: &Terminal) -> Result<(), CommandError> {
+    if let Some(manifest) = report.manifest.as_ref().filter(|_| !terminal.is_quiet()) {
+        let ImportReport { pairs, files, seconds, .. } = report;
+        let (pairs, files) = (counted(*pairs, "pair"), counted(*files, "file"));
+        writeln!(output(), "{pairs} from {files} in {seconds:.1} s: {}", manifest.display())?;
+    }
+    tell_remarks(report, terminal);
     if !report.blank_columns.is_empty() {
         terminal.say(&format!(
             "the record files give no {}: fill in these columns of the manifest, or put PEER's _SearchResults.csv \
              into the folder and import again",
             report.blank_columns.join(", no ")
         ));
-    }
-    if let Some(manifest) = report.manifest.as_ref().filter(|_| !terminal.is_quiet()) {
-        let ImportReport { pairs, files, seconds, .. } = report;
-        let (pairs, files) = (counted(*pairs, "pair"), counted(*files, "file"));
-        writeln!(output(), "{pairs} from {files} in {seconds:.1} s: {}", manifest.display())?;
     }
     Ok(())
 }

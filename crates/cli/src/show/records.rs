@@ -31,7 +31,7 @@ pub(crate) fn print_selection(report: &SelectReport, terminal: &Terminal) -> Res
     let chosen = report.records.len();
     write!(out, "# {chosen} of {} records; for a study:\n{}", report.count, report.study_lines)?;
     if let Some(manifest) = &report.manifest {
-        terminal.say(&format!("{chosen} records: {}", manifest.display()));
+        terminal.say(&format!("{}: {}", counted(chosen, "record"), manifest.display()));
     }
     Ok(())
 }
@@ -41,12 +41,14 @@ pub(crate) fn print_at_level(report: &AtLevelReport, terminal: &Terminal) -> Res
     let AtLevelReport { measure, unit, records, levels, .. } = report;
     write!(
         output(),
-        "# {records} records at {} levels of {measure}; for a study:\n{}",
-        levels.len(),
+        "# {} at {} of {measure}; for a study:\n{}",
+        counted(*records, "record"),
+        counted(levels.len(), "level"),
         report.study_lines
     )?;
     for set in levels {
-        terminal.say(&format!("{} {unit}: {} records, {} by {}", set.level, set.records, set.file.display(), set.tool));
+        let records = counted(set.records, "record");
+        terminal.say(&format!("{} {unit}: {records}, {} by {}", set.level, set.file.display(), set.tool));
     }
     for note in &report.notes {
         terminal.say(note);

@@ -70,7 +70,8 @@ pub fn read_at2(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<At2Re
 /// Reads an AT2 file; the second line of its head says "event, date, station, component".
 pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Recording, MotionError> {
     let At2Record { header, accelerogram } = read_at2(bytes, name, options)?;
-    Ok(Recording { description: describe(header.event()), accelerogram })
+    let unit = options.unit_or(header.unit, name)?;
+    Ok(Recording { description: describe(header.event()), accelerogram, unit })
 }
 
 /// Whether the head has a line with NPTS and DT.
@@ -262,7 +263,8 @@ mod tests {
         assert_eq!(
             message(&file("ACCELERATION TIME SERIES IN UNITS OF FT/S2", POINTS, VALUES)),
             "RSN1.AT2, line 3: unknown acceleration unit in \"ACCELERATION TIME SERIES IN UNITS OF FT/S2\"; known \
-             units: g, m/s2, cm/s2, gal. Convert the values and correct the line"
+             units: g, m/s2, cm/s2, gal. Convert the values and correct the line, or remove the unit from the \
+             line and give that of the values (--unit; unit in a manifest and in Python)"
         );
         assert!(message(&file("ACCELERATION IN UNITS OF", POINTS, VALUES)).contains("unknown acceleration unit"));
 

@@ -34,21 +34,22 @@ const DECIMAL_COMMA: &str = " (is a comma a decimal mark? Write a point)";
 /// [`MotionError::ColumnCount`], [`MotionError::UnevenTime`], [`MotionError::Gravity`], and
 /// [`MotionError::InFile`] where the values make no [`Accelerogram`].
 pub fn read_columns(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Accelerogram, MotionError> {
+    read(bytes, name, options).map(|recording| recording.accelerogram)
+}
+
+/// Reads columns; they say nothing of earthquake and station.
+pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Recording, MotionError> {
     let mut table = Table::parse(&decode(bytes), Source { name, format: RecordFormat::Columns })?;
-    let unit = table.head.unit()?;
+    let stated = table.head.unit()?;
     let dt_s = match &table.times {
         Some(times) => uniform_step_s(times, table.decimal_comma_hint, name)?,
         None => {
             table.head.dt_s().or(options.dt_s).ok_or_else(|| MotionError::MissingTimeStep { name: name.to_owned() })?
         }
     };
-    options.accelerogram(name, dt_s, options.unit_or(unit, name)?, table.accelerations)
-}
-
-/// Reads columns; they say nothing of earthquake and station.
-pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Recording, MotionError> {
-    let accelerogram = read_columns(bytes, name, options)?;
-    Ok(Recording { accelerogram, description: RecordingDescription::default() })
+    let unit = options.unit_or(stated, name)?;
+    let accelerogram = options.accelerogram(name, dt_s, unit, table.accelerations)?;
+    Ok(Recording { accelerogram, unit, description: RecordingDescription::default() })
 }
 
 /// A time and the line it stands on, for messages.
@@ -252,7 +253,8 @@ mod tests {
         let error = read_columns(b"1\n2\n", "a.txt", &ReadOptions { dt_s: Some(0.01), ..ReadOptions::default() });
         assert_eq!(
             error.unwrap_err().to_string(),
-            "a.txt: the file does not say its unit of acceleration; give the unit, one of: g, m/s2, cm/s2, gal"
+            "a.txt: the file does not say its unit of acceleration; give the unit (--unit; unit in a manifest and in \
+             Python), one of: g, m/s2, cm/s2, gal"
         );
     }
 

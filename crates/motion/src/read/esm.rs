@@ -53,7 +53,7 @@ pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Re
 
     let values = source.all_numbers(&text, head.line_count, point_count)?;
     let accelerogram = options.accelerogram(name, dt_s, unit, values)?;
-    Ok(Recording { accelerogram, description: head.describe() })
+    Ok(Recording { accelerogram, unit, description: head.describe() })
 }
 
 /// The lines above the values.
@@ -234,7 +234,7 @@ mod tests {
     #[test]
     fn everything_that_the_head_says() {
         let text = format!("{HEAD}{VALUES}");
-        let Recording { accelerogram, description } = read_text(&text).unwrap();
+        let Recording { accelerogram, description, .. } = read_text(&text).unwrap();
         assert_eq!(accelerogram.acceleration_m_s2(), [1.0, -3.0, 0.0]);
         assert_eq!(accelerogram.dt_s(), 0.005);
         let some = |text: &str| Some(text.to_owned());
@@ -306,7 +306,7 @@ mod tests {
         let text = "EVENT_NAME: L'AQUILA\nEVENT_DATE_YYYYMMDD: 20090406\nEVENT_TIME_HHMMSS: 235950\nSTATION_CODE: AQG\n\
             TIME_FIRST_SAMPLE_S: 000005.500\nSAMPLING_INTERVAL_S: 0.005\nNDATA: 2\nCOMPONENT: WE\nUNITS: cm/s^2\n\
             DATA_TYPE: PROCESSED ACCELERATION\n1.0\n2.0\n";
-        let Recording { accelerogram, description } = read_text(text).unwrap();
+        let Recording { accelerogram, description, .. } = read_text(text).unwrap();
         assert_eq!(accelerogram.acceleration_m_s2(), [0.01, 0.02]);
         assert_eq!(description.channel.as_deref(), Some("WE"));
         assert_eq!(description.orientation, Some(Orientation::Azimuth(90.0)));

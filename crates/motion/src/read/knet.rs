@@ -64,7 +64,7 @@ pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Re
         *value = (*value - mean) * factor;
     }
     let accelerogram = options.accelerogram(name, 1.0 / frequency_hz, unit, values)?;
-    Ok(Recording { accelerogram, description: head.describe() })
+    Ok(Recording { accelerogram, unit, description: head.describe() })
 }
 
 /// Refuses fewer values than the head states, or more by a second.
@@ -223,7 +223,7 @@ mod tests {
 
     #[test]
     fn everything_that_the_head_says() {
-        let Recording { accelerogram, description } = read_text(FILE).unwrap();
+        let Recording { accelerogram, description, .. } = read_text(FILE).unwrap();
         // The mean of the counts is 20, and a count is 2 gal.
         assert_eq!(accelerogram.acceleration_m_s2(), [1.6, 1.64, 1.68, -2.52, -2.4]);
         assert_eq!(accelerogram.dt_s(), 0.1);
@@ -244,7 +244,11 @@ mod tests {
         for text in [dos.clone(), format!("\u{feff}{dos}\x1a"), FILE.replace("Max. Acc.", "Max Acc.")] {
             assert_eq!(
                 read_text(&text).unwrap(),
-                Recording { accelerogram: accelerogram.clone(), description: expected.clone() }
+                Recording {
+                    accelerogram: accelerogram.clone(),
+                    unit: AccelerationUnit::CmPerS2,
+                    description: expected.clone()
+                }
             );
         }
     }

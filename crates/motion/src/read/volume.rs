@@ -104,7 +104,8 @@ impl FileUnit {
         }
         let accelerogram = options.accelerogram(name, dt_s, self.unit, values)?;
         let stated_pga_m_s2 = stated.map(|(value, unit)| unit.to_m_s2(value, options).abs());
-        Ok(Recording { accelerogram, description: RecordingDescription { stated_pga_m_s2, ..description } })
+        let description = RecordingDescription { stated_pga_m_s2, ..description };
+        Ok(Recording { accelerogram, unit: self.unit, description })
     }
 }
 

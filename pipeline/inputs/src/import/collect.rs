@@ -7,7 +7,7 @@ use std::path::Path;
 
 use uplift_job::checksum::checksum;
 use uplift_job::events::{Events, each};
-use uplift_motion::{MotionError, RecordPair, read_auto, read_record, record_bytes};
+use uplift_motion::{MotionError, ReadOptions, RecordPair, read_auto, read_record, record_bytes};
 
 use super::component::Component;
 use super::group::{self, Candidate};
@@ -65,9 +65,7 @@ pub(super) fn find_pairs(
     for outcome in read {
         match outcome {
             Ok(found) => components.extend(found),
-            // a file cannot be asked, whoever imports it can
-            Err(error @ MotionError::MissingUnit { .. }) => passed_over.push(format!("{error} (--unit)")),
-            Err(error) => passed_over.push(error.to_string()),
+            Err(reason) => passed_over.push(reason),
         }
     }
     let count = components.len();
@@ -90,9 +88,28 @@ pub(super) fn find_pairs(
 }
 
 /// The components of a file.
-fn components_of(path: &Path, options: FileOptions) -> Result<Vec<Component>, MotionError> {
-    let bytes = record_bytes(path)?;
-    let file = read_record(&bytes, &path.display().to_string(), &options.read_options(None))?;
+///
+/// # Errors
+/// Why it is not read; one that states another unit than the one given is not either, since one of the two is wrong.
+fn components_of(path: &Path, options: FileOptions) -> Result<Vec<Component>, String> {
+    let bytes = record_bytes(path).map_err(|error| error.to_string())?;
+    let name = path.display().to_string();
+    let read = |unit| read_record(&bytes, &name, &ReadOptions { unit, ..options.read_options(None) });
+    let (file, given_unit) = match (read(None), options.unit) {
+        (Err(MotionError::MissingUnit { .. }), Some(given)) => (read(Some(given)), Some(given)),
+        (stated, _) => (stated, None),
+    };
+    let file = file.map_err(|error| error.to_string())?;
+    if let Some(given) = options.unit
+        && let Some(other) = file.recordings.iter().map(|recording| recording.unit).find(|unit| *unit != given)
+    {
+        return Err(format!(
+            "{name}: states {}, but --unit is {}: import it without --unit, apart from files that state no unit, or \
+             correct its head",
+            other.symbol(),
+            given.symbol()
+        ));
+    }
     let file_sha256 = checksum(&bytes);
     let several = file.recordings.len() > 1;
     let named = RecordName::from_path(path).orientation;
@@ -105,6 +122,7 @@ fn components_of(path: &Path, options: FileOptions) -> Result<Vec<Component>, Mo
             path: path.to_owned(),
             channel: several.then_some(index + 1),
             format: file.format,
+            given_unit,
             dt_s: recording.accelerogram.dt_s(),
             points: samples.len(),
             file_sha256: file_sha256.clone(),

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use uplift_motion::{RecordFormat, RecordingDescription};
+use uplift_motion::{AccelerationUnit, RecordFormat, RecordingDescription};
 
 /// One component of a file, without its samples.
 #[derive(Debug, Clone)]
@@ -15,6 +15,8 @@ pub(super) struct Component {
     pub(super) format: RecordFormat,
     /// What its head says.
     pub(super) description: RecordingDescription,
+    /// The unit given for it; none where the file states its own.
+    pub(super) given_unit: Option<AccelerationUnit>,
     /// Time step, s.
     pub(super) dt_s: f64,
     /// Samples.

@@ -37,6 +37,7 @@ pub(super) fn manifest_columns(pairs: &[ImportedPair], folder: &Path, options: F
 /// What a run needs to read the pair.
 fn files(pair: &ImportedPair, folder: &Path, options: FileOptions) -> Vec<Cell> {
     let [one, other] = &pair.components;
+    let given_unit = pair.components.iter().chain(&pair.vertical).find_map(|component| component.given_unit);
     vec![
         ("record_id", pair.id.clone()),
         ("file_h1", relative(&one.path, folder)),
@@ -44,7 +45,7 @@ fn files(pair: &ImportedPair, folder: &Path, options: FileOptions) -> Vec<Cell> 
         ("channel_h1", text(one.channel)),
         ("channel_h2", text(other.channel)),
         ("format", one.format.to_string()),
-        ("unit", text(options.unit.map(AccelerationUnit::symbol))),
+        ("unit", text(given_unit.map(AccelerationUnit::symbol))),
         ("dt_s", text(options.dt_s)),
     ]
 }

@@ -91,7 +91,7 @@ fn read_all(text: &str, options: &ReadOptions) -> Result<Vec<Recording>, String>
 
 #[test]
 fn what_a_component_says() {
-    let Recording { accelerogram, description } = Sample::three("cm/sec2 (04)").read().unwrap();
+    let Recording { accelerogram, description, .. } = Sample::three("cm/sec2 (04)").read().unwrap();
     assert_eq!(accelerogram.acceleration_m_s2(), [0.01, -0.02, 0.03]);
     assert_eq!(accelerogram.dt_s(), 0.01);
     assert_eq!(description.event.as_deref(), Some("Invented Earthquake"));
@@ -115,7 +115,7 @@ fn header_values_before_text() {
     sample.comments = "| Recorder: none\n|<SCNL>EFGH.HNZ.YY.10    <AUTH> 2019\n";
     sample.integers = vec![(54, 360), (40, 2002), (42, 3), (43, 4), (44, 5), (45, 6)];
     sample.reals = vec![(62, 5.0), (13, 6.5), (15, 6.0), (17, 12.5), (4, 0.36), (30, 7.25), (54, 0.5), (64, -2.0)];
-    let Recording { accelerogram, description } = sample.read().unwrap();
+    let Recording { accelerogram, description, .. } = sample.read().unwrap();
     assert_eq!(accelerogram.dt_s(), 0.005);
     assert_eq!((description.magnitude, description.epicentral_distance_km), (Some(6.5), Some(12.5)));
     assert_eq!(description.vs30_m_s, Some(360.0));
@@ -205,7 +205,7 @@ fn counts() {
     sample.title = "Raw acceleration counts   (Format v01.20 with 13 text lines)";
     sample.reals = vec![(62, 10.0), (22, 2.5), (42, 1.25), (64, 10000.0)];
     // 2.5 uV/count by 1.25 V/g are 2e-6 g/count.
-    let Recording { accelerogram, description } = sample.read().unwrap();
+    let Recording { accelerogram, description, .. } = sample.read().unwrap();
     for (found, expected) in accelerogram.acceleration_m_s2().iter().zip([0.02, -0.04, 0.2]) {
         assert!((found - expected).abs() < 1e-15, "{found}");
     }

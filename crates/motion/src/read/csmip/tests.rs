@@ -85,7 +85,7 @@ fn what_a_component_of_volume_2_says() {
         + &volume_2("2:  Up ", DATA_LINE, VALUES);
     let recordings = read_all(&text).unwrap();
     assert_eq!(recordings.len(), 2);
-    let Recording { accelerogram, description } = &recordings[0];
+    let Recording { accelerogram, description, .. } = &recordings[0];
     assert_eq!(accelerogram.acceleration_m_s2(), [0.01, -0.02, 0.03]);
     assert_eq!(accelerogram.dt_s(), 0.01);
     assert_eq!(description.event.as_deref(), Some("Invented Earthquake"));
@@ -134,7 +134,7 @@ fn volume_1_with_a_data_line() {
     let values =
         "     3 Accelerogram points at 100 pts/sec in units of g .      Format: (8f9.6)\n  .100000 -.199900  .000000";
     let recordings = read_all(&volume_1(unit_line, values)).unwrap();
-    let [Recording { accelerogram, description }] = &recordings[..] else { panic!("{}", recordings.len()) };
+    let [Recording { accelerogram, description, .. }] = &recordings[..] else { panic!("{}", recordings.len()) };
     assert_eq!(accelerogram.acceleration_m_s2(), [1.0, -0.1999 * 10.0, 0.0]);
     assert_eq!(accelerogram.dt_s(), 0.01);
     // The header value, for the text has three digits.
