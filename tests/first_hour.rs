@@ -122,9 +122,25 @@ fn a_unit_is_given_to_the_files_that_state_none() {
 }
 
 #[test]
-fn a_mistyped_command_is_answered_with_the_nearest() {
+fn a_mistyped_command_or_file_is_answered_with_the_nearest() {
     let study = SmallStudy::new();
     study.uplift(&["rn", "study.toml"]).fails(2, &["there is no command `rn`: did you mean `run`?"]);
+    // and so is a mistyped file
+    let beside = study.path().join("study.toml");
+    for command in ["run", "check"] {
+        for name in ["studdy.toml", "study"] {
+            let meant = "there is no such file: did you mean `study.toml`?";
+            study.uplift(&[command, name]).fails(3, &[meant]);
+        }
+    }
+    let mistyped = study.path().join("stduy.toml").display().to_string();
+    study.uplift(&["check", &mistyped]).fails(3, &[&format!("did you mean `{}`?", beside.display())]);
+    study.write("set.csv", "record_id,file_h1,file_h2\n");
+    study
+        .uplift(&["check", "study.toml", "--set", "records.manifest=sett.csv"])
+        .fails(3, &["file not found", "did you mean", "set.csv`?"]);
+    study.write("result.h5", "");
+    study.uplift(&["spectrum", "reslut.h5"]).fails(4, &["did you mean `result.h5`?"]);
     // below a command of several, one of these
     study.uplift(&["records", "mport"]).fails(2, &["did you mean `import`?"]);
     // a search names what it can vary

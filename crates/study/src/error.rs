@@ -84,10 +84,10 @@ pub enum Unreadable {
     #[error("{}", in_words(.0))]
     System(#[from] std::io::Error),
     /// There is none.
-    #[error("there is no such file: give its path from the current folder, e.g. {example}")]
+    #[error("there is no such file: {advice}")]
     Missing {
-        /// A file of the kind that is wanted.
-        example: &'static str,
+        /// The file that was probably meant, or how to give one.
+        advice: String,
     },
     /// It is a file of another kind.
     #[error("it is {found}, not {wanted}: {advice}")]

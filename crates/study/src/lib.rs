@@ -75,7 +75,7 @@ pub use error::{Place, StudyError, StudyMistake, Unreadable};
 pub use grid::{Grid, GridError, MOST_GRID_VALUES};
 pub use kind::{AnyStudy, Kind};
 pub use library::{BlockGrid, LibraryStudy};
-pub use reading::did_you_mean;
+pub use reading::{did_you_mean, did_you_mean_file};
 pub use schema::{library_schema, structure_schema, study_schema};
 pub use sections::output::Output;
 pub use sections::record_source::{DEFAULT_SYNTHETIC_PAIRS, DEFAULT_SYNTHETIC_SEED, Duplicates, RecordSource};

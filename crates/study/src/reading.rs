@@ -31,4 +31,4 @@ pub(crate) use paths::Paths;
 pub(crate) use rule::{PROBABILITY, Rule, ZERO_TO_ONE, quantity};
 pub(crate) use section::Section;
 pub(crate) use suggestion::MEASURES;
-pub use suggestion::did_you_mean;
+pub use suggestion::{did_you_mean, did_you_mean_file};

@@ -7,7 +7,7 @@ use uplift_atomic_file::FileError;
 use uplift_job::JobError;
 use uplift_job::lock::ResultLock;
 use uplift_labelled::LabelledError;
-use uplift_study::{Structure, Study};
+use uplift_study::{Structure, Study, did_you_mean_file};
 
 use crate::error::ResultError;
 
@@ -24,7 +24,8 @@ pub(super) fn no_result(path: &Path, error: LabelledError) -> ResultError {
             } else if Path::new(&checkpoint).exists() {
                 format!("its run was interrupted: repeat it to resume it; `uplift status {name}` shows how far it is")
             } else {
-                "there is no such file: `uplift run STUDY.toml` writes results, results/STUDY.h5 by default".to_owned()
+                let advice = "`uplift run STUDY.toml` writes results, results/STUDY.h5 by default";
+                format!("there is no such file: {}", did_you_mean_file(path, "h5").unwrap_or_else(|| advice.to_owned()))
             })
         }
         LabelledError::NotHdf5 { .. } if ends("toml") && Study::read(path).is_ok() => {

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::suggestion::did_you_mean_file;
 use super::text::{BACKSLASH, STANDARD_INPUT};
 use super::{Field, Origin};
 use crate::error::in_words;
@@ -67,13 +68,14 @@ impl Paths {
             Err(error) => format!("cannot find the file: {}", in_words(&error)),
         };
         // "C:\temp\new.csv" in double quotes is TOML, with a tab and the end of a line in it
+        let meant = || did_you_mean_file(&path, path.extension()?.to_str()?);
         let backslash = path.to_string_lossy().contains(char::is_control);
         let help = if backslash {
             BACKSLASH.to_owned()
         } else if is_folder {
             "give a file; a manifest of a folder of records: uplift records import FOLDER -o records.csv".to_owned()
         } else {
-            format!("give an existing file; a relative path starts from {from}")
+            meant().unwrap_or_else(|| format!("give an existing file; a relative path starts from {from}"))
         };
         field.refuse(format!("{reason}: {}", path.display()), help)
     }

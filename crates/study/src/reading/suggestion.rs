@@ -1,5 +1,8 @@
 //! What an unknown word was probably meant to be.
 
+use std::fs;
+use std::path::Path;
+
 use uplift_motion::IntensityMeasure;
 
 /// Units as keys end in them, each after an underscore, longest first.
@@ -7,6 +10,25 @@ const UNITS: [&str; 12] = ["per_s2", "cm_s2", "m_s2", "mm_s", "cm_s", "m_s", "mm
 
 /// "did you mean `…`?" with the one of `known` most like `word`, if any is like it.
 pub fn did_you_mean(word: &str, known: &[&str]) -> Option<String> {
+    most_like(word, known).map(|candidate| format!("did you mean `{candidate}`?"))
+}
+
+/// The same with a file of this `ending` beside `file`, whether or not `file` has the ending.
+pub fn did_you_mean_file(file: &Path, ending: &str) -> Option<String> {
+    let ending = format!(".{ending}");
+    let name = file.file_name()?.to_str()?;
+    // from where a name without folder starts
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let entries = fs::read_dir(folder).ok()?;
+    let names: Vec<String> = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+    // the ending makes all names alike
+    let mut stems: Vec<&str> = names.iter().filter_map(|name| name.strip_suffix(&ending)).collect();
+    stems.sort_unstable();
+    let meant = most_like(name.strip_suffix(&ending).unwrap_or(name), &stems)?;
+    Some(format!("did you mean `{}`?", file.with_file_name(format!("{meant}{ending}")).display()))
+}
+
+fn most_like<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     // A long word is far from every key, and the distance costs its length squared.
     if word.len() > 100 {
         return None;
@@ -23,7 +45,7 @@ pub fn did_you_mean(word: &str, known: &[&str]) -> Option<String> {
         })
         .filter(|&(alike, _)| alike > 0.55)
         .max_by(|(a, _), (b, _)| a.total_cmp(b))
-        .map(|(_, candidate)| format!("did you mean `{candidate}`?"))
+        .map(|(_, candidate)| candidate)
 }
 
 /// What to do about keys of other programs that no key here stands for: `path` and `known` tell the section.

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use super::Table;
 use super::findings::place;
 use super::other_file::Wanted;
+use super::suggestion::did_you_mean_file;
 use crate::error::{MOST_LISTED, StudyError, StudyMistake, Unreadable};
 
 /// Largest study file \[bytes\]; one with 100 000 numbers written out has 2 MB.
@@ -29,7 +30,10 @@ pub(crate) fn input_text() -> Result<String, StudyError> {
 
 fn read(file: &Path, wanted: Wanted) -> Result<String, Unreadable> {
     let metadata = fs::metadata(file).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => Unreadable::Missing { example: wanted.example() },
+        io::ErrorKind::NotFound => Unreadable::Missing {
+            advice: did_you_mean_file(file, "toml")
+                .unwrap_or_else(|| format!("give its path from the current folder, e.g. {}", wanted.example())),
+        },
         _ => Unreadable::System(error),
     })?;
     if metadata.is_dir() {
