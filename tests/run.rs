@@ -204,6 +204,15 @@ fn interruption_keeps_the_earlier_result() {
     run.interrupt();
     run.end().fails(5, &["interrupted"]);
     assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), EARLIER);
+    // asked twice it ends at once, not without a word
+    let mut run = study.start(&[&long[..], &["--force"]].concat());
+    run.wait_until_said("records");
+    run.hold();
+    run.interrupt();
+    run.terminate();
+    run.release();
+    let ended = run.end().fails(5, &["uplift: interrupted"]);
+    assert!(ended.stderr.lines().last().unwrap().starts_with("uplift: interrupted"), "{}", ended.stderr);
     assert_eq!(
         study
             .path()

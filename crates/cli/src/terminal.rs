@@ -68,19 +68,22 @@ impl Terminal {
             noted: Mutex::default(),
         };
         let interrupted = move || {
-            if stop.swap(true, Ordering::Relaxed) {
-                std::process::exit(EXIT_INTERRUPTED.into()); // asked twice
-            }
             let interruption_message = interruption_message.clone();
-            std::thread::spawn(move || {
-                std::thread::sleep(GRACE);
-                // what is being written now is written to a file of its own, and an earlier file is as it was
+            // what is being written now is written to a file of its own, and an earlier file is as it was
+            let end = move || -> ! {
                 let message = interruption_message.lock().unwrap_or_else(PoisonError::into_inner).clone();
                 match form {
                     Form::Text => tell(&format!("uplift: {message}")),
                     Form::Json => Event::interrupted(EXIT_INTERRUPTED, message).tell(),
                 }
-                std::process::exit(EXIT_INTERRUPTED.into());
+                std::process::exit(EXIT_INTERRUPTED.into())
+            };
+            if stop.swap(true, Ordering::Relaxed) {
+                end() // asked twice
+            }
+            std::thread::spawn(move || {
+                std::thread::sleep(GRACE);
+                end()
             });
         };
         #[cfg(unix)]

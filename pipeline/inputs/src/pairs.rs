@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use rayon::prelude::*;
+use uplift_job::JobError;
 use uplift_job::checksum::checksum;
+use uplift_job::events::Events;
 use uplift_motion::{ReadOptions, RecordPair, Recording, read_record, record_bytes};
 
 use super::manifest::{ComponentFile, Row};
@@ -20,10 +22,11 @@ pub(super) const START: &str = "start_s";
 /// Reads the pairs of `rows`, in their order; values in g are converted with `gravity_m_s2`.
 ///
 /// # Errors
-/// Everything that is wrong with the files, a line each.
-pub fn read(rows: Vec<Row>, gravity_m_s2: f64) -> Result<Vec<CheckedPair>, Vec<String>> {
-    let read: Vec<Result<CheckedPair, Vec<String>>> =
-        rows.into_par_iter().map(|row| read_row(row, gravity_m_s2)).collect();
+/// Everything that is wrong with the files, a line each; [`JobError::Interrupted`] where `events` say so.
+pub fn read(rows: Vec<Row>, gravity_m_s2: f64, events: &dyn Events) -> Result<Vec<CheckedPair>, JobError> {
+    let read: Option<Vec<Result<CheckedPair, Vec<String>>>> =
+        rows.into_par_iter().map(|row| (!events.cancelled()).then(|| read_row(row, gravity_m_s2))).collect();
+    let read = read.ok_or(JobError::Interrupted)?;
     let mut pairs = Vec::new();
     let mut mistakes = Vec::new();
     for outcome in read {
@@ -32,7 +35,7 @@ pub fn read(rows: Vec<Row>, gravity_m_s2: f64) -> Result<Vec<CheckedPair>, Vec<S
             Err(found) => mistakes.extend(found),
         }
     }
-    if mistakes.is_empty() { Ok(pairs) } else { Err(mistakes) }
+    if mistakes.is_empty() { Ok(pairs) } else { Err(JobError::Inputs(mistakes)) }
 }
 
 fn read_row(row: Row, gravity_m_s2: f64) -> Result<CheckedPair, Vec<String>> {

@@ -63,7 +63,7 @@ impl RecordSet {
 ///
 /// # Errors
 /// Everything that is wrong with the manifest or the record files, at once; [`JobError::Interrupted`] where `events`
-/// say so while synthetic ones are made.
+/// say so.
 pub fn read_records(study: &UniformRiskStudy, events: &dyn Events) -> Result<RecordSet, InputsError> {
     read_measured(study, &study.further_measures(), events)
 }
@@ -114,7 +114,7 @@ fn read_set(
         RecordSource::Manifest { manifest, tag } => {
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy();
             let tag_note = tag.as_ref().map_or_else(String::new, |tag| format!(", tag {tag}"));
-            let (pairs, of_rows) = manifest_pairs((manifest, tag.as_deref()), named.as_ref(), study)?;
+            let (pairs, of_rows) = manifest_pairs((manifest, tag.as_deref()), named.as_ref(), study, events)?;
             (pairs, of_rows, format!("{name}{tag_note}"), false)
         }
     };
@@ -280,6 +280,7 @@ fn manifest_pairs(
     (manifest, tag): (&Path, Option<&str>),
     named: Option<&BTreeSet<&str>>,
     study: &UniformRiskStudy,
+    events: &dyn Events,
 ) -> Result<(Vec<CheckedPair>, OfRows), InputsError> {
     let mut rows = manifest::read(manifest, tag).map_err(JobError::Inputs)?;
     // nothing is read in vain
@@ -288,7 +289,7 @@ fn manifest_pairs(
         rows.truncate(most(study.records.first));
     }
     let of_rows = OfRows::new(&rows, study.gravity_m_s2);
-    Ok((pairs::read(rows, study.gravity_m_s2).map_err(JobError::Inputs)?, of_rows))
+    Ok((pairs::read(rows, study.gravity_m_s2, events)?, of_rows))
 }
 
 /// How many of the selected records are used at most, where the key `first` says this.

@@ -107,7 +107,7 @@ impl RecordSets {
 ///
 /// # Errors
 /// Everything that is wrong with the manifest, the sets or the record files, at once; [`JobError::Interrupted`]
-/// where `events` say so while synthetic ones are made.
+/// where `events` say so.
 pub fn read_record_sets(study: &DisplacementStudy, events: &dyn Events) -> Result<RecordSets, InputsError> {
     read_sets(&study.records, &study.record_sets, study.gravity_m_s2, events)
 }
@@ -142,7 +142,7 @@ pub fn read_sets(
             let RowsOfSets { rows, chosen, notes } = rows_of_sets(manifest, records, plans)?;
             let name = manifest.file_name().unwrap_or(manifest.as_os_str()).to_string_lossy().into_owned();
             of_rows = OfRows::new(&rows, gravity_m_s2);
-            (pairs::read(rows, gravity_m_s2).map_err(JobError::Inputs)?, chosen, name, notes)
+            (pairs::read(rows, gravity_m_s2, events)?, chosen, name, notes)
         }
     };
     let synthetic = records.manifest().is_none() || pairs.iter().any(is_made);

@@ -192,6 +192,19 @@ fn a_bootstrap_reports_what_it_writes() {
 }
 
 #[test]
+fn reading_records_obeys_a_stop() {
+    let folder = Folder::new();
+    let study = || AnyStudy::UniformRisk(Box::new(Study::load(&folder.path("study.toml"), &[]).unwrap()));
+    let options = RunOptions { output: Some(folder.path("again.h5")), ..RunOptions::default() };
+    folder.write("pgv.csv", "iml,maf\n1,2\n");
+    let refused = run(&study(), &options, &Silent);
+    assert!(matches!(job_error(&refused), Some(JobError::Inputs(_))), "{refused:?}");
+    // their mistakes are sought beside those of the hazard
+    let stopped = run(&study(), &options, &Recorder::stopping_after(0));
+    assert!(matches!(job_error(&stopped), Some(JobError::Interrupted)), "{stopped:?}");
+}
+
+#[test]
 fn an_interrupted_bootstrap_resumes() {
     let folder = Folder::new();
     let options = BootstrapOptions { sizes: Some(vec![4]), replicates: Some(20), ..BootstrapOptions::default() };

@@ -97,7 +97,7 @@ impl SetOptions {
     pub(super) fn read(&self, events: &dyn Events) -> Result<(Vec<CheckedPair>, usize), InputsError> {
         let rows = manifest::read(&self.manifest, self.tag.as_deref()).map_err(JobError::Inputs)?;
         let count = rows.len();
-        let pairs = pairs::read(rows, STANDARD_GRAVITY_M_S2).map_err(JobError::Inputs)?;
+        let pairs = pairs::read(rows, STANDARD_GRAVITY_M_S2, events)?;
         let (chosen, notes) = selection::select(pairs, &self.criteria.0, self.intensity, STANDARD_GRAVITY_M_S2)?;
         for note in notes {
             events.note(&note);

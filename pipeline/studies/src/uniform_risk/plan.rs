@@ -15,7 +15,7 @@ use uplift_inputs::{
     OtherHazard, Record, RecordSet, SiteHazard, SiteList, read_hazard, read_other_hazard, read_records,
 };
 use uplift_job::alarm::Alarm;
-use uplift_job::events::{Events, Silent};
+use uplift_job::events::Events;
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
 use uplift_job::study_run::PlanHead;
 use uplift_job::{JobError, cause};
@@ -52,7 +52,7 @@ pub struct Plan {
 /// # Errors
 /// Inputs that cannot be used.
 pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) -> Result<Plan, StudiesError> {
-    let (hazard, mut notes) = hazard_of(study)?;
+    let (hazard, mut notes) = hazard_of(study, events)?;
     let (other_hazard, other_notes) = read_other_hazard(study)?;
     notes.extend(other_notes);
     let site_list = site_table::read(study, events)?;
@@ -169,15 +169,21 @@ pub(super) fn tell_mistaken_curves(
 /// The hazard of a study. Where it cannot be read, mistakes of the records are reported with it, all at once.
 ///
 /// # Errors
-/// Hazard curves that cannot be used.
-pub(super) fn hazard_of(study: &UniformRiskStudy) -> Result<(Vec<Vec<SiteHazard>>, Vec<String>), StudiesError> {
+/// Hazard curves that cannot be used; an interruption while the records are read.
+pub(super) fn hazard_of(
+    study: &UniformRiskStudy,
+    events: &dyn Events,
+) -> Result<(Vec<Vec<SiteHazard>>, Vec<String>), StudiesError> {
     read_hazard(study).map_err(|hazard| {
         let mistakes = |error: &(dyn Error + 'static)| match cause(error) {
             Some(JobError::Inputs(mistakes)) => mistakes.clone(),
             _ => Vec::new(),
         };
         let of_hazard = mistakes(&hazard);
-        let of_records = read_records(study, &Silent).err().map(|error| mistakes(&error)).unwrap_or_default();
+        let of_records = read_records(study, events).err().map(|error| mistakes(&error)).unwrap_or_default();
+        if events.cancelled() {
+            return JobError::Interrupted.into();
+        }
         if of_hazard.is_empty() || of_records.is_empty() {
             return hazard.into();
         }

@@ -34,7 +34,7 @@ pub fn run(
     events: &dyn Events,
 ) -> Result<RunReport, StudiesError> {
     let path = place.path;
-    let (hazard, mut notes) = hazard_of(study)?;
+    let (hazard, mut notes) = hazard_of(study, events)?;
     let (other_hazard, other_notes) = read_other_hazard(study)?;
     notes.extend(other_notes);
     let site_list = site_table::read(study, events)?;

@@ -89,7 +89,7 @@ pub fn run_shard(
     events: &dyn Events,
 ) -> Result<ShardReport, StudiesError> {
     // a mistake in the hazard is found before, not when the shards are joined
-    hazard_of(study)?;
+    hazard_of(study, events)?;
     let inputs = Inputs::read(study, events)?;
     events.remark("records", &inputs.records.description);
     needs(study, &inputs.records, None).for_shard(shard).with_rows_of(&[path]).require(path, events)?;
