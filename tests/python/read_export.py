@@ -139,7 +139,14 @@ rows = list(workbook["Flags and tails"].iter_rows(values_only=True))
 heads = [tuple(row[column] for row in rows[:3]) + (rows[4][column],) for column in range(1, len(rows[0]))]
 column = 1 + heads.index((sites[0], "PGV", poe[0], "flag"))
 assert [row[column] for row in rows[5:]] == [flags[number] for number in flag["pgv"][0, 0]]
-assert rows[4][column + 1:column + 3] == ("share from below, %", "share from above, %")
+assert rows[4][column + 1:column + 3] == ("share from below", "share from above")
+assert workbook["Flags and tails"].cell(6, column + 2).number_format == "0.00%"
+# a heading with % is of numbers in per cent, whose cells have no sign that would multiply them once more
+for sheet in workbook.worksheets:
+    headed = [cell for row in sheet.iter_rows(max_row=6) for cell in row if str(cell.value).endswith(", %")]
+    for heading in headed:
+        below = sheet.iter_cols(heading.column, heading.column, heading.row + 1)
+        assert all("%" not in cell.number_format for column in below for cell in column), (sheet.title, heading.value)
 cell = workbook["Spectra"]["B3"]
 assert cell.number_format == "0.00%" and workbook["Spectra"]["B7"].number_format == "0.0000"
 

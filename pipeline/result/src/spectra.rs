@@ -64,11 +64,11 @@ pub mod urs {
     /// The risk from below the first level.
     pub const LOWER_TAIL_SHARE: Quantity<MeasureSpectra> = quantity!("lower_tail_share" [SITE, POE, STRENGTH] F64 "1"
         "share of the risk from below the first level"
-        as "lower_tail_share" "share from below, %" = |of, at| of.lower_tail_share[at]);
+        as "lower_tail_share" "share from below" = |of, at| of.lower_tail_share[at]);
     /// The risk from above the last level.
     pub const UPPER_TAIL_SHARE: Quantity<MeasureSpectra> = quantity!("upper_tail_share" [SITE, POE, STRENGTH] F64 "1"
         "share of the risk from above the last level"
-        as "upper_tail_share" "share from above, %" = |of, at| of.upper_tail_share[at]);
+        as "upper_tail_share" "share from above" = |of, at| of.upper_tail_share[at]);
 }
 
 /// Coefficients of Eq. 4.11: the arrays of `/regression/<im>`.

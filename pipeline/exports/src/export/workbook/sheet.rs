@@ -21,7 +21,7 @@ pub(crate) enum Shown {
     Plain,
     /// With four decimals: strengths, metres.
     FourDecimals,
-    /// Per cent of a share.
+    /// A share, with the sign % in its cell; a column with % in its heading has per cent.
     Percent,
     /// A whole number.
     Whole,

@@ -54,13 +54,12 @@ impl Export {
             for quantity in urs::GROUP.exported().filter(|quantity| quantity.name != urs::U_M.name) {
                 head_of(sheet, column, &row)?;
                 sheet.heading((below - 1, column), quantity.heading(), true)?;
-                let shown = if quantity.heading().ends_with('%') { Shown::Percent } else { Shown::Plain };
                 for (line, place) in self.places(&row).enumerate() {
                     let cell = (below + line, column);
                     if let Field::Flag(flag) = &quantity.field {
                         sheet.text(cell, (flag.get)(row.of_measure, place).word())?;
                     } else if let Some(value) = quantity.number(row.of_measure, place) {
-                        sheet.number(cell, value, shown, "")?;
+                        sheet.number(cell, value, Shown::Percent, "")?;
                     }
                 }
                 column += 1;
