@@ -47,11 +47,11 @@ fn answer(report: &ConsistencyReport) -> String {
             Some((row, _)) => {
                 let site = if several { format!("{}, ", row.site) } else { String::new() };
                 let verdict = row.verdict.unwrap_or("no verdict");
-                let off = match decisive(row) {
-                    Some(most) => format!("miss the site's {shows} by a factor of {most:.2} at the worst rate"),
-                    None => format!("have {} times the site's {shows}", number(row.bias, 2)),
+                let (off, mean) = match decisive(row) {
+                    Some(most) => (format!("miss the site's {shows} by a factor of {most:.2} at the worst rate"), ""),
+                    None => (format!("have {} times the site's {shows}", number(row.bias, 2)), "mean over rates, "),
                 };
-                format!("records scaled to {scaled_to} {off} ({site}{verdict})")
+                format!("records scaled to {scaled_to} {off} ({mean}{site}{verdict})")
             }
             None if rows.iter().any(|row| row.verdict.is_none()) => format!("no verdict by {scaled_to}"),
             None => format!("records scaled to {scaled_to} fit the site's {shows}"),
@@ -81,7 +81,7 @@ fn print_table(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), C
     let table = Table::from_rows(&report.rows)
         .left("site", |row| &row.site)
         .left("scaled to", |row| row.scaled_to)
-        .right(if is_repaired { "unweighted / site's" } else { "times site's level" }, |row| {
+        .right(if is_repaired { "unweighted mean ratio" } else { "times site's level, mean" }, |row| {
             let at_one_rate = decisive(row).filter(|_| !is_repaired);
             let at_one_rate =
                 at_one_rate.map_or_else(String::new, |most| format!(" (factor {most:.2} at the worst rate)"));
@@ -179,8 +179,8 @@ pub(super) fn consistency_lines(report: &ConsistencyReport) -> Vec<String> {
                     format!(", and miss it by a factor of {most:.2} at the worst rate")
                 });
                 format!(
-                    "{site} by {scaled_to}: the records have {bias:.2} times the site's {shows}{at_one_rate}: \
-                     {verdict} (uplift consistency)"
+                    "{site} by {scaled_to}: the records have on average {bias:.2} times the site's \
+                     {shows}{at_one_rate}: {verdict} (uplift consistency)"
                 )
             }
             _ => {
