@@ -261,6 +261,12 @@ fn repaired_spectra_are_those_of_the_result() {
     }
     // the site without weights has no number, and is no error
     assert!(said.lines().any(|line| line.starts_with("Montreux") && line.contains(" none")), "{said}");
+    // what this spectrum rests on is the first warning, whichever risk is asked for
+    let by_pga = ["--repaired", "--measure", "pga"];
+    for risk in [&[][..], &["--return-period", "475"]] {
+        let alarms = json(&study, &[&by_pga, risk].concat())["alarms"].clone();
+        assert_eq!(alarms[0]["kind"], "few-effective-records", "{alarms}");
+    }
     // asked for alone, there is no answer
     let alone = ["--repaired", "--site", "Montreux"];
     ask(&study, &alone).fails(2, &["no weights repair the records by PGV", "uplift consistency r.h5 --details"]);

@@ -11,6 +11,9 @@ use uplift_uniform_risk::consistency::times_in_words;
 use super::curves;
 use super::evidence::{Evidence, Scope};
 
+/// The kind of the warning that the weights of a repair leave few effective records.
+pub const FEW_EFFECTIVE_RECORDS: &str = "few-effective-records";
+
 pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     let mut cases = Vec::new();
     // of one risk the number is its own, and no mean
@@ -84,7 +87,7 @@ pub(super) fn few_effective(evidence: &Evidence, scope: &Scope) -> Option<Alarm>
             }
         }
     }
-    Alarm::from_cases("few-effective-records", cases)
+    Alarm::from_cases(FEW_EFFECTIVE_RECORDS, cases)
 }
 
 /// Bands of repaired spectra of whose samples many cannot be weighed to the site's hazard.

@@ -39,6 +39,7 @@ mod structure;
 use uplift_job::alarm::{Alarm, Severity};
 use uplift_motion::IntensityMeasure;
 
+pub use consistency::FEW_EFFECTIVE_RECORDS;
 pub use curves::curves_alarm;
 pub use curves_at_site::CurvesAtSite;
 pub use error::AlarmsError;
@@ -73,7 +74,9 @@ pub fn alarms(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError> {
 pub fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
     let mut alarms = inputs::result_alarms(file)?;
     if file.kind() == Kind::UniformRisk && !file.axes()?.sites.is_empty() {
-        alarms.extend(spectra_alarms(&Evidence::read(file, scope)?, scope)?);
+        let evidence = Evidence::read(file, scope)?;
+        put_repair_first(&mut alarms, &evidence, scope);
+        alarms.extend(spectra_alarms(&evidence, scope)?);
     }
     Ok(ranked(alarms))
 }
@@ -85,11 +88,10 @@ pub fn alarms_of(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsE
 pub fn alarms_within(file: &ResultFile, scope: &Scope) -> Result<Vec<Alarm>, AlarmsError> {
     let evidence = Evidence::read(file, scope)?;
     let mut alarms = inputs::result_alarms(file)?;
+    put_repair_first(&mut alarms, &evidence, scope);
     alarms.extend(hazard::alarms(&evidence, scope));
     alarms.extend(levels::alarms(&evidence, scope)?);
-    if scope.repaired {
-        alarms.extend(consistency::repair_alarms(&evidence, scope));
-    } else {
+    if !scope.repaired {
         alarms.extend(measures::alarms(&evidence, scope));
         alarms.extend(consistency::alarms(&evidence, scope));
     }
@@ -118,11 +120,18 @@ fn spectra_alarms(evidence: &Evidence, scope: &Scope) -> Result<Vec<Alarm>, Alar
         alarms.extend(consistency::alarms(evidence, scope));
     }
     alarms.extend(consistency::without_repair(evidence, scope));
-    // of the whole result, or of what is asked by repaired spectra: plain ones have nothing to do with weights
-    if scope.repaired || *scope == Scope::default() {
+    // of the whole result: a plain spectrum has nothing to do with weights
+    if *scope == Scope::default() {
         alarms.extend(consistency::repair_alarms(evidence, scope));
     }
     Ok(alarms)
+}
+
+/// What a repaired spectrum that is asked for rests on, before what is true of any spectrum of the records.
+fn put_repair_first(alarms: &mut Vec<Alarm>, evidence: &Evidence, scope: &Scope) {
+    if scope.repaired {
+        alarms.splice(..0, consistency::repair_alarms(evidence, scope));
+    }
 }
 
 /// What is to be raised about the fitted curves (Eq. 4.11) of `file`, by one `measure` or by all: it belongs beside

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde::Serialize;
-use uplift_alarms::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, Scope, alarms_of, number_alarms};
+use uplift_alarms::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, FEW_EFFECTIVE_RECORDS, Scope, alarms_of, number_alarms};
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_plausible::USUAL_CAPACITY;
@@ -55,7 +55,8 @@ pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumRepo
     let mut alarms = alarms_of(&file, &Scope { site, measure, poe, strengths, repaired })?;
     // of risks asked for, what the printed numbers rest on comes before what is true of the whole set
     if asked.risk != TargetRisks::default() {
-        alarms.sort_by_key(|alarm| (alarm.severity, ![BEYOND_LAST_LEVEL, BELOW_FIRST_LEVEL].contains(&alarm.kind)));
+        let of_numbers = [FEW_EFFECTIVE_RECORDS, BEYOND_LAST_LEVEL, BELOW_FIRST_LEVEL];
+        alarms.sort_by_key(|alarm| (alarm.severity, !of_numbers.contains(&alarm.kind)));
     }
     let unlikely = number_alarms("spectrum", &[(USUAL_CAPACITY, "--capacity-m", asked.capacity_m)]);
     Ok(SpectrumReport { found, alarms: [unlikely, alarms].concat() })
