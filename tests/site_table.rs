@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use serde_json::Value;
+use uplift::text::two_digits;
 use uplift_labelled::LabelledReader;
 
 use crate::common::{SMALL_STUDY, SmallStudy};
@@ -156,6 +157,20 @@ fn any_number_of_threads_and_any_order_of_the_export_gives_the_same_bytes() {
 fn tables_and_map_of_a_list_of_sites() {
     let study = many(&format!("{}{SECTION}strengths = [0.2, 0.4]\n", without_sites()));
     let done = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
+    // a number first, also where nothing is left to compute
+    let again = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok().stdout;
+    let arrays = cube(study.path(), "r");
+    let rarest = arrays.axis::<f64>("poe").unwrap().iter().position(|poe| *poe == 0.02).unwrap();
+    // seven sites × two measures × three probabilities × two strengths
+    let all = arrays.array::<f64>("/urs/u_m").unwrap().values;
+    let u_m: Vec<f64> = all.chunks(12).map(|site| site[2 * rarest]).filter(|own| !own.is_nan()).collect();
+    let [least, most] = [u_m.iter().copied().fold(1.0, f64::min), u_m.iter().copied().fold(0.0, f64::max)];
+    let range = format!("{}–{}", two_digits(least), two_digits(most));
+    for said in [&done.stdout, &again] {
+        assert!(said.trim_start().starts_with("Uniform risk spectra of a table of 7 sites, 2 % in 50 years"), "{said}");
+        let row: Vec<&str> = said.lines().find(|line| line.starts_with("PGV ")).unwrap().split_whitespace().collect();
+        assert_eq!(row[..3], ["PGV", "5", &range], "{said}");
+    }
     // what it advises can be typed
     let map = done.stdout.lines().find_map(|line| line.strip_prefix("Map      uplift ")).unwrap();
     study.uplift(&map.split(' ').collect::<Vec<_>>()).ok();
@@ -520,6 +535,14 @@ fn mistakes_in_the_files() {
     check("lon,lat\n45,10\n").fails(4, &["are longitude and latitude swapped?"]);
     check("lon,lat,name\n11,45,Sea\n").fails(4, &["no site of the table has hazard", "Sea (11, 45): no hazard"]);
     check("lon\tlat\n10\t45\n").ok();
+    // nor one measure: its analyses would be for nothing
+    let further = "pga.levels_g=[0.02, 0.1, 0.3, 5]";
+    let words =
+        ["no site of the table has hazard of PGA that can be used", "leave out [pga]", "PGA = 5 g lies outside"];
+    for command in [&["check", "study.toml"][..], &["run", "study.toml", "-o", "r.h5"]] {
+        let refused = study.uplift(&[command, &["--set", further]].concat()).fails(4, &words);
+        assert!(!refused.stderr.contains("analyses"), "{}", refused.stderr);
+    }
 
     // exports of something else, of several things, cut off; all mistakes at once
     study.write("pgv-export.csv", &openquake("PGA", &PGA_LEVELS, &SITES));

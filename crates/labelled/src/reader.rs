@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use hdf5::types::{FloatSize, IntSize, TypeDescriptor};
-use hdf5::{Container, Dataset, File, H5Type, LocationType, MinorErrorCode};
+use hdf5::{Container, Dataset, File, H5Type, Hyperslab, LocationType, MinorErrorCode, SliceOrIndex};
 use uplift_atomic_file::{io_error, require_file};
 
 use super::checksum::Hashed;
@@ -143,6 +143,19 @@ impl LabelledReader {
             return Err(self.wrong(path, "an array whose dimensions have no names".into(), "an array over named axes"));
         };
         Ok(LabelledArray { dims, shape, values })
+    }
+
+    /// The values of the array of numbers at `path` along its first axis, at these places of its `other` axes: memory
+    /// holds no more of an array that is large.
+    ///
+    /// # Errors
+    /// As [`LabelledReader::array`]; [`LabelledError::Hdf5`] also where the array has no such places.
+    pub fn along_first_axis(&self, path: &str, other: &[usize]) -> Result<Vec<f64>, LabelledError> {
+        let dataset = self.dataset(path)?;
+        let places = other.iter().map(|&place| SliceOrIndex::from(place));
+        let selection: Vec<SliceOrIndex> = std::iter::once(SliceOrIndex::from(..)).chain(places).collect();
+        let values = dataset.read_slice_1d::<f64, _>(Hyperslab::from(selection));
+        Ok(self.check(values, path)?.to_vec())
     }
 
     /// The array at `path`, whose bytes are as they were written.

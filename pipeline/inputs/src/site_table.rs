@@ -23,7 +23,7 @@ use crate::error::InputsError;
 use uplift_job::JobError;
 use uplift_job::checksum::checksum_of_file;
 use uplift_job::text::thousands;
-use uplift_study::{Branch, Repair, SiteTable, UniformRiskStudy};
+use uplift_study::{Branch, Repair, SiteTable, UniformRiskStudy, levels_place};
 
 const SITES_NAMED: usize = 4;
 /// How the table of sites is called among the inputs of a result.
@@ -97,7 +97,7 @@ impl SiteExport {
 /// Read the study's table of sites and find the sites in the exports; none where the study has no such table.
 ///
 /// # Errors
-/// Everything that is wrong with the files, at once; no site with a curve that can be used.
+/// Everything that is wrong with the files, at once; a measure that no site has a curve of that can be used.
 pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, InputsError> {
     let Some(table) = &study.site_table else { return Ok(None) };
     let mut mistakes = Vec::new();
@@ -125,8 +125,7 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Inpu
     }
     let (exports, compared, branches) = (Vec::new(), Vec::new(), Vec::new());
     let mut list = SiteList { sites, range, carried, exports, compared, branches, notes, checksums };
-    let mut failures = Vec::new();
-    let mut any_works = false;
+    let (mut failures, mut useless) = (Vec::new(), Vec::new());
     for (number, (read, path, index)) in found.iter().enumerate() {
         let rows: Vec<Option<Row>> = if table.sites.is_none() && number == 0 {
             index.rows().iter().copied().map(Some).collect()
@@ -137,8 +136,15 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Inpu
             list.sites.par_iter().map(near).collect()
         };
         let (measure, is_analysed) = (read.measure(), matches!(read, Read::Analysed(_)));
-        any_works |= is_analysed && rows.iter().flatten().any(|row| row.usable);
         let label = measure.label();
+        // every analysis by such a measure would be for nothing
+        if is_analysed && !rows.iter().flatten().any(|row| row.usable) {
+            let section = levels_place(measure).0;
+            useless.push(format!(
+                "no site of the table has hazard of {label} that can be used: correct this, or leave out [{section}] \
+                 and its export"
+            ));
+        }
         failures.extend(list.without_hazard(label, path, index, &rows, table.within_km));
         list.notes.extend(index.notes.iter().cloned());
         let checksum = list.checksums.get(&name_of_export(measure)).cloned().unwrap_or_default();
@@ -147,9 +153,8 @@ pub fn read_site_list(study: &UniformRiskStudy) -> Result<Option<SiteList>, Inpu
         let export = SiteExport { measure, path, checksum, items, within_km: table.within_km };
         if is_analysed { list.exports.push(export) } else { list.compared.push(export) }
     }
-    if !any_works {
-        failures.insert(0, "no site of the table has hazard that can be used".to_owned());
-        return Err(JobError::Inputs(failures).into());
+    if !useless.is_empty() {
+        return Err(JobError::Inputs([useless, failures].concat()).into());
     }
     list.notes.splice(0..0, failures);
     read_branches(study, table, &mut list)?;

@@ -27,6 +27,7 @@ mod provenance;
 mod records;
 mod shake_table;
 mod site_arrays;
+mod site_ranges;
 mod spectra;
 mod spread;
 mod stored_result;
@@ -75,6 +76,7 @@ pub use site_arrays::{
     SITE_SPECTRA, SITE_SPREADS,
 };
 pub use site_arrays::{SiteArrays, SiteConsistency, SiteSpectrum, SiteSpread};
+pub use site_ranges::{MeasureRanges, SiteRanges};
 pub use spectra::{Fit, Fits, MeasureSpectra, Spectrum, StoredSpectra, regression, urs};
 pub use spread::{
     BRANCH_WEIGHTS, EPISTEMIC, EPISTEMIC_SPECTRA, REPAIRED_EPISTEMIC, REPAIRED_EPISTEMIC_SPECTRA, UNCERTAINTY,

@@ -163,20 +163,24 @@ impl SiteArrays {
         Ok(attribute::PROVENANCE.read(reader, &SITE_NAMES)?.contains(&format!("study digest {digest};")))
     }
 
+    /// The file beside the result at `result` of this study digest; none where there is no such file, or one of another
+    /// result.
+    pub(super) fn open(result: &Path, digest: &str) -> Result<Option<LabelledReader>, ResultError> {
+        let path = Self::path(result);
+        if !path.is_file() {
+            return Ok(None);
+        }
+        let reader = LabelledReader::open(&path)?;
+        Ok(Self::is_of_digest(&reader, digest)?.then_some(reader))
+    }
+
     /// The arrays beside the result at `result` of this study digest; none where there is no such file, or one of
     /// another result.
     ///
     /// # Errors
     /// A file that is damaged.
     pub fn read(result: &Path, digest: &str) -> Result<Option<Self>, ResultError> {
-        let path = Self::path(result);
-        if !path.is_file() {
-            return Ok(None);
-        }
-        let reader = LabelledReader::open(&path)?;
-        if !Self::is_of_digest(&reader, digest)? {
-            return Ok(None);
-        }
+        let Some(reader) = Self::open(result, digest)? else { return Ok(None) };
         let u_m = reader.array::<f64>(&SITE_SPECTRA.first_path(&SITE_NAMES))?;
         let shape: [usize; 4] = u_m.shape.try_into().unwrap_or_default();
         let place = |at: usize| reader.array::<f64>(&SITE_PLACES.path(&SITE_PLACES.quantities[at], &SITE_NAMES));

@@ -3,10 +3,10 @@
 use std::io::Write;
 
 use uplift::analysis::ShardReport;
-use uplift::result::ResultFile;
+use uplift::result::{ResultFile, SiteRanges};
 use uplift::run::{RunHead, RunReport};
 use uplift::text;
-use uplift::text::{Table, metres, risk_name, rounded};
+use uplift::text::{Table, cell_with_band, counted, metres, risk_in_words, risk_name, rounded};
 use uplift::uniform_risk::{
     BranchReport, DisplacementOptions, DisplacementReport, RunReport as UniformRiskReport, TargetRisks, displacements,
 };
@@ -20,6 +20,11 @@ use crate::terminal::{Terminal, output};
 /// The spectrum, warnings, and where the files are; a quiet terminal gets the spectrum and probable mistakes.
 pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
+    if let RunReport::UniformRisk(report) = report
+        && let Some(ranges) = &report.site_table
+    {
+        print_site_ranges(&mut out, ranges)?;
+    }
     match report {
         RunReport::UniformRisk(report) if terminal.shows_details() => print_details(&mut out, report)?,
         RunReport::UniformRisk(report) => {
@@ -49,6 +54,22 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
     };
     let result = report.head().files.first().map(|result| shown_path(result).display().to_string());
     Ok(writeln!(out, "{more:<8} uplift table {}", result.unwrap_or_default())?)
+}
+
+/// Between which displacements the sites of a table lie.
+fn print_site_ranges(out: &mut impl Write, ranges: &SiteRanges) -> Result<(), CommandError> {
+    let SiteRanges { poe, years, sites, strengths, measures } = ranges;
+    let (risk, sites) = (risk_in_words(*poe, *years), counted(*sites, "site"));
+    writeln!(out, "\nUniform risk spectra of a table of {sites}, {risk}")?;
+    writeln!(out, "Displacement, m, smallest to largest of the sites, at strength")?;
+    let range = |[least, most]: [f64; 2]| format!("{}–{}", cell_with_band(least, None), cell_with_band(most, None));
+    let table = Table::from_rows(measures)
+        .left("measure", |of| &of.im)
+        .right("sites", |of| of.sites.to_string())
+        .each(0..strengths.len(), |table, column| {
+            table.right(rounded(strengths[column], 6).to_string(), move |of| range(of.range_m[column]))
+        });
+    Ok(writeln!(out, "{table}")?)
 }
 
 /// The spectra by every measure and for every risk, and their spread over hazard curves and structures.

@@ -29,6 +29,22 @@ fn what_is_no_result_file_is_refused() {
 }
 
 #[test]
+fn a_column_is_read_without_the_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("result.h5");
+    let mut writer = LabelledWriter::create(&path).unwrap();
+    writer.axis("site", &[1.0, 2.0, 3.0], "1", "site").unwrap();
+    writer.axis("strength", &[0.1, 0.2], "1", "strength").unwrap();
+    writer.array("/u_m", &["site", "strength"], &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], "m", "displacement").unwrap();
+    writer.finish().unwrap();
+    let reader = LabelledReader::open(&path).unwrap();
+    assert_eq!(reader.along_first_axis("/u_m", &[1]).unwrap(), [2.0, 4.0, 6.0]);
+    for other in [&[2][..], &[], &[0, 0]] {
+        assert!(matches!(reader.along_first_axis("/u_m", other), Err(LabelledError::Hdf5 { .. })), "{other:?}");
+    }
+}
+
+#[test]
 fn a_file_cut_anywhere_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let whole = fs::read(small_file(folder.path())).unwrap();

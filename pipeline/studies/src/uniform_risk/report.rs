@@ -1,14 +1,17 @@
 //! The report of a run of a study of uniform risk.
 
+use std::path::PathBuf;
+
 use serde::Serialize;
 use uplift_job::study_run::RunHead;
-use uplift_result::{Fit, ResultFile, Spectrum, SpreadOver, StoredSpread};
+use uplift_result::{Fit, ResultFile, SiteRanges, Spectrum, SpreadOver, StoredSpread};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::{Answer, ConsistencyReport};
 use uplift_uniform_risk::{
     DisplacementOptions, DisplacementReport, Precision, StoredStripes, Stripes, displacements, precision,
 };
 
+use super::site_table::SHOWN_ON_MAP;
 use crate::error::StudiesError;
 
 /// The report of a run.
@@ -31,6 +34,9 @@ pub struct RunReport {
     /// The same of the repaired spectra, where the study asks for them.
     #[serde(skip)]
     pub repaired: Option<DisplacementReport>,
+    /// Between which displacements the sites of its table lie.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub site_table: Option<SiteRanges>,
     /// Their spread over weighted hazard curves, for the sites that have some.
     #[serde(skip)]
     pub branches: Vec<BranchReport>,
@@ -120,6 +126,10 @@ impl RunReport {
             None => recomputed(file, &study)?,
         };
         let (displacements, repaired) = (shown(false)?, shown(true)?);
+        let digest = file.head()?.study_digest();
+        let of_table = |path: &PathBuf| SiteRanges::read(path, &digest, &SHOWN_ON_MAP);
+        let is_listed = study.site_table.is_some();
+        let site_table = head.files.first().filter(|_| is_listed).map(of_table).transpose()?.flatten();
         Ok(Self {
             head,
             measures,
@@ -128,6 +138,7 @@ impl RunReport {
             consistency: answer.report(&plain_m),
             displacements,
             repaired,
+            site_table,
             branches: spread_over(SpreadOver::HazardCurves),
             structures: spread_over(SpreadOver::Structures),
         })
