@@ -362,6 +362,9 @@ fn from_a_spectrum_to_a_stack() {
     }
     let told = study.uplift(&[&arguments[..], &["4"]].concat()).ok().stdout;
     assert!(told.contains("Synthetic records: not for design"), "{told}");
+    // by equal energy it is more than so many times the demand of the spectrum
+    let target = format!("a capacity of {required:.4} m: required by equal energy with a safety factor of 4, at Here,");
+    assert!(told.contains(&target), "{told}");
     // force and springs at the demand itself, which is the required capacity over the factor of safety
     close(&report["target"]["demand_m"], required / 4.0, 1e-12);
     for (stack, at_demand) in stacks.iter().zip(report["at_demand"].as_array().unwrap()) {
@@ -386,6 +389,7 @@ fn from_a_spectrum_to_a_stack() {
     let said = study.uplift(&round).ok().stdout;
     let first = said.lines().next().unwrap();
     assert!(first.contains("satisfied by the wobbling frame, which"), "{said}");
+    assert_eq!(first.contains("NOT satisfied"), first.ends_with("(other stacks not tried)"), "{said}");
     let alone = study.uplift(&[&round[..], &["--proxy"]].concat()).ok().stdout;
     assert!(alone.lines().next().unwrap().ends_with("by its proxy alone"), "{alone}");
     // a spectrum asks for less than the columns have

@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use uplift::restrainer::{RestrainerCurve, RestrainerDesign, stack_name};
+use uplift::structure::verdict_word;
 use uplift::text::{Table, TableOf};
 use uplift_statics::Candidate;
 
@@ -104,12 +105,14 @@ fn frame_words(report: &RestrainerDesign) -> String {
     };
     let wobbling = frame.wobbling();
     let Some(check) = wobbling.check else { return String::new() };
-    let verdict = if check.satisfied { "satisfied" } else { "NOT satisfied" };
+    // each takes analyses of its own
+    let others = if check.satisfied || report.found == 1 { "" } else { " (other stacks not tried)" };
+    let verdict = verdict_word(check.satisfied);
     if check.required_capacity_m.is_infinite() {
-        return format!("; {verdict} by the wobbling frame, which overturns more often than the target");
+        return format!("; {verdict} by the wobbling frame, which overturns more often than the target{others}");
     }
     let [demand_m, required_m] = [wobbling.demand_m, check.required_capacity_m];
-    format!("; {verdict} by the wobbling frame, which moves {demand_m:.2} m and requires {required_m:.2} m")
+    format!("; {verdict} by the wobbling frame, which moves {demand_m:.2} m and requires {required_m:.2} m{others}")
 }
 
 fn print_details(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), CommandError> {

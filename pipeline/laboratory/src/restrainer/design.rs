@@ -234,9 +234,8 @@ fn target_of(
             let design = DesignOptions { spectrum_only: true, ..options.by_spectrum() };
             let found = design_by_spectrum(&without_restrainers(structure)?, result, &design, events)?;
             // the capacity that a rule asks for does not depend on the one that there is; the larger of both rules
-            let required =
-                found.rules.iter().filter_map(|rule| Some(rule.check()?.required_capacity_m)).reduce(f64::max);
-            let Some(required_m) = required else {
+            let required = found.rules.iter().filter_map(|own| Some((own.check()?.required_capacity_m, own.rule)));
+            let Some((required_m, rule)) = required.max_by(|a, b| a.0.total_cmp(&b.0)) else {
                 return Err(JobError::input(format!(
                     "{}: its spectrum says no capacity for {}: {}",
                     result.display(),
@@ -246,7 +245,8 @@ fn target_of(
                 .into());
             };
             let words = format!(
-                "a capacity of {required_m:.4} m: {} times the demand at {}, {}, by {}",
+                "a capacity of {required_m:.4} m: required by {} with a safety factor of {}, at {}, {}, by {}",
+                rule.words(),
                 design.safety_factor,
                 found.site,
                 risk_in_words(found.poe, found.years),
