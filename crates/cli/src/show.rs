@@ -49,7 +49,7 @@ pub(crate) use pushover::{print_protocol, print_pushover};
 pub(crate) use records::{print_at_level, print_record, print_records, print_selection};
 pub(crate) use response::{print_block_response, print_response};
 pub(crate) use restrainer::{print_restrainer_curve, print_restrainer_design};
-pub(crate) use run::{print_run, print_shard};
+pub(crate) use run::{print_run, print_run_json, print_shard};
 pub(crate) use spectrum::{print_spectrum, print_spectrum_csv};
 pub(crate) use status::print_status;
 pub(crate) use sweep::print_sweep;
@@ -59,16 +59,32 @@ pub(crate) use validate::print_validation;
 pub(crate) use verify::print_verified;
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use serde_json::Value;
+use uplift::alarms::name_result;
 pub(crate) use uplift::text::{shown_path, typed_path};
 
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output, visible_json};
 
 pub(crate) fn print_json(report: &impl Serialize) -> Result<(), CommandError> {
-    let value = serde_json::to_value(report).map_err(|error| CommandError::input(error.to_string()))?;
+    print_value(&json(report)?)
+}
+
+/// The same of an answer from `result`, which the commands of its warnings name.
+pub(crate) fn print_answer_json(report: &impl Serialize, result: &Path) -> Result<(), CommandError> {
+    let mut value = json(report)?;
+    name_result(&mut value, &typed_path(result));
+    print_value(&value)
+}
+
+fn json(report: &impl Serialize) -> Result<Value, CommandError> {
+    serde_json::to_value(report).map_err(|error| CommandError::input(error.to_string()))
+}
+
+fn print_value(value: &Value) -> Result<(), CommandError> {
     Ok(writeln!(output(), "{}", visible_json(&format!("{value:#}")))?)
 }
 

@@ -25,7 +25,7 @@ use uplift::events::Events;
 use uplift::export::calculator;
 use uplift::outputs;
 use uplift::result::{Head, Kind, ResultFile, at_target_risks};
-use uplift::text::{Table, visible};
+use uplift::text::{Table, typed_path, visible};
 use uplift::{JobError, UpliftError};
 use uplift_plot::{Figure, html};
 
@@ -91,6 +91,8 @@ struct Read {
     /// Its name and digest, of which the page says to be made.
     mark: String,
     file: String,
+    /// The file as a command names it.
+    typed: String,
     content: Content,
     structures: Vec<AskedStructure>,
 }
@@ -142,7 +144,7 @@ pub fn page(options: &ReportOptions, events: &dyn Events) -> Result<String, Upli
         context! {
             key => format!("r{}", index + 1),
             title,
-            file => result.file,
+            file => result.typed,
             record_set => head.record_set,
             alarms => result.alarms,
             structures => result.structures,
@@ -214,8 +216,8 @@ fn read(path: &Path, result: &ResultFile) -> Result<Read, UpliftError> {
         Kind::ShakeTable => shake_table::content(result)?,
     };
     let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let named = |alarm: Alarm| Alarm { what_to_do: alarm.remedy(&file), ..alarm };
-    let alarms: Vec<Alarm> = alarms(result)?.into_iter().map(named).collect();
-    let structures = structures::structures(result, &alarms)?;
-    Ok(Read { head: result.head()?, alarms, mark: result.name_and_digest()?, file, content, structures })
+    let typed = typed_path(path);
+    let alarms: Vec<Alarm> = alarms(result)?.into_iter().map(|alarm| alarm.naming(&typed)).collect();
+    let structures = structures::structures(result, &alarms, &typed)?;
+    Ok(Read { head: result.head()?, alarms, mark: result.name_and_digest()?, file, typed, content, structures })
 }

@@ -11,10 +11,12 @@ use std::path::Path;
 
 use minijinja::{Value, context};
 use uplift::UpliftError;
+use uplift::alarms::Alarm;
 use uplift::outputs::{self, Output, OutputKind};
 use uplift::result::{ResultFile, write_atomically};
 use uplift::structure::DesignReport;
 use uplift::study::Structure;
+use uplift::text::typed_path;
 
 use crate::page::{STYLE, render};
 pub(crate) use bands::bands;
@@ -46,7 +48,9 @@ pub fn write_design_sheet(structure: &Structure, report: &DesignReport, file: &P
         .chain(&report.notes)
         .chain(&rounding)
         .map(|note| context! { severity => "note", what => note });
-    let alarms: Vec<Value> = report.alarms.iter().map(Value::from_serialize).chain(noted).collect();
+    let typed = typed_path(&report.source.result);
+    let named = |alarm: &Alarm| Value::from_serialize(alarm.clone().naming(&typed));
+    let alarms: Vec<Value> = report.alarms.iter().map(named).chain(noted).collect();
     let mark = ResultFile::open(&report.source.result)?.mark()?;
     let page = render(
         SHEET,

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use serde::Serialize;
+use serde_json::Value;
 
 /// What stands for the result in a command of [`Alarm::what_to_do`] until a face names it: an alarm is the same
 /// wherever the file lies.
@@ -67,6 +68,24 @@ impl Alarm {
     /// What to do about it, with the name of the result.
     pub fn remedy(&self, result: &str) -> String {
         self.what_to_do.replace(RESULT, result)
+    }
+
+    /// The same alarm, whose commands name the `result`.
+    #[must_use]
+    pub fn naming(self, result: &str) -> Self {
+        Self { what_to_do: self.remedy(result), ..self }
+    }
+}
+
+/// Names the `result` in what to do about every alarm of an answer as JSON: an answer that is kept does not name it.
+pub fn name_result(answer: &mut Value, result: &str) {
+    match answer {
+        Value::Array(all) => all.iter_mut().for_each(|own| name_result(own, result)),
+        Value::Object(fields) => fields.iter_mut().for_each(|(key, own)| match own {
+            Value::String(what_to_do) if key == "what_to_do" => *what_to_do = what_to_do.replace(RESULT, result),
+            own => name_result(own, result),
+        }),
+        _ => {}
     }
 }
 

@@ -104,7 +104,7 @@ pub use uplift_study as study;
 /// What to know before the numbers of a result are used.
 pub mod alarms {
     pub use uplift_alarms::*;
-    pub use uplift_job::alarm::{Alarm, Severity};
+    pub use uplift_job::alarm::{Alarm, Severity, name_result};
 }
 
 /// What the crates of the pipeline may fail with; all are [`UpliftError`]s, too.

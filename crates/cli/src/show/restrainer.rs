@@ -1,6 +1,7 @@
 //! Restrainers in lines and tables.
 
 use std::io::Write;
+use std::path::Path;
 
 use uplift::restrainer::{RestrainerCurve, RestrainerDesign, stack_name};
 use uplift::structure::verdict_word;
@@ -58,13 +59,17 @@ pub(crate) fn print_restrainer_curve(report: &RestrainerCurve, terminal: &Termin
 }
 
 /// The best stacks; in detail all of them, their states, and what imperfections do to the first.
-pub(crate) fn print_restrainer_design(report: &RestrainerDesign, terminal: &Terminal) -> Result<(), CommandError> {
+pub(crate) fn print_restrainer_design(
+    report: &RestrainerDesign,
+    urs: Option<&Path>,
+    terminal: &Terminal,
+) -> Result<(), CommandError> {
     let mut out = output();
     print_best(&mut out, report)?;
     if terminal.shows_details() {
         print_details(&mut out, report)?;
     }
-    print_warnings(&mut out, &report.alarms, None, terminal)?;
+    print_warnings(&mut out, &report.alarms, urs, terminal)?;
     print_more(&mut out, terminal)?;
     drop(out);
     print_files(&report.files, terminal)

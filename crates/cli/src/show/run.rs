@@ -13,7 +13,7 @@ use uplift::uniform_risk::{
 
 use super::alarms::print_result_warnings;
 use super::spectrum::{print_displacements, print_oscillator};
-use super::{displacement, shake_table, shown_path, typed_path};
+use super::{displacement, print_answer_json, print_json, shake_table, shown_path, typed_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -54,6 +54,14 @@ pub(crate) fn print_run(report: &RunReport, terminal: &Terminal) -> Result<(), C
     };
     let result = report.head().files.first().map(|result| shown_path(result).display().to_string());
     Ok(writeln!(out, "{more:<8} uplift table {}", result.unwrap_or_default())?)
+}
+
+/// The report as JSON.
+pub(crate) fn print_run_json(report: &RunReport) -> Result<(), CommandError> {
+    match report.head().files.first() {
+        Some(result) => print_answer_json(report, result),
+        None => print_json(report),
+    }
 }
 
 /// Between which displacements the sites of a table lie.

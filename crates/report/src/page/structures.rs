@@ -6,7 +6,7 @@ use std::path::Path;
 use minijinja::Value;
 use serde::Serialize;
 use uplift::UpliftError;
-use uplift::alarms::Alarm;
+use uplift::alarms::{Alarm, name_result};
 use uplift::result::{FindingRow, ResultFile, StoredFinding};
 use uplift::structure::StructureReport;
 use uplift::study::Structure;
@@ -37,16 +37,21 @@ pub(super) struct Answer {
     bands: Vec<String>,
 }
 
-/// The structures that were asked something under `result`, of which the page says `known` already.
+/// The structures that were asked something under `result`, of which the page says `known` already. Commands name it
+/// as it is `typed`.
 ///
 /// # Errors
 /// A file that is damaged.
-pub(super) fn structures(result: &ResultFile, known: &[Alarm]) -> Result<Vec<AskedStructure>, UpliftError> {
+pub(super) fn structures(
+    result: &ResultFile,
+    known: &[Alarm],
+    typed: &str,
+) -> Result<Vec<AskedStructure>, UpliftError> {
     let mut findings = result.findings()?;
     // a structure whose file has changed is another
     findings.sort_by(|a, b| file_of(a).cmp(&file_of(b)));
     let of_structure = findings.chunk_by(|a, b| file_of(a) == file_of(b));
-    Ok(of_structure.enumerate().map(|(index, answers)| asked(index + 1, answers, known)).collect())
+    Ok(of_structure.enumerate().map(|(index, answers)| asked(index + 1, answers, (known, typed))).collect())
 }
 
 /// Whose answers stand together, those of a file as it was before last.
@@ -54,7 +59,7 @@ fn file_of(of: &StoredFinding) -> (&str, bool, String) {
     (&of.finding.structure, of.is_of_earlier_file, of.finding.structure_sha256())
 }
 
-fn asked(number: usize, answers: &[StoredFinding], known: &[Alarm]) -> AskedStructure {
+fn asked(number: usize, answers: &[StoredFinding], (known, typed): (&[Alarm], &str)) -> AskedStructure {
     let first = &answers[0].finding;
     let structure = Structure::parse(Path::new(&first.structure_file), first.structure_toml.clone()).ok();
     let facts =
@@ -63,12 +68,16 @@ fn asked(number: usize, answers: &[StoredFinding], known: &[Alarm]) -> AskedStru
     let mut said: BTreeSet<String> = known.iter().map(|alarm| alarm.what.clone()).collect();
     let alarms = answers.iter().flat_map(|of| of.finding.alarms());
     let alarms = alarms.filter(|alarm| alarm["what"].as_str().is_some_and(|what| said.insert(what.to_owned())));
+    let named = |mut alarm| {
+        name_result(&mut alarm, typed);
+        Value::from_serialize(alarm)
+    };
     AskedStructure {
         name: first.structure.clone(),
         note: format!("File {}{}.", first.structure_file, if answers[0].is_of_earlier_file { before } else { "" }),
         drawing: structure.as_ref().map_or_else(String::new, |own| elevation(&own.description)),
         facts: facts.unwrap_or_default(),
-        alarms: alarms.map(Value::from_serialize).collect(),
+        alarms: alarms.map(named).collect(),
         answers: answers
             .iter()
             .enumerate()

@@ -1,6 +1,7 @@
 //! A result as JSON.
 
 use serde_json::{Value, json};
+use uplift_job::alarm::name_result;
 use uplift_job::text::finite;
 use uplift_questions::influence::{CHANGES, RecordInfluence};
 use uplift_result::declared::{Field, Group, Quantity};
@@ -40,6 +41,7 @@ impl Export {
         if !self.findings.is_empty() {
             all["structures"] = self.findings_json();
         }
+        name_result(&mut all, &self.typed);
         all
     }
 

@@ -5,6 +5,7 @@ use std::ops::Range;
 use uplift_alarms::alarms;
 use uplift_hazard::return_period_from_probability;
 use uplift_job::alarm::Alarm;
+use uplift_job::text::typed_path;
 use uplift_result::declared::Quantity;
 use uplift_result::{
     BandKind, CONSISTENCY, Fit, Head, MeasureSpectra, ResultFile, Spectrum, SpreadOver, StoredBands, StoredConsistency,
@@ -46,6 +47,8 @@ pub struct Export {
     pub(super) records: usize,
     /// Name of the result file.
     pub(super) file: String,
+    /// The file as a command names it.
+    pub(super) typed: String,
     /// One line: program, time, file, records.
     provenance: String,
 }
@@ -104,6 +107,7 @@ impl Export {
             head,
             spectra,
             file: name,
+            typed: typed_path(path),
             provenance,
         })
     }

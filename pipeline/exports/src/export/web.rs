@@ -11,7 +11,8 @@ use serde_json::json;
 use uplift_alarms::{Scope, alarms_of};
 use uplift_atomic_file::{io_error, read_file};
 use uplift_job::JobError;
-use uplift_job::text::finite;
+use uplift_job::alarm::name_result;
+use uplift_job::text::{finite, typed};
 use uplift_result::ResultFile;
 use uplift_uniform_risk::{QuotedUnits, StoredMeasure, StoredStripes};
 use uplift_web_stripes::{FORMAT, WebCurve, WebMeasure, WebSite, WebStripes};
@@ -66,6 +67,10 @@ pub(super) fn web(file: &ResultFile) -> Result<WebStripes, ExportsError> {
         units: units.records,
         peaks_m: of.edp_m.values().iter().map(|peak_m| finite(*peak_m)).collect(),
     };
+    let named = |mut alarms| {
+        name_result(&mut alarms, &typed(&name));
+        alarms
+    };
     let mut sites = Vec::new();
     for (index, site) in stripes.sites.iter().enumerate() {
         let mut curves = Vec::new();
@@ -78,7 +83,7 @@ pub(super) fn web(file: &ResultFile) -> Result<WebStripes, ExportsError> {
                 source: curve.source().to_owned(),
                 levels: curve.im().to_vec(),
                 maf_per_year: curve.maf().to_vec(),
-                alarms: json!(alarms_of(file, &scope)?),
+                alarms: named(json!(alarms_of(file, &scope)?)),
             });
         }
         sites.push(WebSite { name: site.clone(), curves });

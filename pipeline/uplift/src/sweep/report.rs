@@ -8,6 +8,7 @@ use serde::ser::{SerializeMap, Serializer};
 use uplift_alarms::alarms;
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Severity};
+use uplift_job::text::typed_path;
 use uplift_result::{MeasureSpectra, ResultFile, Spectrum, StoredConsistency, StoredSpectra};
 use uplift_uniform_risk::{BandOf, Displacement, DisplacementOptions, DisplacementReport, displacements};
 
@@ -114,10 +115,10 @@ impl VariantReport {
         };
         let all = |found: &[DisplacementReport]| found.iter().flat_map(|of| of.displacements.clone()).collect();
         let (plain, repaired) = (with_bands(false)?, with_bands(true)?);
-        let mut alarms = alarms(&file)?;
-        alarms.retain(|alarm| alarm.severity != Severity::Note);
+        let typed = typed_path(&result);
+        let alarms = alarms(&file)?.into_iter().filter(|alarm| alarm.severity != Severity::Note);
         Ok(Self {
-            alarms,
+            alarms: alarms.map(|alarm| alarm.naming(&typed)).collect(),
             name,
             values: keys.iter().map(|key| asked.value(key).map(str::to_owned)).collect(),
             synthetic: file.is_synthetic()?,

@@ -8,7 +8,7 @@ use uplift::study::Structure;
 
 use crate::command::arguments::Overwriting;
 use crate::error::CommandError;
-use crate::show::{print_json, print_restrainer_design};
+use crate::show::{print_answer_json, print_json, print_restrainer_design};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -32,5 +32,9 @@ pub(super) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
     let structure = Structure::load(&arguments.structure)?;
     let options = RestrainerDesignOptions { force: arguments.overwriting.force, ..arguments.options.clone() };
     let report = compute(&structure, &options, terminal)?;
-    if arguments.json { print_json(&report) } else { print_restrainer_design(&report, terminal) }
+    match &options.urs {
+        Some(urs) if arguments.json => print_answer_json(&report, urs),
+        None if arguments.json => print_json(&report),
+        urs => print_restrainer_design(&report, urs.as_deref(), terminal),
+    }
 }

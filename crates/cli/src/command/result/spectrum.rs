@@ -6,7 +6,7 @@ use uplift::uniform_risk::DisplacementOptions;
 
 use crate::command::arguments::{Numbers, ResultArguments, all_numbers, numbers};
 use crate::error::CommandError;
-use crate::show::{print_json, print_spectrum, print_spectrum_csv};
+use crate::show::{print_answer_json, print_spectrum, print_spectrum_csv};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -41,7 +41,7 @@ pub(crate) fn spectrum(arguments: &SpectrumArguments, terminal: &Terminal) -> Re
     let asked = DisplacementOptions { strengths, ..arguments.options.clone() };
     let report = read(&result, &asked)?;
     match (arguments.json, arguments.csv) {
-        (true, _) => print_json(&report),
+        (true, _) => print_answer_json(&report, &result),
         (_, true) => print_spectrum_csv(&report, &result, terminal),
         _ => print_spectrum(&report, &result, terminal),
     }

@@ -4,7 +4,7 @@ use clap::Args;
 use uplift::table::{TableOptions, table as table_of};
 
 use crate::error::CommandError;
-use crate::show::{print_json, print_table};
+use crate::show::{print_answer_json, print_table};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -20,5 +20,6 @@ pub(crate) struct TableArguments {
 
 pub(crate) fn table(arguments: &TableArguments, terminal: &Terminal) -> Result<(), CommandError> {
     let report = table_of(&arguments.options, terminal)?;
-    if arguments.json { print_json(&report) } else { print_table(&report, &arguments.options.result, terminal) }
+    let result = &arguments.options.result;
+    if arguments.json { print_answer_json(&report, result) } else { print_table(&report, result, terminal) }
 }

@@ -7,7 +7,7 @@ use uplift::alarms::alarms;
 use uplift::result::{ResultFile, TargetRisks, at_target_risks};
 
 use crate::error::CommandError;
-use crate::show::{print_all_warnings, print_json};
+use crate::show::{print_all_warnings, print_answer_json};
 
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  uplift warnings results/study.h5")]
@@ -23,5 +23,9 @@ pub(crate) struct WarningsArguments {
 
 pub(crate) fn warnings(arguments: &WarningsArguments) -> Result<(), CommandError> {
     let found = alarms(&at_target_risks(ResultFile::open(&arguments.result)?, &arguments.risk)?)?;
-    if arguments.json { print_json(&found) } else { print_all_warnings(&found, &arguments.result) }
+    if arguments.json {
+        print_answer_json(&found, &arguments.result)
+    } else {
+        print_all_warnings(&found, &arguments.result)
+    }
 }

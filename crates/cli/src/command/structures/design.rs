@@ -8,7 +8,7 @@ use uplift_report::{check_design_sheet, write_design_sheet};
 
 use crate::command::arguments::{Overwriting, StructureArguments};
 use crate::error::CommandError;
-use crate::show::{print_design, print_json, print_shard};
+use crate::show::{print_answer_json, print_design, print_shard};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -47,7 +47,7 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
         write_design_sheet(&structure, &report, file)?;
     }
     arguments.structure.keeping.keep(|| Ok(report.finding(&structure)?), urs, terminal)?;
-    if arguments.json { print_json(&report) } else { print_design(&report, terminal) }?;
+    if arguments.json { print_answer_json(&report, urs) } else { print_design(&report, terminal) }?;
     if let Some(file) = &arguments.report {
         terminal.say(&file.display().to_string());
     }

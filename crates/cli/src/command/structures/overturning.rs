@@ -9,7 +9,7 @@ use uplift_report::{check_figure_file, plot_overturning};
 
 use crate::command::arguments::{Overwriting, StructureArguments};
 use crate::error::CommandError;
-use crate::show::{print_json, print_overturning, print_shard};
+use crate::show::{print_answer_json, print_overturning, print_shard};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -53,7 +53,7 @@ pub(crate) fn overturning(arguments: &OverturningArguments, terminal: &Terminal)
         plot_overturning(&report, figure)?;
     }
     arguments.structure.keeping.keep(|| Ok(report.finding(&structure, &options)?), urs, terminal)?;
-    if arguments.json { print_json(&report) } else { print_overturning(&report, terminal) }?;
+    if arguments.json { print_answer_json(&report, urs) } else { print_overturning(&report, terminal) }?;
     for file in arguments.plot.iter().chain(&report.files) {
         terminal.say(&file.display().to_string());
     }

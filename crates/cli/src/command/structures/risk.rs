@@ -8,7 +8,7 @@ use uplift_report::{check_figure_file, plot_frame_risk};
 
 use crate::command::arguments::{Overwriting, StructureArguments};
 use crate::error::CommandError;
-use crate::show::{print_frame_risk, print_json, print_shard};
+use crate::show::{print_answer_json, print_frame_risk, print_shard};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -52,7 +52,7 @@ pub(crate) fn risk(arguments: &FrameRiskArguments, terminal: &Terminal) -> Resul
         plot_frame_risk(&report, figure)?;
     }
     arguments.structure.keeping.keep(|| Ok(report.finding(&structure)?), urs, terminal)?;
-    if arguments.json { print_json(&report) } else { print_frame_risk(&report, terminal) }?;
+    if arguments.json { print_answer_json(&report, urs) } else { print_frame_risk(&report, terminal) }?;
     for file in arguments.plot.iter().chain(&report.files) {
         terminal.say(&file.display().to_string());
     }

@@ -8,7 +8,7 @@ use uplift_study::Structure;
 
 use crate::command::arguments::KeepArgument;
 use crate::error::CommandError;
-use crate::show::{print_json, print_target};
+use crate::show::{print_answer_json, print_target};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -34,7 +34,7 @@ pub(crate) fn target(arguments: &TargetArguments, terminal: &Terminal) -> Result
     let structure = Structure::load(&arguments.structure)?;
     let report = run(&structure, urs, options, terminal)?;
     arguments.keeping.keep(|| Ok(report.finding(&structure, options)?), urs, terminal)?;
-    if arguments.json { print_json(&report) } else { print_target(&report, terminal) }?;
+    if arguments.json { print_answer_json(&report, urs) } else { print_target(&report, terminal) }?;
     for file in &report.files {
         terminal.say(&file.display().to_string());
     }

@@ -7,7 +7,7 @@ use uplift_study::SiteSlice;
 
 use crate::command::arguments::{Overwriting, RARE, StudyArguments};
 use crate::error::CommandError;
-use crate::show::{print_json, print_run};
+use crate::show::{print_run, print_run_json};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -36,5 +36,5 @@ pub(crate) fn merge(arguments: &MergeArguments, terminal: &Terminal) -> Result<(
     let output = arguments.output.as_deref();
     let (study, options) = arguments.study.load_slice(arguments.sites, output, arguments.overwriting.force)?;
     let report = uplift::merge(&study, &arguments.shards, &options, terminal)?;
-    if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
+    if arguments.json { print_run_json(&report) } else { print_run(&report, terminal) }
 }

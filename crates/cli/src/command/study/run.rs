@@ -10,7 +10,7 @@ use uplift_study::SiteSlice;
 
 use crate::command::arguments::{Overwriting, StudyArguments, shard};
 use crate::error::CommandError;
-use crate::show::{print_json, print_run, print_shard};
+use crate::show::{print_run, print_run_json, print_shard};
 use crate::terminal::Terminal;
 
 #[derive(Debug, Args)]
@@ -59,5 +59,5 @@ pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<(), C
     }
     let options = RunOptions { again: arguments.again, ..options };
     let report = uplift::run(&study, &options, terminal)?;
-    if arguments.json { print_json(&report) } else { print_run(&report, terminal) }
+    if arguments.json { print_run_json(&report) } else { print_run(&report, terminal) }
 }

@@ -61,7 +61,7 @@ impl Export {
             if index == 0 {
                 sheet.heading((line, 0), "Before you use these numbers", false)?;
             }
-            let remedy = alarm.remedy(&self.file);
+            let remedy = alarm.remedy(&self.typed);
             let what_to_do = if remedy.is_empty() { String::new() } else { format!(": {remedy}") };
             sheet.long_text((line, 1), &format!("{}: {alarm}{what_to_do}", alarm.severity.word()))?;
             line += 1;
