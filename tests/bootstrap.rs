@@ -50,6 +50,20 @@ fn the_widest_band_is_of_the_table_above() {
     }
 }
 
+#[test]
+fn a_bootstrap_has_the_warnings_of_its_spectrum_and_names_repaired_bands() {
+    let few = SmallStudy::new();
+    few.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    for (study, is_repaired) in [(few, false), (SmallStudy::repaired(), true)] {
+        let said = study.uplift(&["bootstrap", "r.h5", "--replicates", "5"]).ok().stdout;
+        let spectrum = study.uplift(&["spectrum", "r.h5"]).ok().stdout;
+        let warnings = spectrum.split_once("\nWarnings\n").unwrap().1;
+        assert!(said.contains(warnings), "{said}\n{warnings}");
+        assert_eq!(warnings.contains("Few records: 4 (40 advised)"), !is_repaired, "{warnings}");
+        assert_eq!(said.contains("bands too: uplift spectrum r.h5 --repaired"), is_repaired, "{said}");
+    }
+}
+
 // A study is run first, its result is used afterwards; the rows agree with the arrays, which Eq. 4.9 and 4.10 are
 // formed of here anew.
 #[test]

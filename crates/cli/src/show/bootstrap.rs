@@ -4,13 +4,14 @@ use std::io::Write;
 
 use uplift::bootstrap::{BootstrapReport, Initiation, MANY_FAILED, ReferenceRow};
 use uplift::result::{MeasureBands, StoredJointBands};
+use uplift::spectrum::SpectrumReport;
 use uplift::text::{Table, per_cent, risk_in_words, risk_name, two_digits};
 
 use uplift::uniform_risk::{Displacement, DisplacementReport};
 
-use super::alarms::print_synthetic;
+use super::alarms::print_result_warnings;
 use super::spectrum::print_displacements;
-use super::{print_more, shown_path};
+use super::{print_more, shown_path, typed_path};
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
@@ -18,21 +19,27 @@ use crate::terminal::{Terminal, output};
 /// other figures. A quiet terminal gets the tables alone.
 pub(crate) fn print_bootstrap(
     report: &BootstrapReport,
-    shown: &DisplacementReport,
+    shown: &SpectrumReport,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
     let out = &mut output();
-    print_displacements(out, shown)?;
+    print_displacements(out, &shown.found)?;
     if terminal.shows_details() {
         print_details(out, report)?;
     } else if !report.reference.is_empty() {
         print_figures(out, report, rarest(report), true)?;
     }
     if !terminal.is_quiet() {
-        print_sizes(out, report, shown)?;
-        print_synthetic(out, report.stored.synthetic, terminal)?;
+        print_sizes(out, report, &shown.found)?;
+    }
+    let result = &report.stored.path;
+    print_result_warnings(out, &shown.alarms, result, terminal)?;
+    if !terminal.is_quiet() {
         let tables = report.tables.each_ref().map(|file| shown_path(file).display().to_string());
-        writeln!(out, "\nBands    /bootstrap in {}", shown_path(&report.stored.path).display())?;
+        writeln!(out, "\nBands    /bootstrap in {}", shown_path(result).display())?;
+        if report.rows.iter().any(|row| row.repaired.is_some()) {
+            writeln!(out, "Repaired spectra have bands too: uplift spectrum {} --repaired", typed_path(result))?;
+        }
         writeln!(out, "Tables   {}", tables.join(", "))?;
         print_more(out, terminal)?;
     }

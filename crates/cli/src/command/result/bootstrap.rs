@@ -41,6 +41,6 @@ pub(crate) fn bootstrap(arguments: &BootstrapArguments, terminal: &Terminal) -> 
     if arguments.json {
         return print_json(&report);
     }
-    let shown = spectrum(&report.stored.path, &DisplacementOptions::default())?.found;
+    let shown = spectrum(&report.stored.path, &DisplacementOptions::default())?;
     print_bootstrap(&report, &shown, terminal)
 }
