@@ -65,6 +65,21 @@ fn a_study_of_spectral_acceleration_alone() {
     assert!(again.contains("48 of 48 analyses resumed"), "{again}");
 }
 
+#[test]
+fn records_that_miss_the_hazard_are_in_the_json_too() {
+    let study = SmallStudy::repaired();
+    let misses = &rows(&study.uplift(&["measures", "r.h5", "--json", "-q"]).ok().stdout);
+    let of = |im: &str| &misses.iter().find(|row| row["im"] == im).unwrap()["misses"];
+    let consistency = study.uplift(&["consistency", "r.h5", "--json", "-q"]).json();
+    for im in ["PGV", "PGA"] {
+        let worst = consistency["rows"].as_array().unwrap().iter().filter(|row| row["scaled_to"] == im);
+        let worst = worst.max_by(|a, b| a["max"].as_f64().unwrap().total_cmp(&b["max"].as_f64().unwrap())).unwrap();
+        assert_eq!([&of(im)["site"], &of(im)["bias"]], [&worst["site"], &worst["bias"]], "{im}");
+        assert!(of(im)["times"].is_string(), "{}", of(im));
+    }
+    assert!(of("PGD").is_null(), "{}", of("PGD"));
+}
+
 // The Arias intensity grows with the square of the factor: at the squares of levels of PGV the runs are the same.
 #[test]
 fn levels_of_arias_intensity_are_squares() {

@@ -117,7 +117,7 @@ impl Shown<'_> {
         let own: Vec<&[EfficiencyRow]> = self.measures.iter().filter(|rows| !rows[0].is_told()).copied().collect();
         if let (2.., Some((name, measure, others))) = (own.len(), self.winner(&own, |row| row.dispersion_level)) {
             let result = typed_path(&self.report.stored.path);
-            match self.report.misses.iter().find(|miss| miss.scaled_to == measure) {
+            match own.iter().find_map(|rows| rows[0].misses.as_ref().filter(|_| rows[0].im == name)) {
                 None => writeln!(out, "Use {name}{others}: uplift spectrum {result} --measure {measure}")?,
                 Some(Miss { other, site, times, is_tried, is_repaired, .. }) => {
                     writeln!(

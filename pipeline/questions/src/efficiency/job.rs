@@ -13,7 +13,7 @@ use uplift_uniform_risk::{StoredStripes, StudyOfResult};
 
 use super::factors_to_reach::FactorsToReach;
 use super::of_measure::{covariates, efficiency_by, efficiency_restated};
-use super::report::{EfficiencyReport, misses};
+use super::report::EfficiencyReport;
 use super::restated::{Measured, restated};
 use super::write::{efficiency_path, write_efficiency};
 use crate::error::QuestionsError;
@@ -109,8 +109,7 @@ pub fn efficiency(
         }
     }
     write_efficiency(&locked, (&stored, &file.efficiency()?), &covariates, &measures)?;
-    let misses = misses(&file.consistency()?, &stored.sites);
-    Ok(EfficiencyReport::new(stored, &covariates, &measures, up_to_m, misses))
+    Ok(EfficiencyReport::new(stored, &covariates, &measures, up_to_m, &file.consistency()?))
 }
 
 /// Those of the measures `wanted` that can be had, of each record.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use uplift_job::text::finite;
-use uplift_result::{StoredConsistency, StoredTrend};
+use uplift_result::{StoredConsistency, StoredEfficiency, StoredTrend};
 use uplift_uniform_risk::StoredStripes;
 use uplift_uniform_risk::consistency::{Verdict, times_in_words};
 
@@ -27,46 +27,44 @@ pub struct EfficiencyReport {
     /// The largest displacement at which measures are compared, m, of each strength; none where there is none.
     #[serde(skip)]
     pub up_to_m: Vec<Option<f64>>,
-    /// Measures whose scaled records miss the hazard of the other one.
-    #[serde(skip)]
-    pub misses: Vec<Miss>,
     /// The table beside it.
     #[serde(skip)]
     pub table: PathBuf,
 }
 
 /// Where the records scaled to a measure miss the site's hazard of the other one most.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Miss {
-    /// The measure, `pgv`.
-    pub scaled_to: &'static str,
     /// The other measure, `PGA`.
     pub other: &'static str,
     /// The site.
     pub site: String,
-    /// How many times the site's level the scaled records have, `1.6`, or at the rates compared, `0.5 to 2.1`.
+    /// How many times the site's level the scaled records have, mean over the rates compared.
+    pub bias: f64,
+    /// The same in words: `1.6`, or at the rates compared, `0.5 to 2.1`.
     pub times: String,
     /// Whether a repair was tried.
+    #[serde(skip)]
     pub is_tried: bool,
     /// Whether weights repair it.
+    #[serde(rename = "repaired")]
     pub is_repaired: bool,
 }
 
-/// Those of each measure that is inconsistent at one of the `sites`.
-pub(super) fn misses(consistency: &[StoredConsistency], sites: &[String]) -> Vec<Miss> {
-    let of_measure = |of: &StoredConsistency| {
+impl Miss {
+    /// That of records scaled to one measure; none where they are inconsistent at none of the `sites`.
+    fn worst(of: &StoredConsistency, sites: &[String]) -> Option<Self> {
         let missed = (0..sites.len()).filter(|&site| of.verdict[site] == Verdict::Inconsistent.key());
         let worst = missed.max_by(|&a, &b| of.max[a].total_cmp(&of.max[b]))?;
-        Some(Miss {
-            scaled_to: of.scaled_to.key(),
+        Some(Self {
             other: of.other.label(),
             site: sites[worst].clone(),
+            bias: of.bias[worst],
             times: times_in_words(of, worst, of.bias[worst]),
             is_tried: of.u_m.is_some(),
             is_repaired: of.is_repaired(worst),
         })
-    };
-    consistency.iter().filter_map(of_measure).collect()
+    }
 }
 
 /// Efficiency and sufficiency of one measure at one strength; NaN where there is no such number.
@@ -91,6 +89,10 @@ pub struct EfficiencyRow {
     pub dispersion_initiation: f64,
     /// The trend of a record's mean residual with what the record is.
     pub trends: BTreeMap<&'static str, Trend>,
+    /// Where the records of the runs miss the site's hazard most; none where they do not, or are scaled to another
+    /// measure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub misses: Option<Miss>,
 }
 
 impl EfficiencyRow {
@@ -122,8 +124,12 @@ impl EfficiencyReport {
         covariates: &[Covariate],
         measures: &[MeasureEfficiency],
         up_to_m: Vec<Option<f64>>,
-        misses: Vec<Miss>,
+        consistency: &[StoredConsistency],
     ) -> Self {
+        let missed = |of: &StoredEfficiency| {
+            let own = consistency.iter().find(|own| own.scaled_to == of.measure && own.scaled_to == of.scaled_to)?;
+            Miss::worst(own, &stored.sites)
+        };
         let row = |MeasureEfficiency { own: of, .. }: &MeasureEfficiency, index: usize| EfficiencyRow {
             im: of.measure.label(),
             scaled_to: of.scaled_to.label(),
@@ -134,6 +140,7 @@ impl EfficiencyReport {
             undefined_share: of.undefined[index],
             dispersion_initiation: of.initiation[index],
             trends: covariates.iter().zip(&of.trends).map(|(of, trend)| (of.key, trend_at(trend, index))).collect(),
+            misses: missed(of),
         };
         Self {
             rows: measures
@@ -142,7 +149,6 @@ impl EfficiencyReport {
                 .collect(),
             covariates: covariates.iter().map(|covariate| covariate.key).collect(),
             up_to_m,
-            misses,
             table: efficiency_path(&stored.path),
             stored,
         }
