@@ -115,8 +115,8 @@ fn a_changed_structure_is_reported() {
     assert!(asked.stderr.contains("keeps 1 answer") && asked.stderr.contains("site There"), "{}", asked.stderr);
     assert_eq!(kept(&study, "design"), before);
     let said = study.uplift(&["status", "r.h5"]).ok().stdout;
-    let lines: Vec<&str> = said.lines().filter(|line| line.contains("asked    block: design")).collect();
-    assert_eq!(lines.len(), 2, "{said}");
+    let lines: Vec<&str> = said.lines().filter(|line| line.contains("  block: design, ")).collect();
+    assert_eq!((lines.len(), said.matches("\n  answers  block: ").count()), (2, 1), "{said}");
     for line in lines {
         assert_eq!(line.contains("its file has changed since"), line.contains("site There"), "{line}");
     }
@@ -268,7 +268,7 @@ fn a_return_period_is_reported_as_given() {
     ask(&study, "design block.toml --urs r.h5 --site Here --return-period 475 --spectrum-only");
     ask(&study, "target block.toml --urs r.h5 --site Here --vary size --from 0.1 --to 2 --return-period 4750");
     let told = ask(&study, "status r.h5").stdout;
-    let asked: Vec<&str> = told.lines().filter(|line| line.trim_start().starts_with("asked")).collect();
+    let asked: Vec<&str> = told.lines().filter(|line| line.contains("  block: ")).collect();
     assert!(asked[0].contains(", 475 years (") && !asked[0].contains("poe"), "{told}");
     assert!(asked[1].contains(", per year 0.000210526,"), "{told}");
     ask(&study, "report r.h5 -o page.html -q");

@@ -46,6 +46,8 @@ fn bands(file: &Path) -> Vec<f64> {
 fn a_replicate_is_weighed_by_weights_of_its_own() {
     let study = study();
     study.uplift(&["bootstrap", "r.h5", "-q", "--sizes", "60,105", "--replicates", "1"]).ok();
+    let status = study.uplift(&["status", "r.h5"]).ok().stdout;
+    assert!(status.contains("\n  added    repair, bootstrap\n"), "{status}");
     let path = study.path().join("r.h5");
     let file = ResultFile::open(&path).unwrap();
     let (records, stripes, hazard) =

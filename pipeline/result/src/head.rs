@@ -63,6 +63,8 @@ pub enum Overview {
         sites: Vec<String>,
         /// What was added after the run: `bootstrap`, `influence`, `measures`, `structures`.
         added: Vec<&'static str>,
+        /// Whether there are repaired spectra.
+        has_repair: bool,
     },
     /// Displacement spectra.
     Displacement {
@@ -171,6 +173,7 @@ impl ResultFile {
             analyses,
             sites: sites.unwrap_or_default(),
             added: added().into_iter().filter(|(group, _)| reader.exists(group)).map(|(_, name)| name).collect(),
+            has_repair: self.has_repair(),
         })
     }
 }

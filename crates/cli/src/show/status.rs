@@ -82,10 +82,11 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
         Overview::ShakeTable { structure, analyses, levels, excitations } => {
             writeln!(out, "  tests    {analyses} of {structure}: {excitations} excitations at {}", levels.join(", "))?;
         }
-        Overview::UniformRisk { analyses, sites, added } => {
+        Overview::UniformRisk { analyses, sites, added, has_repair } => {
             for (measure, analyses) in analyses {
                 writeln!(out, "  {measure:<8} {analyses} analyses")?;
             }
+            let added: Vec<&str> = has_repair.then_some("repair").into_iter().chain(added.iter().copied()).collect();
             for (what, names) in [("sites", sites.join(", ")), ("added", added.join(", "))] {
                 if !names.is_empty() {
                     writeln!(out, "  {what:<8} {names}")?;
@@ -93,9 +94,10 @@ fn print_result(out: &mut impl Write, result: &ResultStatus) -> Result<(), Comma
             }
         }
     }
-    for asked in &result.asked {
+    for (index, asked) in result.asked.iter().enumerate() {
+        let label = if index == 0 { "answers" } else { "" };
         let before = if asked.is_of_earlier_file { " (its file has changed since: run the command again)" } else { "" };
-        writeln!(out, "  asked    {}{before}", one_line(&format!("{}: {}", asked.structure, asked.question)))?;
+        writeln!(out, "  {label:<7}  {}{before}", one_line(&format!("{}: {}", asked.structure, asked.question)))?;
     }
     Ok(())
 }
