@@ -256,7 +256,8 @@ fn a_response_asks_about_unlikely_numbers() {
     study.uplift(&["records", "synthesize", "-o", "set", "--count", "1", "-q"]).ok();
     let record = ["response", "set/SYN001_H1.AT2"];
     for (asked, words) in [
-        (&["--block", "--width-m", "40", "--height-m", "220"][..], "--height-m is 220 m; usual is"),
+        (&["--block", "--width-m", "4", "--height-m", "220"][..], "--height-m is 220 m; usual is"),
+        (&["--block", "--width-m", "40", "--height-m", "100"], "--width-m is 40 m; usual is"),
         (&["--strength", "40"], "--strength is 40; usual is"),
         (&["--strength", "0.2", "--uplift-displacement-m", "0.5"], "--uplift-displacement-m is 0.5 m; usual is"),
         (&["--strength", "0.2", "--gravity-m-s2", "981"], "--gravity-m-s2 is 981 m/s2; usual is"),
@@ -546,6 +547,7 @@ fn numbers_in_other_units_are_accepted_and_reported() {
     // the first is the site's: its curve of PGV is of a hundredth of the shaking
     let starts = [
         "its curve of PGA is 22.2 times too high for its curve of PGV and these records",
+        "width_m is 40 m",
         "height_m is 220 m",
         "mass_kg over width² × height is",
         "--safety-factor is 40",

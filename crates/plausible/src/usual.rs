@@ -46,6 +46,9 @@ pub const USUAL_VARIATION: Range =
 /// Side of a block, column or frame: from a cabinet's foot to the tallest piers but a few.
 pub const USUAL_LENGTH: Range = usual(0.02, 150.0, "m", "was it meant in mm or cm?");
 
+/// Width of a base, the displacement capacity of what its weight alone holds: from a cabinet's foot to a wide pier.
+pub const USUAL_WIDTH: Range = usual(0.02, 20.0, "m", "of the base; was it meant in mm or cm?");
+
 /// Mass of what rocks: from a model on a shaking table to a long deck.
 pub const USUAL_MASS: Range = usual(1.0, 1e9, "kg", "was it meant in t, or is it a weight in N?");
 
@@ -133,6 +136,7 @@ mod tests {
             (USUAL_CAPACITY, CAPACITY),
             (USUAL_THRESHOLD, THRESHOLD),
             (USUAL_LENGTH, LENGTH),
+            (USUAL_WIDTH, LENGTH),
             (USUAL_MASS, MASS),
             (USUAL_PERIOD, PERIOD),
             (USUAL_TENDON_STIFFNESS, TENDON_STIFFNESS),

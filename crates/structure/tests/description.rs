@@ -169,7 +169,10 @@ fn unlikely(text: &str) -> Vec<&'static str> {
 fn numbers_in_other_units_are_accepted_and_reported() {
     // centimetres and tonnes
     let pier = "kind = \"block\"\nwidth_m = 40\nheight_m = 220\nmass_kg = 145\n";
-    assert_eq!(unlikely(pier), ["height_m", "mass_kg over width² × height"]);
+    assert_eq!(unlikely(pier), ["width_m", "height_m", "mass_kg over width² × height"]);
+    // of a block its width is the capacity: no mountain of concrete is satisfied without a question
+    let mountain = "kind = \"block\"\nwidth_m = 80\nheight_m = 120\nmass_kg = 900e6\n";
+    assert_eq!(unlikely(mountain), ["width_m"]);
     let block = "kind = \"block\"\nwidth_m = 0.8\nheight_m = 4\nmass_kg = 8000\n";
     assert_eq!(unlikely(block), [""; 0]);
     // a pier of 560 t, in tonnes; and one whose period is that of its rocking

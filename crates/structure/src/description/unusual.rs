@@ -2,7 +2,7 @@
 
 use uplift_plausible::{
     Range, USUAL_BULK, USUAL_DECK, USUAL_GRAVITY, USUAL_INERTIA, USUAL_LENGTH, USUAL_MASS, USUAL_PERIOD,
-    USUAL_RESTITUTION, USUAL_ROTATION, USUAL_TENDON_STIFFNESS, USUAL_UPLIFT_DISPLACEMENT, Unlikely,
+    USUAL_RESTITUTION, USUAL_ROTATION, USUAL_TENDON_STIFFNESS, USUAL_UPLIFT_DISPLACEMENT, USUAL_WIDTH, Unlikely,
 };
 
 use super::{Kind, StructureDescription};
@@ -12,7 +12,7 @@ pub(super) fn unlikely(of: &StructureDescription) -> Vec<Unlikely> {
     // what may be absent is no mistake of unit
     let given = |value: Option<f64>| value.filter(|value| *value > 0.0);
     let quantities: [(&'static str, Option<f64>, Range); 14] = [
-        ("width_m", of.width_m, USUAL_LENGTH),
+        ("width_m", of.width_m, USUAL_WIDTH),
         ("height_m", of.height_m, USUAL_LENGTH),
         ("centre_height_m", of.centre_height_m, USUAL_LENGTH),
         ("size_m", of.size_m, USUAL_LENGTH),

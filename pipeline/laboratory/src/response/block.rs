@@ -10,7 +10,7 @@ use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::table::{ColumnsOf, write_table};
 use uplift_motion::Accelerogram;
-use uplift_plausible::{LENGTH, RESTITUTION, SIZE, USUAL_LENGTH, USUAL_RESTITUTION};
+use uplift_plausible::{LENGTH, RESTITUTION, SIZE, USUAL_LENGTH, USUAL_RESTITUTION, USUAL_WIDTH};
 
 use super::{BlockOptions, ResponseOptions, ShakingRecord};
 use crate::error::LaboratoryError;
@@ -52,7 +52,7 @@ impl ResponseOptions {
     /// The numbers that can be but are unlikely, mistakes of unit mostly.
     fn block_alarms(&self) -> Vec<Alarm> {
         self.alarms(&[
-            (USUAL_LENGTH, "--width-m", self.block.width_m),
+            (USUAL_WIDTH, "--width-m", self.block.width_m),
             (USUAL_LENGTH, "--height-m", self.block.height_m),
             (USUAL_LENGTH, "--size-m", self.block.size_m),
             (USUAL_RESTITUTION, "--restitution", self.restitution),
