@@ -531,3 +531,26 @@ fn the_documentation_shows_what_is_printed() {
     uplift(folder.path(), &["run", quick.to_str().unwrap(), "-q"]).ok();
     hold_console(folder.path(), "docs/frames.md", 1);
 }
+
+/// A demand of zero is explained, once.
+#[test]
+fn a_structure_that_does_not_uplift_is_said_to() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    study.write("squat.toml", "kind = \"block\"\nwidth_m = 4\nheight_m = 5\nmass_kg = 200e3\n");
+    study.write(
+        "piers.toml",
+        "kind = \"frame\"\ncolumns = 2\nwidth_m = 4\nheight_m = 5\ncolumn_mass_kg = 100e3\ndeck_mass_kg = 300e3\n\
+         column_shape = \"cylinder\"\n",
+    );
+    let asked = |command: &str, structure: &str| {
+        let asked = [command, structure, "--urs", "r.h5", "--site", "Here", "--poe", "0.5", "--no-keep"];
+        study.uplift(&asked).ok().stdout
+    };
+    for (command, structure) in [("risk", "squat.toml"), ("risk", "piers.toml"), ("design", "piers.toml")] {
+        let said = asked(command, structure);
+        assert_eq!(said.matches("does not uplift at this risk").count(), 1, "{said}");
+        assert!(command == "design" || said.starts_with("Demand       0 m (0 to 0) on "), "{said}");
+        assert!(!said.contains("(error"), "of nothing: {said}");
+    }
+}

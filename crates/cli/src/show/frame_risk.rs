@@ -11,7 +11,7 @@ use super::alarms::print_in_parts;
 use super::shown_path;
 use super::structure::{
     BLOCK, WOBBLING, band_after, demand_in_words, measure_option, print_notes, print_structure, record_set,
-    restitution_line, risk_cells,
+    restitution_line, rests, risk_cells,
 };
 use crate::error::CommandError;
 use crate::terminal::Terminal;
@@ -45,15 +45,12 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     let demand = demand_in_words(value, Some([lower, upper]), by_whom);
     let of_repair = |demand_m| format!("; repaired {}", metres_with_band(demand_m, None));
     let repaired = frame.repaired_m.map_or_else(String::new, of_repair);
-    let name = &report.structure.name;
+    let (name, rests) = (&report.structure.name, rests(value));
     if is_block(report) && frame.model != WOBBLING {
-        writeln!(
-            out,
-            "Demand       {demand} on {name} itself, restitution {:.4}{repaired}",
-            report.planar_restitution
-        )?;
+        let restitution = report.planar_restitution;
+        writeln!(out, "Demand       {demand} on {name} itself, restitution {restitution:.4}{rests}{repaired}")?;
     } else {
-        writeln!(out, "Demand       {demand} on {name}, {}{repaired}", own_word(report, frame.model))?;
+        writeln!(out, "Demand       {demand} on {name}, {}{rests}{repaired}", own_word(report, frame.model))?;
     }
     if let Some(exceeded) = exceeded(report, value) {
         writeln!(out, "  {exceeded}")?;
@@ -62,6 +59,7 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
         let of = proxy
             .error
             .as_ref()
+            .filter(|_| value > 0.0)
             .map_or_else(String::new, |error| format!(" (error {})", relative_error_in_words(error.value)));
         let restitution = report.structure.restitution.filter(|_| is_block(report) && proxy.model == OSCILLATOR);
         let keeps = restitution.map_or_else(String::new, |restitution| format!(", restitution {restitution}"));

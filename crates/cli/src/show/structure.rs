@@ -91,6 +91,11 @@ pub(super) fn demand_in_words(value_m: f64, band_m: Option<[f64; 2]>, by_whom: &
     demand.strip_suffix(')').map_or_else(|| demand.clone(), |open| format!("{open}{by_whom})"))
 }
 
+/// What a demand of zero means, behind it; nothing behind another.
+pub(super) fn rests(demand_m: f64) -> &'static str {
+    if demand_m == 0.0 { ": it does not uplift at this risk" } else { "" }
+}
+
 /// The quoted band of a rate in brackets, after the rate in a sentence; nothing where there is none.
 pub(super) fn band_after(per_year: Option<Bands>) -> String {
     per_year.map_or_else(String::new, |bands| format!(" ({}{})", limits(bands.quoted()), bands.by_whom()))

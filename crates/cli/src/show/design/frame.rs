@@ -100,6 +100,9 @@ pub(super) fn print_verdicts(
         })
         .to_string();
     writeln!(out, "{table}")?;
+    if frame.models.iter().any(|of| of.demand_m == 0.0) {
+        writeln!(out, "A demand of 0: the frame does not uplift at this risk")?;
+    }
     print_by_earthquake(out, &table)?;
     print_mark(out, report)
 }
