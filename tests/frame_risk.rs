@@ -554,3 +554,28 @@ fn a_structure_that_does_not_uplift_is_said_to() {
         assert!(!said.contains("(error"), "of nothing: {said}");
     }
 }
+
+/// A tendon that yields below the upper limit of the demand is mentioned, whether the frame wobbles or not.
+#[test]
+fn a_demand_beyond_the_yield_of_a_tendon_is_mentioned() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    for shape in ["rectangle", "cylinder"] {
+        for (yield_n, is_told) in [("20e3", true), ("20e6", false)] {
+            study.write(
+                "tower.toml",
+                &format!(
+                    "kind = \"restrained-frame\"\ncolumns = 2\nwidth_m = 0.4\nheight_m = 3\ncolumn_mass_kg = 1000\n\
+                     deck_mass_kg = 20000\ncolumn_shape = \"{shape}\"\n[restrainer]\nkind = \"tendon\"\n\
+                     tendon_area_m2 = 600e-6\ntendon_length_m = 3.5\ntendon_yield_n = {yield_n}\n"
+                ),
+            );
+            let asked = ["design", "tower.toml", "--urs", "r.h5", "--site", "Here", "--poe", "0.02", "--no-keep"];
+            let said = study.uplift(&[&asked[..], &["--report", "sheet.html", "--force"]].concat()).ok().stdout;
+            let line = said.lines().filter(|line| line.contains("m, beyond the tendon yield at 0.0")).count();
+            assert_eq!(line == 1, is_told, "{shape} {yield_n}: {said}");
+            let sheet = std::fs::read_to_string(study.path().join("sheet.html")).unwrap();
+            assert_eq!(sheet.contains("beyond the tendon yield at 0.0"), is_told, "{shape} {yield_n}");
+        }
+    }
+}

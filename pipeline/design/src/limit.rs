@@ -5,7 +5,7 @@ use serde::Serialize;
 use uplift_frame::RockingFrame;
 use uplift_job::text::to_the_centimetre;
 use uplift_risk::{PooledDemand, RunWeights, SiteWeights};
-use uplift_statics::EventKind;
+use uplift_statics::{EventKind, RestrainedColumns};
 use uplift_study::Structure;
 use uplift_uniform_risk::EventRisk;
 
@@ -52,14 +52,22 @@ pub struct FrameLimit {
 impl FrameLimit {
     /// Of the `frame` of a structure; none of one that has neither.
     pub(super) fn from_frame(structure: &Structure, frame: &RockingFrame) -> Option<Self> {
-        let events = frame.columns().events();
-        let first = |kind| events.iter().find(|event| event.event == kind).map(|event| event.state.displacement_m);
-        let all = [
-            (LimitEvent::Capacity, structure.system.capacity_m()),
-            (LimitEvent::TendonYields, first(EventKind::TendonYields)),
-            (LimitEvent::TendonFails, first(EventKind::TendonFails)),
-        ];
-        let all = all.into_iter().filter_map(|(event, at_m)| Some(Self { event, displacement_m: at_m? }));
+        let capacity_m = structure.system.capacity_m();
+        let capacity = capacity_m.map(|displacement_m| Self { event: LimitEvent::Capacity, displacement_m });
+        let of_tendons = Self::from_tendons(frame.columns());
+        capacity.into_iter().chain(of_tendons).min_by(|a, b| a.displacement_m.total_cmp(&b.displacement_m))
+    }
+
+    /// Of the tendons of `columns` alone; none of columns whose tendons neither yield nor fail.
+    pub(super) fn from_tendons(columns: &RestrainedColumns) -> Option<Self> {
+        let limit_of = |kind| match kind {
+            EventKind::TendonYields => Some(LimitEvent::TendonYields),
+            EventKind::TendonFails => Some(LimitEvent::TendonFails),
+            _ => None,
+        };
+        let all = columns.events().into_iter().filter_map(|found| {
+            Some(Self { event: limit_of(found.event)?, displacement_m: found.state.displacement_m })
+        });
         all.min_by(|a, b| a.displacement_m.total_cmp(&b.displacement_m))
     }
 

@@ -7,6 +7,7 @@ use uplift_result::ResultFile;
 use uplift_study::Structure;
 use uplift_uniform_risk::StudyOfResult;
 
+use super::limit::FrameLimit;
 use crate::error::DesignError;
 
 /// A structure and the oscillator that it is equivalent to (Table 3.1).
@@ -37,6 +38,9 @@ pub struct StructureReport {
     pub restitution: Option<f64>,
     /// Displacement capacity, m; none for a structure that has none.
     pub capacity_m: Option<f64>,
+    /// Where its tendons yield or fail; none where they do not, or it has none.
+    #[serde(skip)]
+    pub tendon_limit: Option<FrameLimit>,
     /// Stiffness after uplift, N/m.
     pub post_uplift_stiffness_n_m: f64,
     /// What is to know before linearised equations are used for it.
@@ -60,6 +64,7 @@ impl StructureReport {
             uplift_displacement_m: system.conditions().uplift_displacement_m(),
             restitution,
             capacity_m: system.capacity_m(),
+            tendon_limit: structure.columns.as_ref().and_then(FrameLimit::from_tendons),
             post_uplift_stiffness_n_m: system.post_uplift_stiffness_n_m(),
             warnings: system.warnings().iter().map(ToString::to_string).collect(),
         }

@@ -77,7 +77,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     }
     let unsafe_upper_limits = report.unsafe_upper_limits().into_iter().map(|(_, verdict)| verdict);
     let by_others = report.verdicts_by_other_measures().into_iter().map(|(_, verdict)| verdict);
-    for verdict in unsafe_upper_limits.chain(by_others) {
+    for verdict in unsafe_upper_limits.chain(report.beyond_tendon()).chain(by_others) {
         writeln!(out, "          {verdict}")?;
     }
     // the notes begin with what the structure and the spectrum do not have in common

@@ -75,6 +75,9 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         let whose = if is_of_proxy { "The" } else { "Its" }.to_owned() + " " + whose;
         say(format!("{whose} is {words}."), Some("no"));
     }
+    if let Some(beyond) = report.beyond_tendon() {
+        say(format!("Its tendons: {beyond}."), Some("no"));
+    }
     for (_, verdict) in report.verdicts_by_other_measures() {
         let (first, rest) = verdict.split_at(1);
         say(format!("{}{rest}.", first.to_uppercase()), Some(class(!verdict.contains("NOT"))));

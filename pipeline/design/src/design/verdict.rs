@@ -82,6 +82,20 @@ impl DesignReport {
         all.filter_map(|(whose, check, bands)| Some((whose, self.unsafe_upper_limit(check?, bands?)?))).collect()
     }
 
+    /// That the upper limit of the demand, on the frame where there is one, is beyond the yield of the tendons: `the
+    /// demand's band reaches 0.50 m, beyond the tendon yield at 0.42 m`.
+    pub fn beyond_tendon(&self) -> Option<String> {
+        let limit = self.structure.tendon_limit?;
+        let bands = match &self.frame {
+            Some(frame) => frame.wobbling().bands.as_ref(),
+            None => self.exact.as_ref()?.bands.as_ref(),
+        };
+        let [_, upper_m] = bands?.demand_m.quoted();
+        let reached = if upper_m.is_finite() { format!("{} m", two_digits(upper_m)) } else { "overturning".to_owned() };
+        let is_beyond = upper_m > limit.displacement_m;
+        is_beyond.then(|| format!("the demand's band reaches {reached}, beyond the {}", limit.in_words()))
+    }
+
     fn unsafe_upper_limit(&self, check: OwnCheck, bands: &DemandBands) -> Option<String> {
         let [_, upper_m] = bands.demand_m.quoted();
         let required_m = self.required_safety_factor * upper_m;

@@ -38,6 +38,9 @@ pub(super) fn print_verdicts(
     };
     writeln!(out, "Verdict   {name} by {by}: {answer}")?;
     print_proxy(out, report, wobbling.demand_m)?;
+    if let Some(beyond) = report.beyond_tendon() {
+        writeln!(out, "          {beyond}")?;
+    }
     for (im, verdict) in report.verdicts_by_other_measures() {
         writeln!(out, "          {verdict}; frame: {}", measure_option(im))?;
     }
