@@ -40,7 +40,7 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
     let check = &plan["levels"][0];
     let number = |value: &Value| value.as_f64().unwrap();
     let strengths: Vec<f64> = check["strengths"].as_array().unwrap().iter().map(number).collect();
-    assert_eq!((check["im"].as_str(), number(&check["first_level"]), strengths.len()), (Some("PGV"), 5.0, 5));
+    assert_eq!((check["im"].as_str(), number(&check["first_level"]), strengths.len()), (Some("PGV"), 5.0, 8));
     assert_eq!(strengths.last(), Some(&0.8));
 
     // the shares are a run's, to the bit: of the levels as they are, and of those proposed
@@ -49,8 +49,13 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
     let above = number(&check["upper_tail_share"]);
     assert!(above > 0.01 && number(&check["last_level"]) == 100.0, "{check}");
     assert_eq!(of_a_run(&study, &[], &strengths), [share, above]);
-    // and so is what is raised of the last level, but for the strengths that it counts
+    // and so is what is raised of either end
     let alarms = plan["alarms"].as_array().unwrap();
+    let run = study.uplift(&["warnings", "r.h5", "--json"]).json();
+    for kind in ["below-first-level", "beyond-last-level"] {
+        let of = |alarms: &[Value]| alarms.iter().find(|alarm| alarm["kind"] == kind).cloned();
+        assert_eq!(of(alarms), of(run.as_array().unwrap()), "{kind}");
+    }
     let alarm = alarms.iter().find(|alarm| alarm["kind"] == "beyond-last-level").unwrap();
     assert!(
         alarm["what"].as_str().unwrap().contains("displacements may be too small (4.6 % of the risk above 100 cm/s)"),
@@ -68,9 +73,12 @@ fn a_check_proposes_levels_that_a_run_is_content_with() {
     let said = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
     let pasted = line.replace("pgv.levels", "Proposed: [pgv] levels");
     let high = "There, PGV, 10 % (4 cases): displacements too large (96.2 % of the risk below 5 cm/s)";
-    for words in
-        ["Levels    PGV, at the strengths tried (0.100, 0.2", "up to 96.2 % of the risk lies below", high, &pasted]
-    {
+    for words in [
+        "Levels    PGV, at the strengths tried (8 from 0.100 to 0.800)",
+        "up to 96.2 % of the risk lies below",
+        high,
+        &pasted,
+    ] {
         assert!(said.contains(words), "{words}: {said}");
     }
     // levels that reach far enough are left alone

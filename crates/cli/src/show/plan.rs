@@ -99,14 +99,21 @@ fn conclusion(plan: &Plan) -> &'static str {
     }
 }
 
+/// Strengths tried that are named one by one.
+const STRENGTHS_NAMED: usize = 5;
+
 /// How far down and up the levels of a measure reach.
 fn levels(check: &LevelCheck) -> String {
     let LevelCheck { im, unit, first_level, lower_tail_share, last_level, upper_tail_share, .. } = check;
-    let strengths: Vec<String> = check.strengths.iter().map(|strength| format!("{strength:.3}")).collect();
+    let strengths = match &check.strengths[..] {
+        [first, .., last] if check.strengths.len() > STRENGTHS_NAMED => {
+            format!("{} from {first:.3} to {last:.3}", check.strengths.len())
+        }
+        few => few.iter().map(|strength| format!("{strength:.3}")).collect::<Vec<_>>().join(", "),
+    };
     format!(
-        "{im}, at the strengths tried ({}): up to {} of the risk lies below the first level, {first_level} {unit}, \
-         up to {} above the last, {last_level} {unit}",
-        strengths.join(", "),
+        "{im}, at the strengths tried ({strengths}): up to {} of the risk lies below the first level, {first_level} \
+         {unit}, up to {} above the last, {last_level} {unit}",
         share(*lower_tail_share),
         share(*upper_tail_share)
     )

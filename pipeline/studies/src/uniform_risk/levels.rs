@@ -1,4 +1,5 @@
-//! Whether the levels of a study begin low enough and end high enough for its targets, tried on a few of its strengths.
+//! Whether the levels of a study begin low enough and end high enough for its targets, tried on all of its strengths,
+//! or on some where they are many.
 //!
 //! Below the first level the fragility falls in a straight line (docs/method.md, section 6), so that an ordinate which
 //! rests on motions weaker than that comes out too large. How much of its risk lies there the responses alone can say,
@@ -21,8 +22,10 @@ use uplift_uniform_risk::{Reading, plan_stripes};
 
 use crate::error::StudiesError;
 
-/// Strengths tried beside the smallest, spread over those of the study up to the largest.
-const TRIED: usize = 4;
+/// Strengths tried at least beside the smallest, spread over those of the study up to the largest.
+const LEAST_TRIED: usize = 4;
+/// Analyses for which more strengths are tried: the share from outside the levels is often large at one strength alone.
+const QUICK_ANALYSES: usize = 60_000;
 /// Analyses that a trial may take: more records than this allows are not tried.
 const MOST_ANALYSES: usize = 300_000;
 
@@ -167,12 +170,13 @@ fn level_ends(
     Ok(cases)
 }
 
-/// Positions of the strengths to try: spread evenly, with the smallest and the largest, without that of a free mass.
-fn tried(strengths: &[f64]) -> Vec<usize> {
+/// Positions of the strengths to try: so many `parts` spread evenly, with the smallest and the largest, without that of
+/// a free mass.
+fn tried(strengths: &[f64], parts: usize) -> Vec<usize> {
     let begin = usize::from(strengths.first() == Some(&0.0));
     let count = strengths.len() - begin;
     let mut positions: Vec<usize> =
-        (1..=TRIED).map(|part| begin + (count * part).div_ceil(TRIED)).map(|end| end.saturating_sub(1)).collect();
+        (1..=parts).map(|part| begin + (count * part).div_ceil(parts)).map(|end| end.saturating_sub(1)).collect();
     positions.insert(0, begin);
     positions.retain(|position| (begin..strengths.len()).contains(position));
     positions.dedup();
@@ -205,8 +209,10 @@ impl<'a> Trial<'a> {
             Some(&start) => measure.starting_at(start).map_err(|error| JobError::input(error.to_string()))?,
             None => measure.clone(),
         };
-        let tried: Vec<usize> = tried(&study.strengths);
-        if tried.is_empty() || records.records.len() * tried.len() * widest.levels.len() > MOST_ANALYSES {
+        let of_strength = records.records.len() * widest.levels.len();
+        let parts = (QUICK_ANALYSES / of_strength.max(1)).clamp(LEAST_TRIED, study.strengths.len().max(LEAST_TRIED));
+        let tried: Vec<usize> = tried(&study.strengths, parts);
+        if tried.is_empty() || of_strength * tried.len() > MOST_ANALYSES {
             return Ok(None);
         }
         let oscillators: Vec<System> = tried.iter().map(|&strength| systems[strength].clone()).collect();
@@ -255,9 +261,10 @@ mod tests {
     #[test]
     fn the_strengths_tried_span_those_of_the_study() {
         let strengths: Vec<f64> = (0..=300).map(|i| f64::from(i) / 300.0).collect();
-        assert_eq!(tried(&strengths), [1, 75, 150, 225, 300]);
-        assert_eq!(tried(&[0.0, 0.3]), [1]);
-        assert_eq!(tried(&[0.1, 0.2, 0.3]), [0, 1, 2]);
-        assert_eq!(tried(&[0.0]), [0; 0]);
+        assert_eq!(tried(&strengths, 4), [1, 75, 150, 225, 300]);
+        assert_eq!(tried(&[0.0, 0.3], 4), [1]);
+        assert_eq!(tried(&[0.1, 0.2, 0.3], 4), [0, 1, 2]);
+        assert_eq!(tried(&[0.0], 4), [0; 0]);
+        assert_eq!(tried(&strengths, strengths.len()), (1..=300).collect::<Vec<_>>());
     }
 }
