@@ -294,6 +294,12 @@ fn the_quoted_band_is_by_earthquake_where_records_of_one_are_alike() {
         .ok()
         .stdout;
     assert!(checked.contains("Few earthquakes: 4; below 5 the bands are unreliable"), "{checked}");
+    // two records are of two earthquakes at most, whether they share one or not
+    for (records, words) in [("records.first=2", "Few earthquakes: "), ("records.first=1", "Few records: 1 ")] {
+        let few = study.uplift(&[&["check", "study.toml", "--details", "--set", records], &manifest[..]].concat()).ok();
+        assert!(few.stdout.contains(words), "{}", few.stdout);
+        assert_eq!(few.stdout.contains("Few earthquakes"), records.ends_with('2'), "{}", few.stdout);
+    }
     let sweep = |first: &str| {
         let over = format!("records.first={first}");
         study.uplift(&[&["sweep", "study.toml", "-o", first, "--over", &over], &manifest[..]].concat()).ok().stdout

@@ -148,12 +148,13 @@ pub(super) const NOTICED: &str = "inputs";
 /// Fewer earthquakes than this have no band that holds (`make coverage`; docs/confidence-bands.md).
 const FEW_EARTHQUAKES: usize = 5;
 
-/// Where the records share so few earthquakes that no confidence band holds as often as it says.
+/// Where several records are of so few earthquakes that no confidence band holds as often as it says.
 ///
 /// - `question`: knows the earthquakes of the records.
 pub fn few_earthquakes(question: &Question) -> Option<Alarm> {
-    let shared = question.shares_earthquakes().then(|| uplift_bootstrap::units(&question.event_of()).len());
-    shared.and_then(too_few)
+    // a single record has no band
+    let has_several = uplift_bootstrap::units(&question.pair_of()).len() > 1;
+    question.earthquakes().filter(|_| has_several).and_then(too_few)
 }
 
 fn too_few(earthquakes: usize) -> Option<Alarm> {

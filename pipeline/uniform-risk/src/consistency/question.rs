@@ -1,6 +1,6 @@
 //! What consistency is asked of: the records, the stripes, and the hazard of every measure at every site.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use uplift_consistency::{LevelSets, Powers, RecordSet as ScaledSet, Seismology, SetRecord};
 use uplift_hazard::{Extrapolation, HazardCurve};
@@ -231,6 +231,12 @@ impl Question {
         let mut pair_of = BTreeMap::new();
         let mut known = self.records.iter().filter_map(|record| Some((record.event?, record.pair)));
         known.any(|(event, pair)| *pair_of.entry(event).or_insert(pair) != pair)
+    }
+
+    /// How many earthquakes the records are of, those that are not known one for each pair; none where none is known.
+    pub fn earthquakes(&self) -> Option<usize> {
+        let all: BTreeSet<usize> = self.event_of().into_iter().collect();
+        self.records.iter().any(|record| record.event.is_some()).then_some(all.len())
     }
 
     /// The levels that records are scaled to by a measure; none where it is not analysed by it.
