@@ -123,7 +123,7 @@ impl FigureSource {
             bands: file.bands()?,
             spreads: file.spreads()?,
             // of the risks of its study alone
-            influence: if file.is_asked() { Vec::new() } else { file.influence()? },
+            influence: if file.is_at_target_risks() { Vec::new() } else { file.influence()? },
             least_effective: least.collect::<Result<_, _>>()?,
             consistency,
             hazard: file.hazard()?,

@@ -96,7 +96,7 @@ impl Evidence {
         }
         let all = || (0..spectra.poes.len()).map(Some).collect();
         let (bands, poes_of_bands) = match file.bands()? {
-            None if file.is_asked() => (file.stored_bands()?, stored_poes(file, &spectra)?),
+            None if file.is_at_target_risks() => (file.stored_bands()?, stored_poes(file, &spectra)?),
             bands => (bands, all()),
         };
         let consistency = file.consistency()?;

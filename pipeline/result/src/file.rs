@@ -53,11 +53,11 @@ use crate::error::ResultError;
 pub struct ResultFile {
     stored: StoredResult,
     /// What it was asked for in place of the risks of its study.
-    asked: Option<AskedSpectra>,
+    at_target_risks: Option<SpectraAtTargetRisks>,
 }
 
 /// What a result says of the risks that it was asked for.
-struct AskedSpectra {
+struct SpectraAtTargetRisks {
     /// The spectra.
     spectra: StoredSpectra,
     /// Whether the records have the hazard of the other measure.
@@ -80,7 +80,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is missing, damaged, not a result, or of another layout.
     pub fn open(path: &Path) -> Result<Self, ResultError> {
-        Ok(Self { stored: StoredResult::open(path)?, asked: None })
+        Ok(Self { stored: StoredResult::open(path)?, at_target_risks: None })
     }
 
     /// The axes of a result of uniform risk, with the probabilities that it was asked for, if it was.
@@ -89,9 +89,9 @@ impl ResultFile {
     /// A file that is damaged, or of another kind.
     pub fn axes(&self) -> Result<RiskAxes, ResultError> {
         let mut axes = self.stored_axes()?;
-        if let Some(asked) = &self.asked {
-            axes.poes.clone_from(&asked.spectra.poes);
-            axes.years = asked.spectra.years;
+        if let Some(own) = &self.at_target_risks {
+            axes.poes.clone_from(&own.spectra.poes);
+            axes.years = own.spectra.years;
         }
         Ok(axes)
     }
@@ -124,7 +124,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn spectra(&self) -> Result<StoredSpectra, ResultError> {
-        self.asked.as_ref().map_or_else(|| self.stored_spectra(), |asked| Ok(asked.spectra.clone()))
+        self.at_target_risks.as_ref().map_or_else(|| self.stored_spectra(), |own| Ok(own.spectra.clone()))
     }
 
     /// The consistency of the records with the hazard of another measure, at the risks asked for.
@@ -132,7 +132,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn consistency(&self) -> Result<Vec<StoredConsistency>, ResultError> {
-        self.asked.as_ref().map_or_else(|| self.stored_consistency(), |asked| Ok(asked.consistency.clone()))
+        self.at_target_risks.as_ref().map_or_else(|| self.stored_consistency(), |own| Ok(own.consistency.clone()))
     }
 
     /// The confidence bands of a result of uniform risk; none before `uplift bootstrap`, and none of risks that it was
@@ -141,7 +141,7 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn bands(&self) -> Result<Option<StoredBands>, ResultError> {
-        self.asked.as_ref().map_or_else(|| self.stored_bands(), |asked| Ok(asked.bands.clone()))
+        self.at_target_risks.as_ref().map_or_else(|| self.stored_bands(), |own| Ok(own.bands.clone()))
     }
 
     /// The spectra by each of the weighted hazard curves of a site ([`StoredResult::stored_branch_spectra`]); none of a
@@ -155,7 +155,7 @@ impl ResultFile {
         site: &str,
         poe: usize,
     ) -> Result<Vec<(f64, Vec<f64>)>, ResultError> {
-        if self.is_asked() {
+        if self.is_at_target_risks() {
             return Ok(Vec::new());
         }
         self.stored_branch_spectra(&self.axes_with_sites()?, (measure, site), poe)
@@ -167,21 +167,21 @@ impl ResultFile {
     /// # Errors
     /// A file that is damaged, or of another kind.
     pub fn spreads(&self) -> Result<Vec<StoredSpread>, ResultError> {
-        if self.is_asked() { Ok(Vec::new()) } else { self.stored_spreads(&self.axes_with_sites()?) }
+        if self.is_at_target_risks() { Ok(Vec::new()) } else { self.stored_spreads(&self.axes_with_sites()?) }
     }
 
     /// The same result with other spectra: axes, spectra and coefficients are from now on of these.
     #[must_use]
     pub fn with_spectra(mut self, spectra: StoredSpectra) -> Self {
-        self.asked = Some(AskedSpectra { spectra, consistency: Vec::new(), bands: None });
+        self.at_target_risks = Some(SpectraAtTargetRisks { spectra, consistency: Vec::new(), bands: None });
         self
     }
 
     /// The same with what consistency says at the risks that it was asked for.
     #[must_use]
     pub fn with_consistency(mut self, consistency: Vec<StoredConsistency>) -> Self {
-        if let Some(asked) = &mut self.asked {
-            asked.consistency = consistency;
+        if let Some(own) = &mut self.at_target_risks {
+            own.consistency = consistency;
         }
         self
     }
@@ -189,14 +189,14 @@ impl ResultFile {
     /// The same with `bands` at the risks that it was asked for.
     #[must_use]
     pub fn with_bands(mut self, bands: StoredBands) -> Self {
-        if let Some(asked) = &mut self.asked {
-            asked.bands = Some(bands);
+        if let Some(own) = &mut self.at_target_risks {
+            own.bands = Some(bands);
         }
         self
     }
 
     /// Whether it was asked for other risks than those of its study.
-    pub fn is_asked(&self) -> bool {
-        self.asked.is_some()
+    pub fn is_at_target_risks(&self) -> bool {
+        self.at_target_risks.is_some()
     }
 }

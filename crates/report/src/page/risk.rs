@@ -44,7 +44,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         Part {
             key: "causes",
             title: "Sources of the risk",
-            note: if file.is_asked() && file.has_influence() { INFLUENCE_LEFT_OUT } else { "" },
+            note: if file.is_at_target_risks() && file.has_influence() { INFLUENCE_LEFT_OUT } else { "" },
             figures: drawn(figures.causes)?,
             tables: [intensities(&source), records(&source)].into_iter().flatten().collect(),
         },
@@ -57,7 +57,7 @@ pub(super) fn content(file: &ResultFile) -> Result<Content, UpliftError> {
         },
     ];
     let mut facts = vec![("Seed", stored.seed.to_string()), ("Uplift strengths", stored.strengths.len().to_string())];
-    if file.is_asked() {
+    if file.is_at_target_risks() {
         facts.push(("Probabilities", "read after the run, from the analyses of the result".to_owned()));
     }
     Ok(Content {

@@ -33,7 +33,7 @@ pub(super) struct Influence {
 impl Added {
     pub(super) fn read(file: &ResultFile) -> Result<Self, ExportsError> {
         let efficiency = file.efficiency()?;
-        if file.is_asked() || !file.has_influence() {
+        if file.is_at_target_risks() || !file.has_influence() {
             return Ok(Self { efficiency, ..Self::default() });
         }
         let stripes = StoredStripes::read(file)?;

@@ -11,9 +11,9 @@ use uplift_study::Bootstrap;
 use uplift_uniform_risk::StoredStripes;
 use uplift_uniform_risk::consistency::Question;
 
-use super::asked::resampling_plan;
 use super::bands::BandSettings;
 use super::options::BootstrapOptions;
+use super::resampled::resampling_plan;
 use crate::error::QuestionsError;
 
 /// Sample sizes of Section 4.5 below the whole set.

@@ -12,7 +12,7 @@ use uplift_result::{LockedResult, ResultFile};
 use uplift_uniform_risk::{StoredStripes, StudyOfResult};
 
 use super::factors_to_reach::FactorsToReach;
-use super::of_measure::{covariates, efficiency_by, efficiency_restated};
+use super::measure_efficiency::{covariates, efficiency_by, efficiency_restated};
 use super::report::EfficiencyReport;
 use super::restated::{Measured, restated};
 use super::write::{efficiency_path, write_efficiency};

@@ -9,7 +9,7 @@ use uplift_result::{StoredConsistency, StoredEfficiency, StoredTrend};
 use uplift_uniform_risk::StoredStripes;
 use uplift_uniform_risk::consistency::{Verdict, times_in_words};
 
-use super::of_measure::{Covariate, MeasureEfficiency, rank};
+use super::measure_efficiency::{Covariate, MeasureEfficiency, rank};
 use super::write::efficiency_path;
 
 /// The report on efficiency and sufficiency.

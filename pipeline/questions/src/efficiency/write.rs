@@ -13,7 +13,7 @@ use uplift_result::layout::axis;
 use uplift_result::{EFFICIENCY, EFFICIENCY_OF_STRIPES, LockedResult, StoredEfficiency, TRENDS, sign};
 use uplift_uniform_risk::StoredStripes;
 
-use super::of_measure::{Covariate, MeasureEfficiency, rank};
+use super::measure_efficiency::{Covariate, MeasureEfficiency, rank};
 use crate::error::QuestionsError;
 
 /// The groups that a new look replaces, with the axes of the measures that were computed from the runs of others.

@@ -18,7 +18,7 @@ use crate::error::QuestionsError;
 /// # Errors
 /// A file that is damaged; [`JobError::Interrupted`](uplift_job::JobError::Interrupted) where `events` say so.
 pub fn resampled(file: ResultFile, events: &dyn Events) -> Result<ResultFile, QuestionsError> {
-    if !file.is_asked() {
+    if !file.is_at_target_risks() {
         return Ok(file);
     }
     let Some(plan) = resampling_plan(&file)? else { return Ok(file) };
