@@ -78,6 +78,10 @@ fn a_site_of_an_export_becomes_a_study() {
     // λ = -ln(1 - 0.02)/50 is exceeded at sqrt(0.1/λ)
     let level = (0.1 / (-(0.98_f64.ln()) / 50.0)).sqrt();
     assert!(shown.contains(&format!("{level:.2}")) && shown.contains("RotD50"), "{level}: {shown}");
+    // curves of several files in one table
+    let shown = study.uplift(&["hazard", "show", "mine/pgv.csv", "export.csv"]).ok().stdout;
+    let named = |name: &str| shown.lines().filter(|line| line.starts_with(name)).count();
+    assert_eq!(["mine/pgv", "here, mean", "there, mean", "curve "].map(named), [1; 4], "{shown}");
     study.uplift(&["hazard", "plot", "mine/pgv.csv", "export.csv", "-o", "curves.svg"]).ok();
     let figure = std::fs::read_to_string(study.path().join("curves.svg")).unwrap();
     assert!(figure.contains("there, mean") && figure.contains("PGV, cm/s"));

@@ -191,12 +191,12 @@ fn hazard_curves_are_read_and_shown() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("pgv.csv");
     std::fs::write(&file, "# IM: PGV [cm/s]\niml,maf\n0.5,0.8\n2,0.05\n20,0.0005\n300,0.000002\n").unwrap();
-    let report = hazard_curves::show(&file, &CurveOptions::default(), &Silent).unwrap();
+    let report = hazard_curves::show(std::slice::from_ref(&file), &CurveOptions::default(), &Silent).unwrap();
     let [curve] = report.curves.as_slice() else { panic!("one curve") };
     assert_eq!((curve.measure.as_str(), curve.points, curve.levels.len()), ("PGV", 4, report.probabilities.len()));
     let files = [file.clone(), file];
     assert_eq!(hazard_curves::read(&files, &CurveOptions::default(), &Silent).unwrap().len(), 1);
-    let absent = hazard_curves::show(Path::new("absent.csv"), &CurveOptions::default(), &Silent);
+    let absent = hazard_curves::show(&["absent.csv".into()], &CurveOptions::default(), &Silent);
     assert!(matches!(absent, Err(InputsError::Hazard(_))));
 }
 

@@ -95,10 +95,11 @@ fn import(arguments: &ImportArguments, terminal: &Terminal) -> Result<(), Comman
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = "Example:\n  uplift hazard show hazard/athens/pgv.csv")]
+#[command(after_help = "Example:\n  uplift hazard show hazard/athens/*.csv")]
 struct ShowArguments {
-    /// Curve with two columns, or an export of OpenQuake or the USGS; .gz too
-    file: PathBuf,
+    /// Curves with two columns, or exports of OpenQuake or the USGS; .gz too
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
     #[command(flatten)]
     site: SiteArguments,
     #[command(flatten)]
@@ -106,7 +107,7 @@ struct ShowArguments {
 }
 
 fn show(arguments: &ShowArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    print_curves(&show_curves(&arguments.file, &arguments.site.applied_to(&arguments.curves), terminal)?)
+    print_curves(&show_curves(&arguments.files, &arguments.site.applied_to(&arguments.curves), terminal)?)
 }
 
 #[derive(Debug, Args)]

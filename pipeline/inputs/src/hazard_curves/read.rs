@@ -57,11 +57,7 @@ pub fn read(files: &[PathBuf], options: &CurveOptions, events: &dyn Events) -> R
 }
 
 /// The curves of one file.
-pub(super) fn read_file(
-    path: &Path,
-    options: &CurveOptions,
-    events: &dyn Events,
-) -> Result<Vec<NamedCurve>, InputsError> {
+fn read_file(path: &Path, options: &CurveOptions, events: &dyn Events) -> Result<Vec<NamedCurve>, InputsError> {
     let export = match curves_of(path, &options.site, events) {
         Ok(curves) => {
             if let Some(far) = curves.iter().filter_map(|curve| curve.distance_km).reduce(f64::max) {

@@ -1,6 +1,6 @@
 //! What a curve file or an export holds.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use serde::Serialize;
 use uplift_hazard::{HazardCurve, rate_from_probability};
@@ -10,7 +10,7 @@ use uplift_motion::IntensityMeasure;
 use uplift_study::usual_top_level;
 
 use super::NamedCurve;
-use super::read::{CurveOptions, read_file};
+use super::read::{CurveOptions, read};
 use crate::error::InputsError;
 use crate::hardly_possible::hardly_possible;
 
@@ -19,7 +19,7 @@ const PROBABILITIES: [f64; 5] = [0.5, 0.2, 0.1, 0.05, 0.02];
 /// Years that they refer to.
 const YEARS: f64 = 50.0;
 
-/// The curves of a file.
+/// The curves of one or several files.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HazardReport {
     /// Probabilities at which the levels of the curves are reported.
@@ -57,12 +57,12 @@ pub struct ShownCurve {
     pub warning: Option<String>,
 }
 
-/// Looks at the curves of a file.
+/// Looks at the curves of `files`.
 ///
 /// # Errors
 /// A file that holds none; a table that does not say what it holds.
-pub fn show(file: &Path, options: &CurveOptions, events: &dyn Events) -> Result<HazardReport, InputsError> {
-    let curves = read_file(file, options, events)?;
+pub fn show(files: &[PathBuf], options: &CurveOptions, events: &dyn Events) -> Result<HazardReport, InputsError> {
+    let curves = read(files, options, events)?;
     Ok(HazardReport { probabilities: PROBABILITIES.to_vec(), years: YEARS, curves: curves.iter().map(shown).collect() })
 }
 
