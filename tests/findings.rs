@@ -76,6 +76,11 @@ fn a_question_has_one_answer() {
     assert_eq!(kept(&study, "design").len(), 3);
     ask(&study, "overturning block.toml --urs r.h5 --site Here");
     assert_eq!((kept(&study, "overturning").len(), kept(&study, "target").len()), (2, 1));
+    // of the oscillator alone it is another question
+    for question in &QUESTIONS[1..3] {
+        ask(&study, &format!("{question} --proxy"));
+    }
+    assert_eq!((kept(&study, "overturning").len(), kept(&study, "target").len()), (3, 2));
     ask(&study, "verify r.h5");
 }
 

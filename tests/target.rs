@@ -138,7 +138,7 @@ fn a_block_is_judged_itself() {
     assert!(shown.starts_with(&first), "{shown}");
     let size = [&ask[..4], &["--overturning", "1e-3", "--vary", "size", "--tolerance", "0.1", "--no-keep"]].concat();
     let size = study.uplift(&size).ok().stdout;
-    assert!(size.contains("; the structure's size is 1.0198 m, so all lengths times "), "{size}");
+    assert!(size.contains("; the structure's size is 1.0198 m; multiply all lengths by "), "{size}");
     let alone = study.uplift(&[&ask[..], &["--proxy"]].concat()).ok().stdout;
     assert!(alone.lines().next().unwrap().ends_with(", by its proxy alone") && !alone.contains("block, "), "{alone}");
     // a displacement is that of the oscillator
@@ -396,7 +396,7 @@ fn by_its_proxy_a_frame_is_not_shaken() {
     let strength = ask(&wobbles, &["--vary", "strength"]);
     assert!(
         strength.contains("by its proxy alone")
-            && strength.contains("Itself    left out: strength and capacity follow"),
+            && strength.contains("Itself    not analysed: strength and capacity follow"),
         "{strength}"
     );
 }

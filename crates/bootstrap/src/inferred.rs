@@ -126,8 +126,8 @@ pub fn inferred_rate<'a>(
 }
 
 /// Limits of the rate of all records there could be, 1/yr, where each record at hand contributes so much and the mean
-/// of them is the rate: what [`inferred_rate`] tells of single runs. NaN of a single unit; both the rate where no
-/// record differs from another.
+/// of them is the rate: what [`inferred_rate`] tells of demands that do not spread. NaN of a single unit; both the rate
+/// where no record differs from another.
 ///
 /// - `contributions_per_year`: of each record, 1/yr, `[record]`.
 /// - `units`: the records of each unit, `[unit]`, by their positions; each record in one of them.
@@ -144,7 +144,8 @@ pub fn inferred_mean(
 }
 
 /// The rate of what happens in some runs, 1/yr, by the weights of a repair, and limits of that of all records there
-/// could be: what [`inferred_rate`] tells of single runs, where a run may count in part. NaN limits of a single unit.
+/// could be: what [`inferred_mean`] tells of records that count alike. A run may count in part; demands do not spread.
+/// NaN limits of a single unit.
 ///
 /// - `happens`: in which share of a run it happens, 0 to 1, `[record, level]`.
 /// - `weights`: taken as they are.

@@ -28,6 +28,8 @@ pub(crate) use visible::{Output, error_output, output, visible_json};
 const EXIT_INTERRUPTED: u8 = 5;
 /// How long an interrupted program may take to come to a good end by itself.
 const GRACE: Duration = Duration::from_millis(800);
+/// What is left to the words of a program that was asked twice to end.
+const WORDS: Duration = Duration::from_millis(200);
 
 /// How people or programs are reported what a command does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -78,13 +80,16 @@ impl Terminal {
                 }
                 std::process::exit(EXIT_INTERRUPTED.into())
             };
-            if stop.swap(true, Ordering::Relaxed) {
-                end() // asked twice
-            }
+            let is_asked_twice = stop.swap(true, Ordering::Relaxed);
             std::thread::spawn(move || {
-                std::thread::sleep(GRACE);
+                std::thread::sleep(if is_asked_twice { Duration::ZERO } else { GRACE });
                 end()
             });
+            if is_asked_twice {
+                // the words may wait for whoever reads them, the end does not
+                std::thread::sleep(WORDS);
+                std::process::exit(EXIT_INTERRUPTED.into())
+            }
         };
         #[cfg(unix)]
         on_termination(interrupted.clone());

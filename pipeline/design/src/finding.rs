@@ -44,6 +44,8 @@ fn answered(
     })
 }
 
+/// What an answer is by that leaves the structure itself out.
+const PROXY_ALONE: &str = "its proxy alone";
 /// What a structure with a capacity does.
 const EXCEEDING: &str = "exceeding the capacity";
 
@@ -190,6 +192,7 @@ impl OverturningReport {
         let sites: Vec<&str> = sites.iter().map(|site| site.site.as_str()).collect();
         let mut request = vec![("site", sites.join(" and ")), ("measure", measures.join(" and "))];
         request.extend(options.restitution.map(|restitution| ("restitution", restitution.to_string())));
+        request.extend(options.proxy.then(|| ("by", PROXY_ALONE.to_owned())));
         let mut rows: Vec<FindingRow> =
             self.overturning.iter().flat_map(|found| overturning_risks(found, self.limit)).collect();
         rows.extend(self.overturning.iter().flat_map(fragility));
@@ -212,7 +215,9 @@ fn overturning_risks(found: &CollapseReport, limit: Option<FrameLimit>) -> Vec<F
         let (what, at) = (format!("overturning, {}", found.model), [of.site.as_str(), found.im]);
         rows.extend(rate(&what, &of.risk, of.bands, at));
         rows.extend(beyond_limit(limit, of.beyond_limit.as_ref(), found.model, at));
-        rows.extend(of.repaired.iter().flat_map(|risk| rate(&format!("{what}, repaired"), risk, None, at)));
+        rows.extend(
+            of.repaired.iter().flat_map(|risk| rate(&format!("{what}, repaired"), risk, of.repaired_bands, at)),
+        );
         let row = |rate| FindingRow::new(format!("{what}, lognormal"), rate, "1/yr").at(at[0], at[1]);
         rows.extend(of.lognormal_per_year.iter().flat_map(|rate| banded(&row(*rate), of.lognormal_bands)));
     }
@@ -242,6 +247,7 @@ impl TargetReport {
             ("per year", self.target_per_year.to_string()),
             ("years", self.years.to_string()),
         ];
+        request.extend(options.proxy.then(|| ("by", PROXY_ALONE.to_owned())));
         request.extend(options.from.map(|from| ("from", from.to_string())));
         request.extend(options.to.map(|to| ("to", to.to_string())));
         request.push(("tolerance", options.tolerance.to_string()));

@@ -90,7 +90,7 @@ pub struct FrameModel {
     pub restitution: f64,
     /// Travel of the deck at the target rate, m; infinite where it overturns more often.
     pub demand_m: f64,
-    /// 90 % bands; none with repaired weights, and of a single record.
+    /// 90 % bands; none of a single record.
     pub bands: Option<DemandBands>,
     /// The displacement capacity is exceeded; none for a structure without one.
     pub beyond_capacity: Option<EventRisk>,

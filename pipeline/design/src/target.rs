@@ -1,5 +1,5 @@
 //! The least strength, size, width, capacity or tendon stiffness with which a structure meets a target risk; a frame
-//! that can wobble is then shaken itself, at the value that its oscillator needs.
+//! that can wobble, or a block, is then shaken itself, at the value that its oscillator needs.
 //!
 //! The risk of each value that is tried is that of the structure's own oscillator under the records and the hazard of a
 //! result, from exact stripes. Counts of records step, and a chaotic system may step back: the best estimate is the
@@ -47,9 +47,10 @@ use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
+use uplift_job::text::rounded;
 use uplift_result::ResultFile;
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult};
-use words::{Words, assumptions, kept, of_weights, with_mistakes};
+use words::{Words, assumptions, kept, with_mistakes};
 
 /// Values tried before the search narrows, over the range.
 const VALUES: usize = 13;
@@ -71,6 +72,7 @@ const NOISE: f64 = 0.01;
 /// Numbers that are no target, range or tolerance, all at once; a target below what the stripes can tell; a target that
 /// is met or missed at every value of the range, or missed at its upper end; a quantity that the structure does not
 /// have; a file that is missing, damaged, no result, or without sites; a site or measure that the result does not have;
+/// no repaired weights there where they are asked for;
 /// records that cannot be read; a table that would replace something else; [`JobError::Paused`] where `events` say
 /// so, [`JobError::Interrupted`] where no checkpoint can be written beside the result.
 pub fn target(
@@ -128,7 +130,7 @@ pub fn target(
     notes.extend(own.as_ref().filter(|_| wobbles).map(|_| what_frames_leave_out(structure)));
     let by_proxy = (wobbles || structure.block.is_some()) && own.is_none();
     notes.extend(assumptions(&file, by_proxy));
-    notes.extend(of_weights((&file, &source), structure, options.repaired));
+    notes.extend(trials.without_uncertainty(&source));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
     let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
     let counts = (trials.records.count(), scatter.pairs.len());
@@ -137,8 +139,7 @@ pub fn target(
     let of_own = own.iter().flat_map(|of| of.own_risks(&event, place, counts));
     alarms.extend(own_risk_alarms(&[of_proxy].into_iter().chain(of_own).collect::<Vec<_>>()));
     let bands = frequencies.bands(value, target_per_year);
-    let safe = tried.iter().find(|(tried, _)| tried.total_cmp(&safe_value).is_eq());
-    let by_other_measures = judged_by(&others, &mut trials, ([safe_value, value], target_per_year))?;
+    let by_other_measures = judged_by((&file, &others), &mut trials, (place, [safe_value, value], target_per_year))?;
     let mut report = TargetReport {
         uncertainty: trials.around.as_ref().map(|of| TargetUncertainty::from_tried(of, &tried, target_per_year)),
         structure: StructureReport::from_structure(structure, Some(trials.restitution)),
@@ -157,11 +158,12 @@ pub fn target(
         target_per_year,
         years,
         safe_value,
-        safe_risk: safe.map(|(_, attempt)| attempt.risk),
+        safe_risk: tried.iter().find(|(own, _)| own.total_cmp(&safe_value).is_eq()).map(|(_, of)| of.risk),
         value,
         missed_at: tried[at - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
         risk: found.risk,
+        unchecked: unchecked(&source, (measure, &others)),
         by_other_measures,
         kept: kept(structure, trials.restitution),
         found: FoundSystem::from_system(&found.candidate.system),
@@ -199,18 +201,30 @@ fn others<'a>(
     others.map(|(other, weights)| Ok((other, Hazard::from_file(file, source, (other, site))?, weights))).collect()
 }
 
+/// The measures of the result that are neither that of the search nor among `others`.
+fn unchecked(source: &StudyOfResult, (searched, others): (&SpectraOfResult, &[Other<'_>])) -> Vec<&'static str> {
+    let is_known = |own: &&SpectraOfResult| {
+        own.measure() == searched.measure() || others.iter().any(|(other, ..)| other.measure() == own.measure())
+    };
+    source.measures.iter().filter(|own| !is_known(own)).map(|own| own.measure().label()).collect()
+}
+
 /// What other measures say of the safe value, or of the best estimate where there is none.
 fn judged_by<'a>(
-    others: &'a [Other<'a>],
+    (file, others): (&ResultFile, &'a [Other<'a>]),
     trials: &mut Trials<'a>,
-    ([safe_value, value], target_per_year): ([f64; 2], f64),
+    (place, [safe_value, value], target_per_year): (Place<'a>, [f64; 2], f64),
 ) -> Result<Vec<TargetByMeasure>, DesignError> {
     let value = if safe_value.is_finite() { safe_value } else { value };
     let judged = |(measure, hazard, weights): &'a Other<'a>| {
         let attempt = trials.attempt_by(value, (*measure, hazard, *weights))?;
         let is_told = attempt.risk.at_most_per_year.is_none_or(|bound| bound <= target_per_year);
         let is_met = is_told.then(|| attempt.meets(target_per_year));
-        Ok(TargetByMeasure { im: measure.measure().label(), risk: attempt.risk, is_met })
+        let unrepaired = match weights {
+            SiteWeights::Alike(_) => Place { measure, ..place }.unrepaired(file)?,
+            SiteWeights::Repaired(_) => None,
+        };
+        Ok(TargetByMeasure { im: measure.measure().label(), risk: attempt.risk, is_met, unrepaired })
     };
     others.iter().map(judged).collect()
 }
@@ -326,7 +340,7 @@ fn range(structure: &Structure, options: &TargetOptions) -> Result<([f64; 2], Op
         JobError::Usage(format!("--vary {}: {}", options.quantity.key(), words.join("; ")))
     };
     let own = options.quantity.value(&structure.description).map_err(of_structure)?;
-    let around = |factor: f64| own.filter(|own| *own > 0.0).map(|own| own * factor);
+    let around = |factor: f64| own.filter(|own| *own > 0.0).map(|own| rounded(own * factor, digits(options.tolerance)));
     let end = |given: Option<f64>, factor: f64, option: &str| {
         given.or(around(factor)).ok_or_else(|| {
             JobError::Usage(format!(

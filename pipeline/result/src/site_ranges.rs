@@ -33,8 +33,8 @@ pub struct MeasureRanges {
     pub im: String,
     /// Sites with a spectrum.
     pub sites: usize,
-    /// Smallest and largest displacement of these at each strength, m; infinite where censored.
-    pub range_m: Vec<[f64; 2]>,
+    /// Smallest and largest displacement of these at each strength, m; infinite where censored. None without a site.
+    pub range_m: Vec<Option<[f64; 2]>>,
 }
 
 impl SiteRanges {
@@ -57,8 +57,10 @@ impl SiteRanges {
                 let mut u_m = reader.along_first_axis(&path, &[measure, rarest, strength])?;
                 u_m.retain(|own| !own.is_nan());
                 ranges.sites = u_m.len();
-                let widen = |[least, most]: [f64; 2], own: &f64| [least.min(*own), most.max(*own)];
-                ranges.range_m.push(u_m.iter().fold([f64::INFINITY, 0.0], widen));
+                let widen = |of: Option<[f64; 2]>, own: &f64| {
+                    Some(of.map_or([*own; 2], |[least, most]| [least.min(*own), most.max(*own)]))
+                };
+                ranges.range_m.push(u_m.iter().fold(None, widen));
             }
             measures.push(ranges);
         }

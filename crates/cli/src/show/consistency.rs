@@ -81,7 +81,7 @@ fn print_table(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), C
     let table = Table::from_rows(&report.rows)
         .left("site", |row| &row.site)
         .left("scaled to", |row| row.scaled_to)
-        .right(if is_repaired { "unweighted mean ratio" } else { "times site's level, mean" }, |row| {
+        .right(if is_repaired { "mean ratio, unweighted" } else { "times site's level, mean" }, |row| {
             let at_one_rate = decisive(row).filter(|_| !is_repaired);
             let at_one_rate =
                 at_one_rate.map_or_else(String::new, |most| format!(" (factor {most:.2} at the worst rate)"));

@@ -59,7 +59,7 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
         let of = proxy
             .error
             .as_ref()
-            .filter(|_| value > 0.0)
+            .filter(|_| value > report.structure.uplift_displacement_m)
             .map_or_else(String::new, |error| format!(" (error {})", relative_error_in_words(error.value)));
         let restitution = report.structure.restitution.filter(|_| is_block(report) && proxy.model == OSCILLATOR);
         let keeps = restitution.map_or_else(String::new, |restitution| format!(", restitution {restitution}"));

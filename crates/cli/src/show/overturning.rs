@@ -62,9 +62,16 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
             })
             .to_string()
     } else {
-        let of_site = |(at, of): (usize, _)| events.iter().map(move |event| (at, of, *event));
+        let has_repair = |at: usize| report.overturning.iter().any(|found| found.sites[at].repaired.is_some());
+        let of_site = |(at, of): (usize, _)| {
+            let shown = events.iter().filter(move |event| **event != Event::OverturnsRepaired || has_repair(at));
+            shown.map(move |event| (at, of, *event))
+        };
         Table::from_rows(sites.iter().enumerate().flat_map(of_site))
-            .left("site", |(_, of, event)| if event == Event::Overturns { &of.site } else { "  repaired" })
+            .left("site", |(_, of, event)| match event {
+                Event::OverturnsRepaired => "  repaired",
+                Event::Overturns | Event::PassesLimit(_) => &of.site,
+            })
             .each(&report.overturning, |table, found| {
                 let head = format!("{}, {}", found.model, found.im);
                 table.right(head, |(site, _, event)| cell(&found.sites[site], event))
@@ -110,7 +117,7 @@ impl Event {
         match self {
             Self::PassesLimit(limit) => limit.event.words(),
             Self::Overturns => "overturns",
-            Self::OverturnsRepaired => "repaired",
+            Self::OverturnsRepaired => "overturns, repaired",
         }
     }
 }
@@ -245,11 +252,12 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
             if of_site.per_year_rounding.shows_otherwise(rate) {
                 row[3].push('*');
             }
+            row.push(of_site.bands.map_or_else(|| "-".to_owned(), |bands| limits(bands.quoted())));
             if is_repaired {
-                row.push(of_site.repaired.map_or_else(|| "-".to_owned(), |risk| risk_cells(&risk)[0].clone()));
+                let repaired = of_site.repaired.map(|risk| risk_cells(&risk)[0].clone());
+                row.push(repaired.map_or_else(|| "-".to_owned(), |rate| rate + &band_in_cell(of_site.repaired_bands)));
             }
             row.extend([
-                of_site.bands.map_or_else(|| "-".to_owned(), |bands| limits(bands.quoted())),
                 or_dash(of_site.lognormal_per_year_rounding, rate) + &band_in_cell(of_site.lognormal_bands),
                 percent(of_site.risk.lower_tail_share),
                 percent(of_site.risk.upper_tail_share),
@@ -258,14 +266,14 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
         }
     }
     let in_years = format!("in {} years", report.years);
-    let mut header = vec!["site", "im", "model", "per year", &in_years, "return period"];
+    let mut header = vec!["site", "im", "model", "per year", &in_years, "return period", "90 % band"];
     let weighted = if is_repaired {
-        header.push("repaired");
+        header.push("repaired (90 % band)");
         "; with the records weighted for hazard consistency"
     } else {
         ""
     };
-    header.extend(["90 % band", "lognormal", "below", "above"]);
+    header.extend(["lognormal", "below", "above"]);
     writeln!(
         out,
         "\nRisk of overturning: from the counted shares{weighted}, with a 90 % band (docs/method.md, section 9); with \

@@ -70,7 +70,9 @@ fn print_site_ranges(out: &mut impl Write, ranges: &SiteRanges) -> Result<(), Co
     let (risk, sites) = (risk_in_words(*poe, *years), counted(*sites, "site"));
     writeln!(out, "\nUniform risk spectra of a table of {sites}, {risk}")?;
     writeln!(out, "Displacement, m, smallest to largest of the sites, at strength")?;
-    let range = |[least, most]: [f64; 2]| format!("{}–{}", cell_with_band(least, None), cell_with_band(most, None));
+    let range = |of: Option<[f64; 2]>| {
+        of.map_or_else(|| "-".to_owned(), |of| of.map(|displacement_m| cell_with_band(displacement_m, None)).join("–"))
+    };
     let table = Table::from_rows(measures)
         .left("measure", |of| &of.im)
         .right("sites", |of| of.sites.to_string())

@@ -82,17 +82,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let at_safe =
         report.safe_risk.map_or_else(String::new, |risk| format!(", {} at the safe value", risk_cells(&risk)[0]));
     writeln!(out, "Risk      {whose}{per_year} per year at the best estimate{best}{at_safe}")?;
-    let at = unit(if report.safe_value.is_finite() { report.safe_value } else { *value }.to_string());
-    let whose = if report.own.is_some() || report.by_proxy { "its proxy by" } else { "by" };
-    for other in &report.by_other_measures {
-        let [per_year, ..] = risk_cells(&other.risk);
-        let verdict = match other.is_met {
-            Some(true) => "meets the target",
-            Some(false) => "MISSES the target (--measure to size by it)",
-            None => "the levels are too low to tell",
-        };
-        writeln!(out, "          {whose} {} {per_year} per year at {at}: {verdict}", other.im)?;
-    }
+    print_other_measures(out, report)?;
     if let Some(misses) = &report.unrepaired {
         writeln!(out, "Weights   equal, and the records have {misses}: --repaired searches by the repair's weights")?;
     }
@@ -107,7 +97,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         print_own(out, report, own)?;
     }
     if let Some(reason) = &report.without_own {
-        writeln!(out, "Itself    left out: {reason}")?;
+        writeln!(out, "Itself    not analysed: {reason}")?;
     }
     if report.least_met < report.missed_at {
         let [met, missed] = [report.least_met, report.missed_at].map(|value| unit(value.to_string()));
@@ -119,7 +109,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     }
     let needed = report.own.as_ref().map_or(report.safe_value, |own| own.safe_value);
     let own = report.own_value.map_or_else(String::new, |own| {
-        let lengths = format!(", so all lengths times {}", short(needed / own));
+        let lengths = format!("; multiply all lengths by {}", short(needed / own));
         let lengths = if *quantity == "size" && needed.is_finite() { &lengths } else { "" };
         format!("; the structure's {quantity} is {}{lengths}", unit(short(own)))
     });
@@ -127,6 +117,28 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let wobbles = report.own.as_ref().is_some_and(|own| own.models.len() > 1);
     let records = record_set(&report.source.record_set, wobbles);
     writeln!(out, "At        {site} by {im}; {records}{}{own}", fewer_levels(own_levels))?;
+    Ok(())
+}
+
+/// What the other measures of the result say of the safe value.
+fn print_other_measures(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
+    let value = if report.safe_value.is_finite() { report.safe_value } else { report.value };
+    let at = format!("{value} {}", report.quantity_unit);
+    let at = at.trim_end();
+    let whose = if report.own.is_some() || report.by_proxy { "its proxy by" } else { "by" };
+    for other in &report.by_other_measures {
+        let [per_year, ..] = risk_cells(&other.risk);
+        let verdict = match (other.is_met, &other.unrepaired) {
+            (Some(true), _) => "meets the target".to_owned(),
+            (Some(false), None) => "MISSES the target (--measure to size by it)".to_owned(),
+            (Some(false), Some(misses)) => format!("MISSES the target, with {misses} (--repaired)"),
+            (None, _) => "the levels are too low to tell".to_owned(),
+        };
+        writeln!(out, "          {whose} {} {per_year} per year at {at}: {verdict}", other.im)?;
+    }
+    for im in &report.unchecked {
+        writeln!(out, "          {whose} {im} not checked: the result has no repair by it")?;
+    }
     Ok(())
 }
 
@@ -178,7 +190,7 @@ fn print_own(out: &mut impl Write, report: &TargetReport, own: &TargetOwn) -> Re
 fn print_limit(out: &mut impl Write, report: &TargetReport, own: &TargetOwn) -> Result<(), CommandError> {
     let (Some(limit), Some(beyond)) = (&own.limit, &own.beyond_limit) else { return Ok(()) };
     let [per_year, ..] = risk_cells(&beyond.risk);
-    let at = format!("{} {}", own.value, report.quantity_unit);
+    let at = format!("{} {}", own.limit_at, report.quantity_unit);
     let is_more = own.passes_limit_above(report.target_per_year);
     let more = if is_more { ", more often than the target. Search for the limit:" } else { "" };
     let (limit_in_words, at) = (limit.in_words(), at.trim_end());

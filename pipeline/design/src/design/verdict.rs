@@ -83,13 +83,16 @@ impl DesignReport {
     }
 
     /// That the upper limit of the demand, on the frame where there is one, is beyond the yield of the tendons: `the
-    /// demand's band reaches 0.50 m, beyond the tendon yield at 0.42 m`.
+    /// demand's band reaches 0.50 m, beyond the tendon yield at 0.42 m`. None where the demand is not satisfied anyway.
     pub fn beyond_tendon(&self) -> Option<String> {
         let limit = self.structure.tendon_limit?;
-        let bands = match &self.frame {
-            Some(frame) => frame.wobbling().bands.as_ref(),
-            None => self.exact.as_ref()?.bands.as_ref(),
+        let (check, bands) = match &self.frame {
+            Some(frame) => (frame.wobbling().check, frame.wobbling().bands.as_ref()),
+            None => (self.own_check, self.exact.as_ref()?.bands.as_ref()),
         };
+        if check.is_some_and(|check| !check.satisfied) {
+            return None;
+        }
         let [_, upper_m] = bands?.demand_m.quoted();
         let reached = if upper_m.is_finite() { format!("{} m", two_digits(upper_m)) } else { "overturning".to_owned() };
         let is_beyond = upper_m > limit.displacement_m;

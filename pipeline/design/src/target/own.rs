@@ -31,7 +31,7 @@ const STEPS: [f64; 2] = [1.05, 1.5];
 /// The structure itself: a frame that can wobble, or a block.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TargetOwn {
-    /// The value at which both models are judged: the safe value of the proxy, or the best estimate where that is
+    /// The value at which its models are judged: the safe value of the proxy, or the best estimate where that is
     /// beyond the range.
     pub value: f64,
     /// Levels at which it was shaken at that value, in the unit of the measure.
@@ -43,7 +43,10 @@ pub struct TargetOwn {
     pub analyses: u64,
     /// Wobbling under both components, then in the plane of the study's component; or the block alone.
     pub models: Vec<TargetModel>,
-    /// The limit that the wobbling frame passes at the value more often than it overturns; none where overturning is
+    /// The value at which the limit is looked at: the safe one, or the first where there is none.
+    #[serde(skip)]
+    pub limit_at: f64,
+    /// The limit that the wobbling frame passes there more often than it overturns; none where overturning is
     /// not what is asked for, where it tells how often the frame fails, and of a block.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<FrameLimit>,
@@ -112,6 +115,7 @@ impl TargetOwn {
             levels_of_study,
             analyses,
             models,
+            limit_at: value,
             limit: None,
             beyond_limit: None,
             safe_value: at.map_or(f64::INFINITY, |at| tried[at].0),
@@ -212,18 +216,23 @@ impl Judge<'_> {
         }
         let (report, models) = self.shaken(trials, (&frame, &first), &levels, true)?;
         let mut analyses = report.analyses;
+        let limit_of = |report: &FrameReport| (report.governing_limit(), report.wobbling().beyond_limit);
+        let mut limits = vec![(value, limit_of(&report))];
         let tried = self.searched((value, models[0].clone()), most, |next| {
             let Some(structure) = self.structure_at(next)? else { return Ok(None) };
             frame.change(&structure)?;
             let levels = frame.levels(&trials.records.set, self.place.measure);
             let (own, models) = self.shaken(trials, (&frame, &structure), &levels, false)?;
             analyses += own.analyses;
+            limits.push((next, limit_of(&own)));
             Ok(models.into_iter().next())
         })?;
-        let limit = report.governing_limit();
-        let beyond_limit = limit.and_then(|_| report.wobbling().beyond_limit);
         let own = TargetOwn::new((levels.values, report.levels_of_study), analyses, (value, models), &tried);
-        Ok((Some(TargetOwn { limit, beyond_limit, ..own }), None))
+        // at what the frame needs, where that is known
+        let at_safe = limits.iter().find(|(at, _)| at.total_cmp(&own.safe_value).is_eq());
+        let (limit_at, (limit, beyond)) = *at_safe.unwrap_or(&limits[0]);
+        let beyond_limit = beyond.filter(|_| limit.is_some());
+        Ok((Some(TargetOwn { limit_at, limit, beyond_limit, ..own }), None))
     }
 
     /// Tries values from the `first` on, up to `most`, until the least safe one is known well enough; ascending.
@@ -249,9 +258,11 @@ impl Judge<'_> {
         trials: &mut Trials<'_>,
         [value, most]: [f64; 2],
     ) -> Result<(Option<TargetOwn>, Option<String>), DesignError> {
-        let is_asked = !self.options.proxy && self.options.event() == TargetEvent::Overturning;
-        if self.structure.block.is_none() || !is_asked {
+        if self.structure.block.is_none() || self.options.proxy {
             return Ok((None, None));
+        }
+        if self.options.event() != TargetEvent::Overturning {
+            return Ok((None, Some(NO_EVENT.to_owned())));
         }
         let mut notes = Vec::new();
         let Some(first) = self.models_at(value, &trials.study, &mut notes)? else {
@@ -351,8 +362,10 @@ impl Judge<'_> {
     }
 }
 
+/// Why a block is left out of anything but overturning.
+const NO_EVENT: &str = "a block itself is judged for overturning alone";
 /// Why the structure itself is left out where strength or capacity vary.
-pub(super) const OF_SIZE: &str = "strength and capacity follow from its size: vary width, size or tendon-stiffness";
+pub(super) const OF_SIZE: &str = "strength and capacity follow from its size: vary width or size";
 
 /// The value to try after those of these upper limits, `(value, 1/yr)`, ascending; none where enough are tried.
 fn next_value(rates: &[(f64, f64)], target_per_year: f64, near: f64) -> Option<f64> {

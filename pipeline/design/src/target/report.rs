@@ -72,6 +72,9 @@ pub struct TargetReport {
     /// The same at the safe value, or at the best estimate where there is none, by the other measures of the result.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub by_other_measures: Vec<TargetByMeasure>,
+    /// Measures of the result that could not be asked, for want of a repair by them.
+    #[serde(skip)]
+    pub unchecked: Vec<&'static str>,
     /// What every value keeps of the structure: its displacement at uplift and restitution, in words.
     pub kept: String,
     /// The structure at the value.
@@ -80,12 +83,14 @@ pub struct TargetReport {
     pub per_year_within_one_percent: Noisy,
     /// Bands of the value, the one that takes account of most last; none of a single record.
     pub bands: Vec<TargetBand>,
-    /// The structures that every value may be; none where the structure file says that all is known.
+    /// The structures that every value may be; none where the structure file says that all is known, and with the
+    /// weights of a repair.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<TargetUncertainty>,
     /// Every place where the frequency crosses the target, ascending.
     pub crossings: Vec<Crossing>,
-    /// What happens at levels of given return periods, for the structure at the value.
+    /// What happens at levels of given return periods, for the structure at the value; none with the weights of a
+    /// repair.
     pub at_return_periods: Vec<LevelShare>,
     /// The level that a generic fragility asks for; none where none was given.
     pub generic: Option<GenericTarget>,
@@ -106,7 +111,7 @@ pub struct TargetReport {
 }
 
 /// How often it happens by another measure than that of the search.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TargetByMeasure {
     /// `PGV`, `PGA`, …
     pub im: &'static str,
@@ -115,6 +120,9 @@ pub struct TargetByMeasure {
     pub risk: EventRisk,
     /// Whether it meets the target by the best estimate; none where the records cannot tell.
     pub is_met: Option<bool>,
+    /// How its records miss the site's hazard, which the repair of the result would mend.
+    #[serde(skip)]
+    pub unrepaired: Option<String>,
 }
 
 /// The equivalent oscillator at the value that was found.

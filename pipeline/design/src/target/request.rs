@@ -137,7 +137,7 @@ pub struct TargetOptions {
     pub tolerance: f64,
     /// Return periods, years, at whose levels the fragility is reported
     #[arg(
-        long = "at", help_heading = RARE, value_name = "YEARS[,…]", value_delimiter = ',',
+        long = "at", help_heading = RARE, value_name = "YEARS[,…]", value_delimiter = ',', conflicts_with = "repaired",
         allow_negative_numbers = true, value_parser = number, default_values_t = RETURN_PERIODS
     )]
     pub return_periods: Vec<f64>,
@@ -150,7 +150,7 @@ pub struct TargetOptions {
         default_value_t = GENERIC_PROBABILITY, requires = "generic_dispersion"
     )]
     pub generic_probability: f64,
-    /// Judge the proxy alone, without the wobbling frame
+    /// Judge the equivalent oscillator alone, not the frame or block itself
     #[arg(long)]
     pub proxy: bool,
     /// Write all values tried with their risks

@@ -20,6 +20,7 @@ use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_levels
 use super::candidate::{Attempt, Candidate, StructureRisk, threshold_m};
 use super::{TargetEvent, TargetOptions};
 use crate::certainty::Scatter;
+use crate::design::without_uncertainty;
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::{Place, ShakenRecords, job_name, records_and_pairs, required, restitution};
@@ -300,7 +301,8 @@ impl<'a> Trials<'a> {
         curve: Option<&HazardCurve>,
         notes: &mut Vec<String>,
     ) -> Result<Vec<LevelShare>, DesignError> {
-        let Some(curve) = curve else { return Ok(Vec::new()) };
+        // shares of records tell nothing where these do not count alike
+        let Some(curve) = curve.filter(|_| self.weights.repaired().is_none()) else { return Ok(Vec::new()) };
         let mut periods = self.options.return_periods.clone();
         periods.sort_by(f64::total_cmp);
         periods.dedup();
@@ -334,6 +336,12 @@ impl<'a> Trials<'a> {
             LevelShare { return_period_years, level, records, runs, count, probability }
         };
         Ok(asked.iter().enumerate().map(share).collect())
+    }
+
+    /// Why what is not known of the structure is left out, where there is such.
+    pub(super) fn without_uncertainty(&self, source: &StudyOfResult) -> Option<String> {
+        let is_left_out = self.structure.uncertainty.is_some() && self.weights.repaired().is_some();
+        is_left_out.then(|| without_uncertainty(true, source))
     }
 
     /// Takes the checkpoint away, once the answer is there.

@@ -6,12 +6,11 @@ use uplift_result::ResultFile;
 use uplift_spectra::Noisy;
 use uplift_structure::UncertainQuantity;
 use uplift_study::Structure;
-use uplift_uniform_risk::{EventRisk, StudyOfResult};
+use uplift_uniform_risk::EventRisk;
 
 use super::TargetOptions;
 use super::candidate::Attempt;
 use super::search::{Crossing, crossings};
-use crate::design::without_uncertainty;
 
 /// A refusal with the numbers that are probably mistaken: the reason for it, most likely.
 pub(super) fn with_mistakes(reason: String, alarms: &[Alarm]) -> String {
@@ -157,18 +156,4 @@ pub(super) fn assumptions(file: &ResultFile, by_proxy: bool) -> Vec<String> {
         notes.push("the value is that of the proxy, the equivalent oscillator, not of the structure itself".to_owned());
     }
     notes
-}
-
-/// What is to be said of equal weights where there are others, and of a search with these.
-pub(super) fn of_weights(
-    (file, source): (&ResultFile, &StudyOfResult),
-    structure: &Structure,
-    is_repaired: bool,
-) -> Option<String> {
-    if is_repaired {
-        structure.uncertainty.as_ref().map(|_| without_uncertainty(true, source))
-    } else {
-        let equal = "the records have equal weights: --repaired uses those of the repair";
-        file.has_repair().then(|| equal.to_owned())
-    }
 }

@@ -104,7 +104,7 @@ fn components_of(path: &Path, options: FileOptions) -> Result<Vec<Component>, St
         && let Some(other) = file.recordings.iter().map(|recording| recording.unit).find(|unit| *unit != given)
     {
         return Err(format!(
-            "{name}: states {}, but --unit is {}: import it without --unit, apart from files that state no unit, or \
+            "{name}: states {}, but --unit is {}: import it separately, without --unit; or \
              correct its head",
             other.symbol(),
             given.symbol()
