@@ -58,7 +58,7 @@ impl LabelledWriter {
             .with_fapl(|access| access.libver_v18().file_locking(false))
             .with_fcpl(|creation| creation.obj_track_times(false))
             .create(place.partial())
-            .map_err(|error| hdf5_error(place.target(), "create", "/", &error))?;
+            .map_err(|error| hdf5_error(place.target(), "create", "the file", &error))?;
         let mut writer = Self { file, place, axes: BTreeMap::new(), links: BTreeSet::new(), chunks: Vec::new() };
         writer.group(AXES)?;
         Ok(writer)

@@ -363,7 +363,7 @@ impl Judge<'_> {
 }
 
 /// Why a block is left out of anything but overturning.
-const NO_EVENT: &str = "a block itself is judged for overturning alone";
+const NO_EVENT: &str = "the block, or the one equivalent to a frame, is judged for overturning alone";
 /// Why the structure itself is left out where strength or capacity vary.
 pub(super) const OF_SIZE: &str = "strength and capacity follow from its size: vary width or size";
 
