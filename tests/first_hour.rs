@@ -114,7 +114,11 @@ fn a_unit_is_given_to_the_files_that_state_none() {
     let done = import("g");
     assert!(done.stdout.starts_with("1 pair from 4 files"), "{}", done.stdout);
     assert!(done.stderr.starts_with("not read (2):"), "{}", done.stderr);
-    assert!(done.stderr.contains("stated_H1.txt: states m/s2, but --unit is g: import it without"), "{}", done.stderr);
+    assert!(
+        done.stderr.contains("stated_H1.txt: states m/s2, but --unit is g: import it separately"),
+        "{}",
+        done.stderr
+    );
     assert!(manifest().contains("records import, 1 pair\n") && !manifest().contains("stated"), "{}", manifest());
     assert!(import("m/s2").stdout.starts_with("2 pairs"));
     let units = manifest().lines().filter(|line| line.contains(",m/s2,")).count();
