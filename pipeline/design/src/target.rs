@@ -97,7 +97,7 @@ pub fn target(
     let (range, own_value) = range(structure, options)?;
     let repair = Repair::from_file(&file, options.repaired)?;
     let (weights, hazard) = (place.weights(&repair)?, Hazard::from_file(&file, &source, (measure, site))?);
-    let others = others(&file, &source, place, &repair)?;
+    let (others, unchecked) = others(&file, &source, place, &repair)?;
     let scatter = Scatter::from_file(&file)?;
     let of_records = (&hazard, &scatter);
     let wobbles = OwnFrame::is_described(structure);
@@ -163,7 +163,7 @@ pub fn target(
         missed_at: tried[at - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
         risk: found.risk,
-        unchecked: unchecked(&source, (measure, &others)),
+        unchecked,
         by_other_measures,
         kept: kept(structure, trials.restitution),
         found: FoundSystem::from_system(&found.candidate.system),
@@ -189,24 +189,21 @@ pub fn target(
 /// Another measure than that of the search, with its hazard and what runs weigh by it.
 type Other<'a> = (&'a SpectraOfResult, Hazard<'a>, SiteWeights<'a>);
 
-/// The other measures of the result that have the weights asked for at the place.
+/// The other measures of the result that have the weights asked for at the place, and the names of those that have not.
 fn others<'a>(
     file: &ResultFile,
     source: &'a StudyOfResult,
     Place { site, measure, .. }: Place<'a>,
     repair: &'a Repair<'a>,
-) -> Result<Vec<Other<'a>>, DesignError> {
-    let others = source.measures.iter().filter(|other| other.measure() != measure.measure());
-    let others = others.filter_map(|other| Some((other, repair.weights((other, site))?)));
-    others.map(|(other, weights)| Ok((other, Hazard::from_file(file, source, (other, site))?, weights))).collect()
-}
-
-/// The measures of the result that are neither that of the search nor among `others`.
-fn unchecked(source: &StudyOfResult, (searched, others): (&SpectraOfResult, &[Other<'_>])) -> Vec<&'static str> {
-    let is_known = |own: &&SpectraOfResult| {
-        own.measure() == searched.measure() || others.iter().any(|(other, ..)| other.measure() == own.measure())
-    };
-    source.measures.iter().filter(|own| !is_known(own)).map(|own| own.measure().label()).collect()
+) -> Result<(Vec<Other<'a>>, Vec<&'static str>), DesignError> {
+    let (mut others, mut unchecked) = (Vec::new(), Vec::new());
+    for other in source.measures.iter().filter(|other| other.measure() != measure.measure()) {
+        match repair.weights((other, site)) {
+            Some(weights) => others.push((other, Hazard::from_file(file, source, (other, site))?, weights)),
+            None => unchecked.push(other.measure().label()),
+        }
+    }
+    Ok((others, unchecked))
 }
 
 /// What other measures say of the safe value, or of the best estimate where there is none.

@@ -10,7 +10,7 @@ use uplift_uniform_risk::EventRisk;
 use super::search::{digits, least, rounded_up};
 use super::trial::Trials;
 use super::{TargetEvent, TargetOptions};
-use crate::certainty::{Bands, Scatter, rate_bands};
+use crate::certainty::{Bands, Scatter};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::limit::{FrameLimit, LimitRisk};
@@ -19,7 +19,7 @@ use crate::opening::Place;
 use crate::overturning::block_leaves_the_ground;
 use crate::own_frame::{FrameLevels, FrameModel, FrameQuestion, FrameReport, OwnFrame};
 use crate::pairs::Pairs;
-use crate::risk::{OVERTURNING_M, bounded, own_risk, risk_of_exceeding};
+use crate::risk::{OVERTURNING_M, own_risk};
 
 /// Most values at which it is shaken.
 const MOST_VALUES: usize = 8;
@@ -305,9 +305,8 @@ impl Judge<'_> {
         let Some((block @ System::Block(_), _)) = models.last() else { return Ok(None) };
         let (pool, analyses) = trials.rock(block)?;
         let (weights, (hazard, scatter)) = (trials.weights, self.of_records);
-        let risk = risk_of_exceeding(&pool, &weights, OVERTURNING_M, self.years)?;
-        let risk = bounded(risk, &weights, &scatter.pairs);
-        let bands = rate_bands(&pool, (hazard, weights.repaired()), scatter, OVERTURNING_M)?;
+        let asked = (OVERTURNING_M, self.years);
+        let LimitRisk { risk, bands } = LimitRisk::new(&pool, (hazard, weights.repaired()), scatter, asked)?;
         let demand_m = weights.curve(&pool)?.exact_ordinate(self.target_per_year)?.displacement_m;
         let model = (block.kind(), block.restitution());
         Ok(Some((TargetModel::new(model, demand_m, (risk, bands), self.target_per_year), analyses)))

@@ -50,7 +50,6 @@ pub struct LevelShare {
 /// What values are tried on. The rows of every round stay in the checkpoint until the answer is given.
 pub(super) struct Trials<'a> {
     structure: &'a Structure,
-    result: &'a Path,
     /// The study of the result, with what happens after the end of a record.
     pub(super) study: UniformRiskStudy,
     measure: &'a SpectraOfResult,
@@ -66,11 +65,26 @@ pub(super) struct Trials<'a> {
     pub(super) restitution: f64,
     /// The structures that every value may be; none where all of it is known, and with repaired weights.
     pub(super) around: Option<Around<'a>>,
-    events: &'a dyn Events,
-    name: String,
-    checkpoint: Option<Checkpoint>,
+    jobs: Jobs<'a>,
     /// Nonlinear time histories so far.
     pub(super) analyses: u64,
+}
+
+/// The jobs of a search on a result. One has the checkpoint at a time, and the next goes on with it.
+struct Jobs<'a> {
+    name: String,
+    result: &'a Path,
+    events: &'a dyn Events,
+    checkpoint: Option<Checkpoint>,
+}
+
+impl Jobs<'_> {
+    fn run(&mut self, plans: Vec<LabelledPlan<'_>>) -> Result<Vec<Analysed>, DesignError> {
+        drop(self.checkpoint.take());
+        let (analysed, checkpoint) = Work::new(&self.name, plans).asked_of(self.result, &[], self.events)?;
+        self.checkpoint = Some(checkpoint);
+        Ok(analysed)
+    }
 }
 
 impl<'a> Trials<'a> {
@@ -97,7 +111,6 @@ impl<'a> Trials<'a> {
         Ok(Self {
             around,
             structure,
-            result: &source.path,
             measure: place.measure,
             weights,
             hazard,
@@ -108,9 +121,7 @@ impl<'a> Trials<'a> {
             components,
             restitution,
             study,
-            events,
-            name: job_name("target", structure),
-            checkpoint: None,
+            jobs: Jobs { name: job_name("target", structure), result: &source.path, events, checkpoint: None },
             analyses: 0,
         })
     }
@@ -122,24 +133,19 @@ impl<'a> Trials<'a> {
         levels: &FrameLevels,
         with_planar: bool,
     ) -> Result<FramePeaks, DesignError> {
-        // one job has the file at a time, and this one goes on with it
-        drop(self.checkpoint.take());
         let mut plans: Vec<_> = frame.plans(&self.records, (self.measure.measure(), levels))?.into();
         plans.truncate(1 + usize::from(with_planar));
-        let (analysed, checkpoint) = Work::new(&self.name, plans).asked_of(self.result, &[], self.events)?;
-        self.checkpoint = Some(checkpoint);
+        let analysed = self.jobs.run(plans)?;
         Ok(frame.peaks(analysed.first().ok_or(JobError::Interrupted)?, analysed.get(1)))
     }
 
     /// The peaks of a `block` at all levels, m, and how many analyses they took.
     pub(super) fn rock(&mut self, block: &System) -> Result<(PooledDemand, u64), DesignError> {
-        drop(self.checkpoint.take());
         let (measure, levels) = (self.measure.measure(), &self.measure.plan.levels);
         let plan = plan_levels(&self.study, (measure, levels), &self.records.set, std::slice::from_ref(block))?;
         let (label, analyses) = (format!("{}, {}", measure.label(), block.kind()), plan.analyses());
         let labelled = LabelledPlan { label, remark: None, plan, motions: &self.records.motions, known: None };
-        let (analysed, checkpoint) = Work::new(&self.name, vec![labelled]).asked_of(self.result, &[], self.events)?;
-        self.checkpoint = Some(checkpoint);
+        let analysed = self.jobs.run(vec![labelled])?;
         let peaks_m = peaks_m(analysed.first().ok_or(JobError::Interrupted)?, levels.len(), 0);
         Ok((PooledDemand::new(&Stripe::new(levels, &peaks_m)?)?, analyses))
     }
@@ -346,15 +352,13 @@ impl<'a> Trials<'a> {
 
     /// Takes the checkpoint away, once the answer is there.
     pub(super) fn finish(self) {
-        if let Some(checkpoint) = self.checkpoint {
+        if let Some(checkpoint) = self.jobs.checkpoint {
             checkpoint.remove();
         }
     }
 
     /// The peaks of `candidates` at `levels`, in the unit of the measure: those of a candidate lie together.
     fn analyse(&mut self, label: &str, levels: &[f64], candidates: &[Candidate]) -> Result<Analysed, DesignError> {
-        // one job has the file at a time, and this one goes on with it
-        drop(self.checkpoint.take());
         let systems: Vec<System> = if self.is_of_each_record() {
             // those of each record, one record after the other
             let of = |record: usize| record * self.per_record()..(record + 1) * self.per_record();
@@ -369,8 +373,7 @@ impl<'a> Trials<'a> {
         let remark = self.cost(&plan, candidates.len()).map(|cost| ("uncertainty".to_owned(), cost));
         let labelled =
             LabelledPlan { label: label.to_owned(), remark, plan, motions: &self.records.motions, known: None };
-        let (analysed, checkpoint) = Work::new(&self.name, vec![labelled]).asked_of(self.result, &[], self.events)?;
-        self.checkpoint = Some(checkpoint);
+        let analysed = self.jobs.run(vec![labelled])?;
         analysed.into_iter().next().ok_or(JobError::Interrupted.into())
     }
 
