@@ -231,6 +231,9 @@ fn what_is_made_of_a_repair_is_made_of_its_weights() {
         json(&study.uplift(&[&asked[..], more].concat()).ok())
     };
     let (plain, repaired) = (design(&[]), design(&["--repaired"]));
+    // one that is not by them is led to them by its own option
+    let alarms = plain["alarms"].as_array().unwrap();
+    assert!(alarms.iter().any(|alarm| alarm["what_to_do"] == "Use --repaired --measure pga"), "{alarms:?}");
     assert_eq!((&plain["repaired"], &repaired["repaired"]), (&Value::from(false), &Value::from(true)));
     let demand = |report: &Value| report["spectrum"]["zero_stiffness_demand_m"].as_f64().unwrap();
     let note = plain["notes"].as_array().unwrap().iter().find(|note| note.as_str().unwrap().contains("--repaired"));

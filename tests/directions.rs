@@ -284,7 +284,10 @@ fn what_has_no_third_component_is_named_at_once() {
     assert!(design["frame"].is_null() && design["exact"]["overturning"]["per_year"].is_number(), "{design}");
     assert!(design["without_frame"].as_str().unwrap().contains(told), "{design}");
     let said = study.uplift(&["design", "frame.toml", "--urs", "r.h5", "--site", "Here"]).ok().stdout;
-    assert!(said.contains("Frame     left out: ") && said.contains(told) && said.contains("its proxy alone"), "{said}");
+    assert!(
+        said.contains("Frame     left out: ") && said.contains(told) && said.contains("its oscillator alone"),
+        "{said}"
+    );
     let rates = json(&study, &["overturning", "frame.toml", "--urs", "r.h5"]);
     let models: Vec<&str> =
         rates["models"].as_array().unwrap().iter().map(|of| of["model"].as_str().unwrap()).collect();

@@ -147,7 +147,7 @@ fn a_design_has_the_frame_beside_its_proxy() {
         format!("Verdict   free by PGV: {own}: wobbling frame requires {required:.2} m, capacity {capacity:.2} m");
     assert_eq!(first, answer);
     let proxy = if differ { word(own != "satisfied") } else { own };
-    assert!(rest.starts_with(&format!("          proxy by PGV: {proxy}; frame moves ")), "{rest}");
+    assert!(rest.starts_with(&format!("          oscillator by PGV: {proxy}; frame moves ")), "{rest}");
     assert!(rest.contains("wobbling frame") && rest.contains("\nequal energy‡ "), "{rest}");
     assert!(rest.contains("\n‡ demand rises with the capacity\n") && !rest.contains('†'), "{rest}");
     let settings = design["own_oscillator"].as_str().unwrap();
@@ -169,7 +169,7 @@ fn a_design_has_the_frame_beside_its_proxy() {
     assert!(sheet.contains("The wobbling frame is not satisfied at the upper limit"), "{sheet}");
 
     let alone = study.uplift(&[&["design", "free.toml", "--urs", "r.h5", "--proxy"], &ask[..]].concat()).ok();
-    assert!(alone.stdout.contains("by its proxy alone") && !alone.stdout.contains("wobbling"), "{}", alone.stdout);
+    assert!(alone.stdout.contains("by its oscillator alone") && !alone.stdout.contains("wobbling"), "{}", alone.stdout);
     assert!(json(&study, &[&["design", "free.toml", "--proxy"], &ask[..]].concat())["frame"].is_null());
     // two shards give the same answer
     for part in ["1/2", "2/2"] {

@@ -391,7 +391,7 @@ fn from_a_spectrum_to_a_stack() {
     assert!(first.contains("satisfied by the wobbling frame, which"), "{said}");
     assert_eq!(first.contains("NOT satisfied"), first.ends_with("(other stacks not tried)"), "{said}");
     let alone = study.uplift(&[&round[..], &["--proxy"]].concat()).ok().stdout;
-    assert!(alone.lines().next().unwrap().ends_with("by its proxy alone"), "{alone}");
+    assert!(alone.lines().next().unwrap().ends_with("by its oscillator alone"), "{alone}");
     // a spectrum asks for less than the columns have
     let arguments = [&arguments[..], &["1"]].concat();
     study.uplift(&arguments).fails(2, &["the columns have 0.4000 m without any restrainer"]);

@@ -38,6 +38,8 @@ pub struct ShakenFrame {
     pub rest_amplitude_rad: Option<f64>,
 }
 
+/// The kind of an oscillator, in tables.
+pub const OSCILLATOR: &str = "oscillator";
 /// The kind of a frame that wobbles under both components, in tables.
 pub const WOBBLING_FRAME: &str = "wobbling frame";
 
@@ -45,7 +47,7 @@ impl System {
     /// Its kind, a word for tables.
     pub fn kind(&self) -> &'static str {
         match self {
-            Self::Oscillator(_) => "oscillator",
+            Self::Oscillator(_) => OSCILLATOR,
             Self::Block(_) => "block",
             Self::Frame(shaken) => match shaken.model {
                 Model::Planar => "planar frame",

@@ -23,7 +23,7 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
     for consistency in &evidence.consistency {
         for (site, name) in evidence.spectra.sites.iter().enumerate() {
             if let Some(times) = missed(evidence, scope, consistency, site) {
-                cases.push(case(consistency, site, (name, &at), times));
+                cases.push(case(consistency, scope, (site, name, &at), times));
             }
         }
     }
@@ -124,7 +124,7 @@ fn failing_samples(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
 }
 
 /// `times` the level of the other measure do the records bring.
-fn case(consistency: &StoredConsistency, site: usize, (name, at): (&str, &str), times: f64) -> Case {
+fn case(consistency: &StoredConsistency, scope: &Scope, (site, name, at): (usize, &str, &str), times: f64) -> Case {
     let StoredConsistency { scaled_to, other, .. } = consistency;
     let (scaled_to, other) = (scaled_to.label(), other.label());
     let is_repaired = consistency.is_repaired(site);
@@ -133,16 +133,17 @@ fn case(consistency: &StoredConsistency, site: usize, (name, at): (&str, &str), 
         badness: times.ln().abs(),
         subject: format!("{name} by {scaled_to}"),
         what: format!("scaled records have {} times the site's {other}{at}", times_in_words(consistency, site, times)),
-        what_to_do: remedy(consistency, site),
+        what_to_do: remedy(consistency, scope, site),
     }
 }
 
 /// What mends the spectrum of a site whose records miss its hazard of the other measure.
-fn remedy(consistency: &StoredConsistency, site: usize) -> String {
+fn remedy(consistency: &StoredConsistency, scope: &Scope, site: usize) -> String {
     match &consistency.u_m {
         Some(_) if consistency.is_repaired(site) => {
             let key = consistency.scaled_to.key();
-            format!("Use: uplift spectrum {RESULT} --repaired --measure {key}")
+            let command = if scope.for_design { String::new() } else { format!(": uplift spectrum {RESULT}") };
+            format!("Use{command} --repaired --measure {key}")
         }
         Some(_) => format!("See what is missing: uplift consistency {RESULT} --details"),
         None => format!("Repair: uplift consistency {RESULT} --repair"),
@@ -158,5 +159,5 @@ pub(super) fn remedy_of_gap(evidence: &Evidence, scope: &Scope, site: usize) -> 
     let all = || evidence.consistency.iter().filter(misses);
     let asked = all().find(|of| scope.measure == Some(of.scaled_to));
     let consistency = asked.or_else(|| all().max_by(|a, b| worst(a).total_cmp(&worst(b))))?;
-    Some(remedy(consistency, site))
+    Some(remedy(consistency, scope, site))
 }

@@ -41,6 +41,8 @@ pub struct Scope {
     /// Whether it is asked by repaired spectra, so that what is wrong with the plain ones is of no account; of rates of
     /// structures, whether those by repaired weights are told.
     pub repaired: bool,
+    /// Whether a design asks, which takes repaired spectra itself.
+    pub for_design: bool,
 }
 
 impl Scope {

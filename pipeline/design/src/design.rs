@@ -201,6 +201,7 @@ fn scope((place, poe): (Place<'_>, usize), spectrum: Option<SpectrumDemand>, rep
         poe: Some(poe),
         strengths: spectrum.map(|spectrum| spectrum.between_strengths).or(Some((f64::NAN, f64::NAN))),
         repaired,
+        for_design: true,
     }
 }
 

@@ -45,7 +45,7 @@ fn answered(
 }
 
 /// What an answer is by that leaves the structure itself out.
-const PROXY_ALONE: &str = "its proxy alone";
+const OSCILLATOR_ALONE: &str = "its oscillator alone";
 /// What a structure with a capacity does.
 const EXCEEDING: &str = "exceeding the capacity";
 
@@ -192,7 +192,7 @@ impl OverturningReport {
         let sites: Vec<&str> = sites.iter().map(|site| site.site.as_str()).collect();
         let mut request = vec![("site", sites.join(" and ")), ("measure", measures.join(" and "))];
         request.extend(options.restitution.map(|restitution| ("restitution", restitution.to_string())));
-        request.extend(options.proxy.then(|| ("by", PROXY_ALONE.to_owned())));
+        request.extend(options.proxy.then(|| ("by", OSCILLATOR_ALONE.to_owned())));
         let mut rows: Vec<FindingRow> =
             self.overturning.iter().flat_map(|found| overturning_risks(found, self.limit)).collect();
         rows.extend(self.overturning.iter().flat_map(fragility));
@@ -247,7 +247,7 @@ impl TargetReport {
             ("per year", self.target_per_year.to_string()),
             ("years", self.years.to_string()),
         ];
-        request.extend(options.proxy.then(|| ("by", PROXY_ALONE.to_owned())));
+        request.extend(options.proxy.then(|| ("by", OSCILLATOR_ALONE.to_owned())));
         request.extend(options.from.map(|from| ("from", from.to_string())));
         request.extend(options.to.map(|to| ("to", to.to_string())));
         request.push(("tolerance", options.tolerance.to_string()));

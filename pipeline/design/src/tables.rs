@@ -5,6 +5,7 @@ mod uncertain;
 use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
+use uplift_ida::OSCILLATOR;
 use uplift_job::outputs;
 use uplift_job::table::{ColumnsOf, write_table};
 
@@ -100,6 +101,6 @@ fn found_of<'a>(report: &'a UncertaintyReport, (place, row): (usize, &CollapseRe
     report
         .results
         .iter()
-        .find(|result| row.model == "oscillator" && is_of_row(&result.site, result.im))
+        .find(|result| row.model == OSCILLATOR && is_of_row(&result.site, result.im))
         .map(|of| &of.found)
 }

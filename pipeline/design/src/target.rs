@@ -159,6 +159,7 @@ pub fn target(
         years,
         safe_value,
         safe_risk: tried.iter().find(|(own, _)| own.total_cmp(&safe_value).is_eq()).map(|(_, of)| of.risk),
+        safe_bands: trials.bands_at(safe_value)?,
         value,
         missed_at: tried[at - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),

@@ -52,7 +52,7 @@ pub fn spectrum(path: &Path, asked: &DisplacementOptions) -> Result<SpectrumRepo
     let mut printed = found.displacements.iter().map(|own| own.poe);
     let only = printed.next().filter(|first| printed.all(|other| other == *first));
     let poe = axes.poes.iter().position(|own| Some(*own) == only);
-    let mut alarms = alarms_of(&file, &Scope { site, measure, poe, strengths, repaired })?;
+    let mut alarms = alarms_of(&file, &Scope { site, measure, poe, strengths, repaired, for_design: false })?;
     // of risks asked for, what the printed numbers rest on comes before what is true of the whole set
     if asked.risk != TargetRisks::default() {
         let of_numbers = [FEW_EFFECTIVE_RECORDS, BEYOND_LAST_LEVEL, BELOW_FIRST_LEVEL];

@@ -20,8 +20,8 @@ use uplift_structure::Rule;
 use self::frame::{print_mark, print_own_spectrum, print_verdicts, rule_cell};
 use super::alarms::print_in_parts;
 use super::structure::{
-    BLOCK, band_after, demand_in_words, fewer_levels, measure_option, print_moved, print_notes, print_structure, rate,
-    record_set, restitution_line, risk_cells,
+    BLOCK, band_after, demand_in_words, doubt, fewer_levels, measure_option, print_moved, print_notes, print_structure,
+    rate, record_set, restitution_line, risk_cells,
 };
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use super::{shown_path, typed_path};
@@ -64,10 +64,9 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
     let StructureReport { name, capacity_m, .. } = &report.structure;
     let has =
         capacity_m.map_or_else(|| "no capacity: the force does not fall".to_owned(), |m| format!("capacity {m:.2} m"));
-    // of a frame that can wobble it is the proxy that is judged
-    let whose = if report.wobbles { ", by its proxy alone" } else { "" };
-    let is_doubted = report.alarms.iter().any(|alarm| alarm.severity == Severity::Mistake);
-    let doubt = if is_doubted { "subject to the mistake? below, " } else { "" };
+    // of a frame that can wobble it is the oscillator that is judged
+    let whose = if report.wobbles { ", by its oscillator alone" } else { "" };
+    let doubt = doubt(&report.alarms);
     writeln!(out, "Verdict   {name}{whose}, {has}: {doubt}{}", report.verdict())?;
     if let Some(verdicts) = report.verdicts() {
         writeln!(out, "          {verdicts}")?;

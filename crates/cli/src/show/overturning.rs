@@ -2,7 +2,9 @@
 
 use std::io::Write;
 
-use uplift::structure::{Bands, CollapseReport, EventRisk, FrameLimit, LimitRisk, OverturningReport, SiteRisk};
+use uplift::structure::{
+    Bands, CollapseReport, EventRisk, FrameLimit, LimitRisk, OSCILLATOR, OverturningReport, SiteRisk,
+};
 use uplift::text::{self, Table, share, two_digits};
 use uplift_spectra::Noisy;
 
@@ -94,7 +96,7 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
     }
     // those of the oscillator are those of the study
     let levels_of = |model: &'static str| report.overturning.iter().filter(move |found| found.model == model);
-    let levels = levels_of(WOBBLING).zip(levels_of("oscillator"));
+    let levels = levels_of(WOBBLING).zip(levels_of(OSCILLATOR));
     let levels = fewer_levels(levels.map(|(own, all)| (own.levels.len(), all.levels.len(), own.im)));
     Ok(writeln!(out, "{}{levels}", record_set(&report.source.record_set, has_frame))?)
 }
@@ -142,7 +144,7 @@ fn print_headline(
             "{name}: the wobbling frame passes its limit, {limit}, {how_often} it overturns; annual rates{band}"
         )?);
     }
-    let sites = of(WOBBLING).zip(of("oscillator")).flat_map(|(own, proxy)| own.sites.iter().zip(&proxy.sites));
+    let sites = of(WOBBLING).zip(of(OSCILLATOR)).flat_map(|(own, proxy)| own.sites.iter().zip(&proxy.sites));
     let over_oscillator = sites.map(|(own, proxy)| own.risk.per_year / proxy.risk.per_year);
     match range_of(over_oscillator) {
         Some(times) => writeln!(

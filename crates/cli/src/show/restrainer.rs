@@ -106,7 +106,7 @@ fn print_best(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), Com
 /// What the frame that wobbles says of the best stack.
 fn frame_words(report: &RestrainerDesign) -> String {
     let Some(frame) = &report.frame else {
-        return if report.proxy { ", by its proxy alone".to_owned() } else { String::new() };
+        return if report.proxy { ", by its oscillator alone".to_owned() } else { String::new() };
     };
     let wobbling = frame.wobbling();
     let Some(check) = wobbling.check else { return String::new() };

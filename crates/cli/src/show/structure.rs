@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use uplift::alarms::{Alarm, Severity};
 /// The model of a frame that is held against its proxies.
 pub(super) use uplift::structure::WOBBLING_FRAME as WOBBLING;
 use uplift::structure::{Bands, EventRisk, StructureReport};
@@ -62,6 +63,12 @@ pub(super) fn print_moved(out: &mut impl Write, moved: &[String], over: &str) ->
     }
     let moved = moved.join("\n");
     Ok(writeln!(out, "{ROUNDING_DECIDES}. Range over {over} some 1e-15 lower and higher:\n{moved}")?)
+}
+
+/// That an answer is subject to a probable mistake, with a space behind; nothing where there is none.
+pub(super) fn doubt(alarms: &[Alarm]) -> &'static str {
+    let is_doubted = alarms.iter().any(|alarm| alarm.severity == Severity::Mistake);
+    if is_doubted { "subject to the mistake? below, " } else { "" }
 }
 
 /// The record set; a wobbling frame takes both components of it, and what moves in a plane that of the study.

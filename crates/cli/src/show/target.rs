@@ -2,12 +2,13 @@
 
 use std::io::Write;
 
-use uplift::structure::{LimitEvent, TargetBand, TargetOwn, TargetReport};
-use uplift::text::{self, Table, per_cent, short, thousands};
+use uplift::structure::{Bands, LimitEvent, TargetBand, TargetOwn, TargetReport};
+use uplift::text::{self, Table, per_cent, rounded, short, thousands};
 
 use super::alarms::print_warnings;
 use super::structure::{
-    BLOCK, fewer_levels, measure_option, print_notes, print_structure, rate, record_set, risk_cells,
+    BLOCK, doubt, fewer_levels, mark_of, measure_option, print_by_earthquake, print_notes, print_structure, rate,
+    record_set, risk_cells,
 };
 use super::uncertainty::{kind_in_words, print_quantities};
 use super::{print_more, shown_path, typed_path};
@@ -40,14 +41,13 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         format!(" (90 % band {below}{} to {upper}, by {})", short(band.value[0]), band.of)
     });
     let best = format!("best estimate {}{band}", unit(value.to_string()));
-    let alone = if report.own.as_ref().is_some_and(|own| own.passes_limit_above(*target_per_year)) {
-        " against overturning alone"
-    } else {
-        ""
-    };
+    let is_alone = report.own.as_ref().is_some_and(|own| own.passes_limit_above(*target_per_year));
+    let against = if is_alone { " against overturning alone" } else { "" };
+    let what = format!("{}safe {quantity}{against}", doubt(&report.alarms));
+    let what = what[..1].to_uppercase() + &what[1..];
     match &report.own {
         Some(own) if own.decisive().is_safe => {
-            writeln!(out, "Safe {quantity}{alone} {safe} by {} and proxy; {best} of the proxy", noun(report, own))?;
+            writeln!(out, "{what} {safe} by {} and oscillator; {best} of the oscillator", noun(report, own))?;
         }
         Some(own) => {
             let needs = if own.safe_value.is_finite() {
@@ -57,15 +57,15 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
             };
             writeln!(
                 out,
-                "Safe {quantity}{alone}: the {} {needs}, its proxy {safe}; at {} {}",
+                "{what}: the {} {needs}, its oscillator {safe}; at {} {}",
                 noun(report, own),
                 unit(own.value.to_string()),
                 how_often(report, own)
             )?;
         }
         None => {
-            let whose = if report.by_proxy { ", by its proxy alone" } else { "" };
-            writeln!(out, "Safe {quantity} {safe}; {best}{whose}")?;
+            let whose = if report.by_proxy { ", by its oscillator alone" } else { "" };
+            writeln!(out, "{what} {safe}; {best}{whose}")?;
         }
     }
     if let Some(own) = &report.own {
@@ -73,15 +73,14 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     }
     let years = 1.0 / target_per_year;
     writeln!(out, "Target    {event} at most {} per year (once in {years:.0} years)", rate(*target_per_year))?;
-    let [per_year, ..] = risk_cells(&report.risk);
-    // the line above has the best estimate but where the structure itself needs more
-    let [whose, best] = match &report.own {
-        Some(own) if !own.decisive().is_safe => ["proxy: ".to_owned(), format!(" {}", unit(value.to_string()))],
-        _ => [String::new(), String::new()],
-    };
-    let at_safe =
-        report.safe_risk.map_or_else(String::new, |risk| format!(", {} at the safe value", risk_cells(&risk)[0]));
-    writeln!(out, "Risk      {whose}{per_year} per year at the best estimate{best}{at_safe}")?;
+    let risk = risk_line(report);
+    writeln!(out, "{risk}")?;
+    // as printed
+    let [told, allowed] =
+        [report.safe_bands.map_or(0.0, |bands| bands.fullest()[1]), *target_per_year].map(|of| rounded(of, 2));
+    if told > allowed {
+        writeln!(out, "          the band of one value may exceed the target: the safe value follows from all values")?;
+    }
     print_other_measures(out, report)?;
     if let Some(misses) = &report.unrepaired {
         writeln!(out, "Weights   equal, and the records have {misses}: --repaired searches by the repair's weights")?;
@@ -93,9 +92,9 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
             report.kept
         )?;
     }
-    if let Some(own) = &report.own {
-        print_own(out, report, own)?;
-    }
+    let table = report.own.as_ref().map_or_else(String::new, |own| own_table(report, own));
+    write!(out, "{table}")?;
+    print_by_earthquake(out, &(risk + &table))?;
     if let Some(reason) = &report.without_own {
         writeln!(out, "Itself    not analysed: {reason}")?;
     }
@@ -125,7 +124,7 @@ fn print_other_measures(out: &mut impl Write, report: &TargetReport) -> Result<(
     let value = if report.safe_value.is_finite() { report.safe_value } else { report.value };
     let at = format!("{value} {}", report.quantity_unit);
     let at = at.trim_end();
-    let whose = if report.own.is_some() || report.by_proxy { "its proxy by" } else { "by" };
+    let whose = if report.own.is_some() || report.by_proxy { "its oscillator by" } else { "by" };
     for other in &report.by_other_measures {
         let [per_year, ..] = risk_cells(&other.risk);
         let verdict = match (other.is_met, &other.unrepaired) {
@@ -150,7 +149,7 @@ fn noun(report: &TargetReport, own: &TargetOwn) -> &'static str {
     }
 }
 
-/// How it misses a target at the value of its proxy, in words.
+/// How it misses a target at the value of its oscillator, in words.
 fn how_often(report: &TargetReport, own: &TargetOwn) -> String {
     let (noun, own) = (noun(report, own), own.decisive());
     if own.is_met {
@@ -160,8 +159,8 @@ fn how_often(report: &TargetReport, own: &TargetOwn) -> String {
     }
 }
 
-/// The rates of the structure itself at the value of its proxy, with a verdict by each model.
-fn print_own(out: &mut impl Write, report: &TargetReport, own: &TargetOwn) -> Result<(), CommandError> {
+/// The rates of the structure itself at the value of its oscillator, with a verdict by each model.
+fn own_table(report: &TargetReport, own: &TargetOwn) -> String {
     let value = format!("{} {}", own.value, report.quantity_unit);
     let table = Table::from_rows(&own.models)
         .left("model", |own| match own.model {
@@ -169,11 +168,7 @@ fn print_own(out: &mut impl Write, report: &TargetReport, own: &TargetOwn) -> Re
             of_frame => of_frame.to_owned(),
         })
         .right(format!("per year at {}", value.trim_end()), |own| {
-            let band = own.bands.map_or_else(String::new, |bands| {
-                let [lower, upper] = bands.fullest().map(text::rate);
-                format!(" ({lower}–{upper})")
-            });
-            risk_cells(&own.risk)[0].clone() + &band
+            risk_cells(&own.risk)[0].clone() + &own.bands.map_or_else(String::new, in_brackets)
         })
         .right("travel at the target rate, m", |own| {
             if own.demand_m.is_finite() { text::two_digits(own.demand_m) } else { "overturns".to_owned() }
@@ -183,7 +178,30 @@ fn print_own(out: &mut impl Write, report: &TargetReport, own: &TargetOwn) -> Re
             (true, false) => "met, not safe",
             (false, false) => "MISSED",
         });
-    Ok(writeln!(out, "{table}")?)
+    format!("{table}\n")
+}
+
+/// The rates at the best estimate and at the safe value, that with the band of the runs at it alone.
+fn risk_line(report: &TargetReport) -> String {
+    let [per_year, ..] = risk_cells(&report.risk);
+    // the first line has the best estimate but where the structure itself needs more
+    let [whose, best] = match &report.own {
+        Some(own) if !own.decisive().is_safe => {
+            ["oscillator: ".to_owned(), format!(" {} {}", report.value, report.quantity_unit).trim_end().to_owned()]
+        }
+        _ => [String::new(), String::new()],
+    };
+    let at_safe = report.safe_risk.map_or_else(String::new, |risk| {
+        let band = report.safe_bands.map_or_else(String::new, in_brackets);
+        format!(", {}{band} at the safe value", risk_cells(&risk)[0])
+    });
+    format!("Risk      {whose}{per_year} per year at the best estimate{best}{at_safe}")
+}
+
+/// The fullest band of a rate, marked where it is by earthquake alone.
+fn in_brackets(bands: Bands) -> String {
+    let mark = mark_of(Some(bands).filter(|bands| bands.with_hazard.is_none()));
+    format!(" ({}){mark}", bands.fullest().map(text::rate).join("–"))
 }
 
 /// How often the frame passes its limit, where that says more than how often it overturns.
@@ -270,7 +288,7 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
     if let Some(own) = report.own.as_ref().filter(|own| own.tried.len() > 1) {
         let table = Table::from_rows(&own.tried)
             .right(report.quantity, |tried| tried.value)
-            .right("per year", |tried| rate(tried.per_year))
+            .right("per year", |tried| rate(tried.risk.per_year))
             .right("upper limit", |tried| rate(tried.upper_per_year))
             .left("", |tried| if tried.is_safe { "safe" } else { "not safe" });
         writeln!(out, "\nThe {} at other values\n{table}", noun(report, own))?;

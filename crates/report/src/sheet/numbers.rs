@@ -86,8 +86,9 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         let own = frame.wobbling();
         let demand =
             if_finite(own.demand_m, "no displacement that meets the target", |m| format!("{} m", two_digits(m)));
-        let times =
-            report.frame_over_proxy().map_or_else(String::new, |ratio| format!(", {ratio:.1} times that of its proxy"));
+        let times = report
+            .frame_over_proxy()
+            .map_or_else(String::new, |ratio| format!(", {ratio:.1} times that of its oscillator"));
         let verdict = own.check.map_or_else(String::new, |check| {
             let required = if_finite(check.required_capacity_m, "", |m| format!(" it requires {} m:", two_digits(m)));
             let differ = if report.verdicts_differ() == Some(true) { "; the verdicts differ" } else { "" };

@@ -1,5 +1,6 @@
 //! What a design says of a structure: whether it is good enough, by rules, measures, its own demand and its frame.
 
+use uplift_ida::OSCILLATOR;
 use uplift_job::text::{spectrum_words, two_digits};
 
 use super::DesignReport;
@@ -55,14 +56,14 @@ impl DesignReport {
         Some(format!("by {}: {verdicts}", self.spectrum_words()))
     }
 
-    /// The same by other measures, and of a frame, which may tell another story, the verdict on its proxy: `proxy by
+    /// The same by other measures, and of a frame, which may tell another story, the verdict on its oscillator: `oscillator by
     /// PGA: NOT satisfied`. A measure by which every rule is satisfied is left out where every rule is satisfied here,
     /// too, and there is no frame.
     pub fn verdicts_by_other_measures(&self) -> Vec<(&'static str, String)> {
         let is_satisfied = |rules: &[RuleOutcome]| rules.iter().filter_map(RuleOutcome::check).all(|of| of.satisfied);
         let told = self.by_other_measures.iter().filter_map(|of| {
             if self.frame.is_some() {
-                return Some((of.im, format!("proxy by {}: {}", of.im, verdict_of_rules(&of.rules, None)?)));
+                return Some((of.im, format!("{OSCILLATOR} by {}: {}", of.im, verdict_of_rules(&of.rules, None)?)));
             }
             let verdicts = verdicts_in_words(&of.rules, None)?;
             let is_silent = is_satisfied(&of.rules) && is_satisfied(&self.rules);
@@ -74,7 +75,7 @@ impl DesignReport {
     /// Whose demand is satisfied, and is not at the upper limit of its band, with `not satisfied at the upper limit of
     /// the demand's band, 0.50 m (requires 1.25 m)`.
     pub fn unsafe_upper_limits(&self) -> Vec<(&'static str, String)> {
-        let oscillator = if self.frame.is_some() { "proxy" } else { "own demand" };
+        let oscillator = if self.frame.is_some() { OSCILLATOR } else { "own demand" };
         let of_frame = self.frame.iter().flat_map(|frame| &frame.models);
         let all = of_frame
             .map(|of| (of.model, of.check, of.bands.as_ref()))

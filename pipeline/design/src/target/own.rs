@@ -86,8 +86,9 @@ pub struct TargetModel {
 pub struct TriedOwn {
     /// The value.
     pub value: f64,
-    /// How often it happens, 1/yr.
-    pub per_year: f64,
+    /// How often it happens.
+    #[serde(flatten)]
+    pub risk: EventRisk,
     /// The upper limit of its band, 1/yr.
     pub upper_per_year: f64,
     /// Whether that meets the target.
@@ -105,7 +106,7 @@ impl TargetOwn {
         let at = least(tried, |model| model.is_safe);
         let of_tried = |(value, model): &(f64, TargetModel)| TriedOwn {
             value: *value,
-            per_year: model.risk.per_year,
+            risk: model.risk,
             upper_per_year: model.upper_per_year(),
             is_safe: model.is_safe,
         };

@@ -13,6 +13,7 @@ use super::candidate::Attempt;
 use super::own::TargetOwn;
 use super::search::Crossing;
 use super::trial::LevelShare;
+use crate::certainty::Bands;
 use crate::report::{ReportSource, StructureReport};
 use crate::uncertain::Spread;
 
@@ -61,6 +62,11 @@ pub struct TargetReport {
     pub safe_value: f64,
     /// The risk at it; none beyond the values searched.
     pub safe_risk: Option<EventRisk>,
+    /// The bands of its frequency by the runs at it alone, as `overturning` has them, 1/yr: an upper limit may exceed
+    /// the target, since the safe value follows from all values tried. None beyond the values searched, of a structure
+    /// that is not known exactly, of a single record, and where no run shows it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub safe_bands: Option<Bands>,
     /// The best estimate: the least value from which on everything tried meets the target.
     pub value: f64,
     /// The largest value tried that misses it.

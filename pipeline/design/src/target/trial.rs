@@ -19,7 +19,7 @@ use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_levels
 
 use super::candidate::{Attempt, Candidate, StructureRisk, threshold_m};
 use super::{TargetEvent, TargetOptions};
-use crate::certainty::Scatter;
+use crate::certainty::{Bands, Scatter, rate_bands};
 use crate::design::without_uncertainty;
 use crate::error::DesignError;
 use crate::hazard::Hazard;
@@ -139,15 +139,28 @@ impl<'a> Trials<'a> {
         Ok(frame.peaks(analysed.first().ok_or(JobError::Interrupted)?, analysed.get(1)))
     }
 
-    /// The peaks of a `block` at all levels, m, and how many analyses they took.
-    pub(super) fn rock(&mut self, block: &System) -> Result<(PooledDemand, u64), DesignError> {
+    /// The peaks of a `system` at all levels, m, and how many analyses they took.
+    pub(super) fn rock(&mut self, system: &System) -> Result<(PooledDemand, u64), DesignError> {
         let (measure, levels) = (self.measure.measure(), &self.measure.plan.levels);
-        let plan = plan_levels(&self.study, (measure, levels), &self.records.set, std::slice::from_ref(block))?;
-        let (label, analyses) = (format!("{}, {}", measure.label(), block.kind()), plan.analyses());
+        let plan = plan_levels(&self.study, (measure, levels), &self.records.set, std::slice::from_ref(system))?;
+        let (label, analyses) = (format!("{}, {}", measure.label(), system.kind()), plan.analyses());
         let labelled = LabelledPlan { label, remark: None, plan, motions: &self.records.motions, known: None };
         let analysed = self.jobs.run(vec![labelled])?;
         let peaks_m = peaks_m(analysed.first().ok_or(JobError::Interrupted)?, levels.len(), 0);
         Ok((PooledDemand::new(&Stripe::new(levels, &peaks_m)?)?, analyses))
+    }
+
+    /// The bands of the frequency at `value` by the runs at it alone, as `overturning` and `risk` have them; none
+    /// beyond the range, of a structure that is not known exactly, of a single record, and where no run shows it.
+    pub(super) fn bands_at(&mut self, value: f64) -> Result<Option<Bands>, DesignError> {
+        if !value.is_finite() || self.around.is_some() {
+            return Ok(None);
+        }
+        let Candidate { system, systems } = self.candidate(value)?;
+        let [oscillator] = &systems[..] else { return Ok(None) };
+        let (pool, _) = self.rock(oscillator)?;
+        let threshold_m = threshold_m(self.options.event(), &system, oscillator);
+        rate_bands(&pool, (self.hazard, self.weights.repaired()), self.scatter, threshold_m)
     }
 
     /// Refuses a target rarer than what a structure may do of which no run shows it: whatever is found, the stripes

@@ -153,7 +153,7 @@ pub(super) fn assumptions(file: &ResultFile, by_proxy: bool) -> Vec<String> {
         );
     }
     if by_proxy {
-        notes.push("the value is that of the proxy, the equivalent oscillator, not of the structure itself".to_owned());
+        notes.push("the value is that of the equivalent oscillator, not of the structure itself".to_owned());
     }
     notes
 }

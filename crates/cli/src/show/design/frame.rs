@@ -3,7 +3,9 @@
 use std::io::Write;
 use std::path::Path;
 
-use uplift::structure::{DemandBands, DesignReport, EventRisk, FrameReport, LimitRisk, ReportSource, verdict_word};
+use uplift::structure::{
+    DemandBands, DesignReport, EventRisk, FrameReport, LimitRisk, OSCILLATOR, ReportSource, verdict_word,
+};
 use uplift::text::{Table, cell_with_band, metres_or_overturns, typed, typed_path};
 use uplift_structure::Rule;
 
@@ -77,10 +79,10 @@ pub(super) fn print_verdicts(
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();
         rows.push([
-            "proxy oscillator".to_owned(),
+            OSCILLATOR.to_owned(),
             demand(exact.demand_m, bands),
             report.own_check.map_or_else(dash, |check| required(check.required_capacity_m)),
-            report.own_check.map_or_else(dash, |check| verdict("proxy", check.satisfied)),
+            report.own_check.map_or_else(dash, |check| verdict(OSCILLATOR, check.satisfied)),
             risk(frame.proxy_beyond_limit, &exact.overturning, bands),
         ]);
     }
@@ -113,11 +115,11 @@ pub(super) fn print_verdicts(
 /// The verdict on the proxy, and how far the frame, whose demand is `demand_m`, moves beside it.
 fn print_proxy(out: &mut impl Write, report: &DesignReport, demand_m: f64) -> Result<(), CommandError> {
     let by = report.spectrum_words();
-    let of_proxy = report.verdict_on_proxy().map(|verdict| format!("proxy by {by}: {verdict}"));
+    let of_proxy = report.verdict_on_proxy().map(|verdict| format!("{OSCILLATOR} by {by}: {verdict}"));
     let how_far = match report.frame_over_proxy() {
         Some(ratio) => Some(format!("frame moves {ratio:.1} times as far")),
         None if demand_m.is_infinite() => None,
-        None => Some("the proxy has no demand to compare with".to_owned()),
+        None => Some("the oscillator has no demand to compare with".to_owned()),
     };
     let second: Vec<String> = of_proxy.into_iter().chain(how_far).collect();
     if !second.is_empty() {
