@@ -328,7 +328,7 @@ fn stripes_are_kept_until_the_answer_is_there() {
     let done = study.uplift(&ask).ok();
     assert!(done.stderr.contains("no checkpoint can be written (") && done.stdout == whole, "{}", done.stderr);
     std::fs::remove_dir(&checkpoint).unwrap();
-    // the table has a row for every value tried, of the oscillator and of the block, and replaces nothing of another kind
+    // the table has a row for every value tried, of oscillator and block, and replaces nothing of another kind
     study.write("mine.csv", "a,b\n1,2\n");
     study.uplift(&[&ask[..], &["-o", "mine.csv"]].concat()).fails(2, &["mine.csv already exists"]);
     study.uplift(&[&ask[..], &["-o", "tried.csv", "-q"]].concat()).ok();
@@ -464,8 +464,8 @@ fn the_wobbling_frame_needs_more_than_its_proxy() {
     let times = number(&frame["risk"]["per_year"]) / 2e-3;
     let said = study.uplift(&[&["target", "frame.toml", "--urs", "r.h5", "--details"], &ask[..]].concat()).ok().stdout;
     let first = format!(
-        "Safe width: the wobbling frame needs {safe} m, its oscillator {proxy} m; at {proxy} m the wobbling frame's rate is \
-         {times:.2} times the target\n"
+        "Safe width: the wobbling frame needs {safe} m, its oscillator {proxy} m; at {proxy} m the wobbling frame's \
+         rate is {times:.2} times the target\n"
     );
     assert!(said.starts_with(&first) && said.contains("MISSED") && said.contains("at other values"), "{said}");
 }

@@ -138,7 +138,6 @@ pub fn target(
     let of_proxy = own_risk((&event, found.risk), (place.name, measure), counts);
     let of_own = own.iter().flat_map(|of| of.own_risks(&event, place, counts));
     alarms.extend(own_risk_alarms(&[of_proxy].into_iter().chain(of_own).collect::<Vec<_>>()));
-    let bands = frequencies.bands(value, target_per_year);
     let by_other_measures = judged_by((&file, &others), &mut trials, (place, [safe_value, value], target_per_year))?;
     let mut report = TargetReport {
         uncertainty: trials.around.as_ref().map(|of| TargetUncertainty::from_tried(of, &tried, target_per_year)),
@@ -169,7 +168,7 @@ pub fn target(
         kept: kept(structure, trials.restitution),
         found: FoundSystem::from_system(&found.candidate.system),
         per_year_within_one_percent: noise,
-        bands,
+        bands: frequencies.bands(value, target_per_year),
         crossings,
         at_return_periods,
         generic: generic.flatten(),

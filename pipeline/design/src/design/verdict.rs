@@ -56,9 +56,9 @@ impl DesignReport {
         Some(format!("by {}: {verdicts}", self.spectrum_words()))
     }
 
-    /// The same by other measures, and of a frame, which may tell another story, the verdict on its oscillator: `oscillator by
-    /// PGA: NOT satisfied`. A measure by which every rule is satisfied is left out where every rule is satisfied here,
-    /// too, and there is no frame.
+    /// The same by other measures, and of a frame, which may tell another story, the verdict on its oscillator:
+    /// `oscillator by PGA: NOT satisfied`. A measure by which every rule is satisfied is left out where every rule is
+    /// satisfied here, too, and there is no frame.
     pub fn verdicts_by_other_measures(&self) -> Vec<(&'static str, String)> {
         let is_satisfied = |rules: &[RuleOutcome]| rules.iter().filter_map(RuleOutcome::check).all(|of| of.satisfied);
         let told = self.by_other_measures.iter().filter_map(|of| {
