@@ -121,6 +121,11 @@ pub(crate) fn print_all_warnings(alarms: &[Alarm], result: &Path) -> Result<(), 
     Ok(())
 }
 
+/// Whether something about the inputs is probably not meant.
+pub(super) fn is_doubted(alarms: &[Alarm]) -> bool {
+    alarms.iter().any(|alarm| alarm.severity == Severity::Mistake)
+}
+
 /// What is wrong, by how much, and what to type: with the name of the `result`, where it is known.
 pub(super) fn warning(alarm: &Alarm, result: Option<&Path>) -> String {
     let mark = if alarm.severity == Severity::Mistake { "mistake? " } else { "" };

@@ -5,7 +5,6 @@ mod frame;
 use std::io::Write;
 use std::path::Path;
 
-use uplift::alarms::Severity;
 use uplift::structure::{
     Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome, Sensitivity,
     StructureReport, verdict_word,
@@ -18,7 +17,7 @@ use uplift_spectra::Noisy;
 use uplift_structure::Rule;
 
 use self::frame::{print_mark, print_own_spectrum, print_verdicts, rule_cell};
-use super::alarms::print_in_parts;
+use super::alarms::{is_doubted, print_in_parts};
 use super::structure::{
     BLOCK, band_after, demand_in_words, doubt, fewer_levels, measure_option, print_moved, print_notes, print_structure,
     rate, record_set, restitution_line, risk_cells,
@@ -278,7 +277,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         Table::new(header, rows)
     )?;
     print_mark(out, report)?;
-    if report.alarms.iter().any(|alarm| alarm.severity == Severity::Mistake) {
+    if is_doubted(&report.alarms) {
         writeln!(out, "These verdicts hold only if the inputs marked mistake? below are correct.")?;
     }
     let tendons = report.rules.iter().filter_map(|outcome| {

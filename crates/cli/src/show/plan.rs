@@ -8,7 +8,7 @@ use uplift::text::{bytes, share, thousands};
 use uplift::uniform_risk::LevelCheck;
 use uplift_study::AnyStudy;
 
-use super::alarms::{print_lines, warning};
+use super::alarms::{is_doubted, print_lines, warning};
 use super::consistency::consistency_lines;
 use super::shown_path;
 use crate::error::CommandError;
@@ -22,9 +22,9 @@ pub(crate) fn print_plan(plan: &Plan, terminal: &Terminal) -> Result<(), Command
     let there = |limit: &Option<Limit>| {
         limit.as_ref().map_or(String::new(), |limit| format!(" of {} free", bytes(limit.bytes)))
     };
-    writeln!(out, "Records   {}", head.record_set)?;
     let (analyses, time) = (thousands(head.analyses), duration(head.seconds));
-    writeln!(out, "Cost      {analyses} analyses, about {time} on {} threads", head.threads)?;
+    writeln!(out, "{}: {analyses} analyses, about {time} on {} threads", verdict(plan), head.threads)?;
+    writeln!(out, "Records   {}", head.record_set)?;
     let (memory, disk) = (bytes(head.memory_bytes), bytes(head.disk_bytes));
     let (memory_free, disk_free) = (there(&room.memory_available), there(&room.disk_free));
     writeln!(out, "Memory    {memory}{memory_free}; disk {disk}{disk_free}")?;
@@ -44,9 +44,6 @@ pub(crate) fn print_plan(plan: &Plan, terminal: &Terminal) -> Result<(), Command
     }
     for note in room.tight.iter().chain(&head.notes) {
         writeln!(out, "Note      {note}")?;
-    }
-    if room.cannot.is_empty() {
-        writeln!(out, "\n{}", conclusion(plan))?;
     }
     Ok(())
 }
@@ -90,12 +87,16 @@ fn print_details(out: &mut impl Write, plan: &Plan) -> Result<(), CommandError> 
 }
 
 /// Whether it can be run.
-fn conclusion(plan: &Plan) -> &'static str {
+fn verdict(plan: &Plan) -> &'static str {
     let head = plan.head();
-    if head.would_replace {
-        "A run would be refused, since its result file belongs to another study: see the last note."
+    if !head.room.cannot.is_empty() {
+        "There is no room for a run, see below"
+    } else if head.would_replace {
+        "A run would be refused, since its result file belongs to another study (see the last note)"
+    } else if is_doubted(&head.alarms) {
+        "The study can be run, subject to the mistake? below"
     } else {
-        "The study can be run."
+        "The study can be run"
     }
 }
 

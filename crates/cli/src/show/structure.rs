@@ -2,12 +2,13 @@
 
 use std::io::Write;
 
-use uplift::alarms::{Alarm, Severity};
+use uplift::alarms::Alarm;
 /// The model of a frame that is held against its proxies.
 pub(super) use uplift::structure::WOBBLING_FRAME as WOBBLING;
 use uplift::structure::{Bands, EventRisk, StructureReport};
 use uplift::text::{self, per_cent, short, two_digits};
 
+use super::alarms::is_doubted;
 use super::{ROUNDING_DECIDES, shown_path};
 use crate::error::CommandError;
 
@@ -67,8 +68,7 @@ pub(super) fn print_moved(out: &mut impl Write, moved: &[String], over: &str) ->
 
 /// That an answer is subject to a probable mistake, with a space behind; nothing where there is none.
 pub(super) fn doubt(alarms: &[Alarm]) -> &'static str {
-    let is_doubted = alarms.iter().any(|alarm| alarm.severity == Severity::Mistake);
-    if is_doubted { "subject to the mistake? below, " } else { "" }
+    if is_doubted(alarms) { "subject to the mistake? below, " } else { "" }
 }
 
 /// The record set; a wobbling frame takes both components of it, and what moves in a plane that of the study.
