@@ -272,6 +272,14 @@ fn the_quoted_band_is_by_earthquake_where_records_of_one_are_alike() {
     assert!(limits(&many.1).iter().zip(limits(&four.1)).all(|(a, b)| (a - b).abs() <= 1e-5 * b), "{many:?}");
     let said = study.uplift(&["spectrum", "r.h5"]).ok().stdout;
     assert!(said.contains("(90 % band by earthquake)"), "{said}");
+    study.uplift(&["export", "r.h5", "--json", "-q"]).ok();
+    let exported: Value = serde_json::from_str(&std::fs::read_to_string(study.path().join("r.json")).unwrap()).unwrap();
+    assert_eq!(exported["spectra"][0]["band_of"], "earthquakes");
+    study.uplift(&["report", "r.h5", "-q"]).ok();
+    let page = std::fs::read_to_string(study.path().join("r.html")).unwrap();
+    assert!(
+        page.contains("(90 % confidence band by earthquake)") && page.contains("confidence bands by earthquake, from")
+    );
     study.write("block.toml", "kind = \"block\"\nwidth_m = 0.4\nheight_m = 4\nmass_kg = 1000\n");
     let overturning = |result: &str| study.uplift(&["overturning", "block.toml", "--urs", result, "-q"]).ok().stdout;
     assert!(overturning("r.h5").contains(")†") && overturning("r.h5").contains("\n† band by earthquake\n"));

@@ -1,6 +1,7 @@
 //! Sites with several weighted hazard curves: spectra of the branches, their mean and fractiles, and the joint band
 //! with the bootstrap.
 
+use serde_json::Value;
 use uplift_labelled::LabelledReader;
 
 use crate::common::{SmallStudy, repository};
@@ -76,6 +77,26 @@ fn branches_are_the_studies_of_their_curves() {
     assert!(between > 0, "the branches are mixed");
     let text = study.uplift(&["bootstrap", "study.h5", "--replicates", "20", "--details"]).ok().stdout;
     assert!(text.contains("Records and hazard together"), "{text}");
+    // a spectrum has a second band, which holds those by each curve; what has one curve has one band
+    let bands = |file: &str, name: &str| -> Vec<[f64; 2]> {
+        let told = study.uplift(&["spectrum", file, "--json", "--strength", "0.2,0.4", "-q"]).json();
+        let rows = told["displacements"].as_array().unwrap().iter();
+        let limits = |band: &Value| [0, 1].map(|limit| band[limit].as_f64().unwrap());
+        rows.filter(|row| !row[name].is_null()).map(|row| limits(&row[name])).collect()
+    };
+    assert!(bands("mean.h5", "band_with_hazard_m").is_empty());
+    let with_hazard = bands("study.h5", "band_with_hazard_m");
+    assert_eq!(with_hazard.len(), 2);
+    let by_each = bands("a.h5", "band_m").into_iter().zip(bands("b.h5", "band_m"));
+    for ([lower, upper], ([a, _], [_, b])) in with_hazard.into_iter().zip(by_each) {
+        assert!(a <= lower && lower < upper && upper <= b, "{a} {lower} {upper} {b}");
+    }
+    let told = |more: &[&str]| study.uplift(&[&["spectrum", "study.h5"], more].concat()).ok().stdout;
+    assert!(told(&[]).contains("\n  with its hazard curves  "), "{}", told(&[]));
+    assert!(told(&["--strength", "0.2"]).contains("\n  with its weighted hazard curves: 90 % band "));
+    assert!(told(&["--csv"]).lines().next().unwrap().ends_with(",lower_with_hazard_m,upper_with_hazard_m"));
+    study.uplift(&["report", "study.h5", "-q"]).ok();
+    assert!(std::fs::read_to_string(study.path().join("study.html")).unwrap().contains("with its hazard curves"));
     // the study in the file gives the same study again
     let toml =
         LabelledReader::open(&study.path().join("study.h5")).unwrap().attribute::<String>("/", "study_toml").unwrap();

@@ -48,6 +48,7 @@ use uplift::result::{
     StoredSpectra, StoredSpread, StoredStripes,
 };
 use uplift::text::risks_in_words;
+use uplift::uniform_risk::{BandOf, QuotedUnits};
 use uplift::{Array, JobError, UpliftError};
 use uplift_motion::IntensityMeasure;
 use uplift_plot::{Axis, Band, Figure, Panel, Series, Tone, share_y};
@@ -81,6 +82,8 @@ pub struct FigureSource {
     pub(crate) stored: StoredStripes,
     pub(crate) spectra: StoredSpectra,
     pub(crate) bands: Option<StoredBands>,
+    /// What the quoted bands of each measure take for independent.
+    pub(crate) band_of: Vec<BandOf>,
     pub(crate) spreads: Vec<StoredSpread>,
     pub(crate) influence: Vec<StoredInfluence>,
     pub(crate) consistency: Vec<StoredConsistency>,
@@ -121,6 +124,7 @@ impl FigureSource {
             stored: StoredStripes::read(file)?,
             spectra: file.spectra()?,
             bands: file.bands()?,
+            band_of: QuotedUnits::from_file(file)?.iter().map(|units| units.of).collect(),
             spreads: file.spreads()?,
             // of the risks of its study alone
             influence: if file.is_at_target_risks() { Vec::new() } else { file.influence()? },

@@ -150,14 +150,23 @@ fn remedy(consistency: &StoredConsistency, scope: &Scope, site: usize) -> String
     }
 }
 
-/// The same where a spectrum by PGV and one by PGA disagree because the records miss the hazard at a `site`, by the
-/// measure asked about or by the worse; none where they have it by both.
+/// The same where a spectrum by PGV and one by PGA disagree at a `site`: of repaired spectra by the measure asked about,
+/// or by that which leaves most effective records; else of records that miss the hazard by that measure, or by the worse;
+/// none where neither is so.
 pub(super) fn remedy_of_gap(evidence: &Evidence, scope: &Scope, site: usize) -> Option<String> {
     let misses =
-        |of: &&StoredConsistency| of.bias[site].is_finite() && of.verdict[site].as_str() == Verdict::Inconsistent.key();
-    let worst = |of: &&StoredConsistency| of.bias[site].ln().abs();
-    let all = || evidence.consistency.iter().filter(misses);
-    let asked = all().find(|of| scope.measure == Some(of.scaled_to));
-    let consistency = asked.or_else(|| all().max_by(|a, b| worst(a).total_cmp(&worst(b))))?;
-    Some(remedy(consistency, scope, site))
+        |of: &StoredConsistency| of.bias[site].is_finite() && of.verdict[site].as_str() == Verdict::Inconsistent.key();
+    let is_asked = |of: &StoredConsistency| scope.measure == Some(of.scaled_to);
+    let effective = |of: &Option<Vec<f64>>| of.as_ref().map_or(0.0, |least| least[site]);
+    let rank = |(of, least): &(&StoredConsistency, &Option<Vec<f64>>)| {
+        let is_repaired = of.is_repaired(site);
+        let last = if is_repaired { effective(least) } else { of.bias[site].ln().abs() };
+        (is_repaired, is_asked(of), last)
+    };
+    let all = evidence.consistency.iter().zip(&evidence.least_effective);
+    let found = all.filter(|(of, _)| misses(of) || of.is_repaired(site)).max_by(|a, b| {
+        let (a, b) = (rank(a), rank(b));
+        (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
+    });
+    Some(remedy(found?.0, scope, site))
 }

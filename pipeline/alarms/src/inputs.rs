@@ -32,8 +32,16 @@ pub(super) fn result_alarms(file: &ResultFile) -> Result<Vec<Alarm>, AlarmsError
         alarms.extend(question.as_ref().and_then(few_earthquakes));
     }
     let noticed = head.warnings.iter().filter(|line| !line.is_empty());
-    alarms.extend(noticed.map(|line| Alarm::new(Severity::Note, NOTICED, "Inputs", line.clone(), "")));
+    alarms.extend(noticed.map(|line| noticed_alarm(line)));
     Ok(alarms)
+}
+
+/// Of what was noticed of the inputs; a probable mistake of a record, or whatever it is of, if the line says so.
+pub fn noticed_alarm(line: &str) -> Alarm {
+    match line.split_once(&format!(": {} ", Severity::Mistake.word())) {
+        Some((subject, doubt)) => Alarm::new(Severity::Mistake, NOTICED, subject, doubt.to_owned(), ""),
+        None => Alarm::new(Severity::Note, NOTICED, "Inputs", line.to_owned(), ""),
+    }
 }
 
 /// What a study says but probably does not mean, and that its records are not real ones.
@@ -172,6 +180,16 @@ fn too_few(earthquakes: usize) -> Option<Alarm> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_a_record_probably_does_not_mean_is_no_note() {
+        let doubted = noticed_alarm("RSN1: mistake? PGA 168 g: is its unit right?");
+        assert_eq!(
+            (doubted.severity, doubted.to_string().as_str()),
+            (Severity::Mistake, "RSN1: PGA 168 g: is its unit right?")
+        );
+        assert_eq!(noticed_alarm("RSN1: begins late").severity, Severity::Note);
+    }
 
     #[test]
     fn five_earthquakes_are_no_longer_few() {

@@ -46,7 +46,7 @@ pub use error::AlarmsError;
 pub use evidence::{Evidence, Scope, spectrum_name};
 pub use fit::{FitReach, reach_of_fit};
 pub use hazard::hazard_alarms;
-pub use inputs::{far_factors_alarm, few, few_earthquakes, study_alarms, synthetic_records};
+pub use inputs::{far_factors_alarm, few, few_earthquakes, noticed_alarm, study_alarms, synthetic_records};
 pub use levels::{BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, UpperEnd, below_first_case};
 pub use numbers::number_alarms;
 pub use structure::{OwnRisk, own_risk_alarms, safety_factor_alarm, structure_alarms};

@@ -1,6 +1,8 @@
 //! Spectra of one site and probability by PGV and by PGA that disagree, and not because one of the curves is wrong: the
 //! demand is one, and two numbers for it are one too many.
 
+use std::collections::BTreeMap;
+
 use uplift_job::Array;
 use uplift_job::alarm::{Alarm, Case, RESULT, Severity};
 use uplift_job::text::{per_cent, rounded, short, two_digits};
@@ -25,34 +27,37 @@ struct Gap {
     strength: usize,
     /// The second over the first.
     ratio: f64,
+    /// Whether their bands do not meet; none without bands.
+    outside: Option<bool>,
 }
 
-/// The largest gap between two spectra, of those that their bands do not hold or, without bands, beyond the limit.
+/// The largest gap between two spectra, of those that their bands do not hold or, without bands, beyond the limit; and
+/// of those that no band excuses, since wide ones meet anywhere.
 fn largest_gap(one: Side<'_>, other: Side<'_>, at: &[usize]) -> Option<Gap> {
     let gap = |&strength: &usize| -> Option<Gap> {
         let (a, b) = (one.u_m[strength], other.u_m[strength]);
         // where neither is more than a few millimetres they say nothing of rocking
         let compared = a.is_finite() && b.is_finite() && a > 0.0 && b > 0.0 && a.max(b) > COMPARED_FROM_M;
         let ratio = b / a;
-        let apart = match (one.band_m, other.band_m) {
-            (Some([low_a, high_a]), Some([low_b, high_b])) => {
-                low_a[strength] > high_b[strength] || low_b[strength] > high_a[strength]
-            }
-            _ => ratio.max(1.0 / ratio) > MEASURES_APART,
-        };
-        (compared && apart).then_some(Gap { strength, ratio })
+        let times = ratio.max(1.0 / ratio);
+        let outside = one.band_m.zip(other.band_m).map(|([low_a, high_a], [low_b, high_b])| {
+            low_a[strength] > high_b[strength] || low_b[strength] > high_a[strength]
+        });
+        let apart = outside.unwrap_or(times > MEASURES_APART) || times > MEASURES_APART_DECISIVE;
+        (compared && apart).then_some(Gap { strength, ratio, outside })
     };
     at.iter().filter_map(gap).max_by(|a, b| a.ratio.ln().abs().total_cmp(&b.ratio.ln().abs()))
 }
 
-pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
+/// One for every remedy.
+pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Vec<Alarm> {
     let spectra = &evidence.spectra;
     let of = |measure| spectra.measures.iter().find(|spectra| spectra.measure == measure);
-    let (pgv, pga) = (of(IntensityMeasure::Pgv)?, of(IntensityMeasure::Pga)?);
+    let (Some(pgv), Some(pga)) = (of(IntensityMeasure::Pgv), of(IntensityMeasure::Pga)) else { return Vec::new() };
     let strengths: Vec<usize> = (0..spectra.strengths.len())
         .filter(|&strength| scope.holds_strength(spectra.strengths[strength]) && spectra.strengths[strength] > 0.0)
         .collect();
-    let mut cases = Vec::new();
+    let mut cases: BTreeMap<String, Vec<Case>> = BTreeMap::new();
     // both measures are looked at, whichever is asked about
     for (site, name) in spectra.sites.iter().enumerate() {
         for poe in 0..spectra.poes.len() {
@@ -64,23 +69,26 @@ pub(super) fn alarms(evidence: &Evidence, scope: &Scope) -> Option<Alarm> {
             let side = |of_measure| side(of_measure, bands, [site, poe]);
             let (one, other) = (side(pgv), side(pga));
             let Some(gap) = largest_gap(one, other, &strengths) else { continue };
-            let banded = one.band_m.is_some() && other.band_m.is_some();
             let subject = format!("{name}, {}", evidence.risk(poe));
-            cases.push(case((evidence, scope), (site, subject), gap, banded));
+            let case = case((evidence, scope), (site, subject), gap);
+            cases.entry(case.what_to_do.clone()).or_default().push(case);
         }
     }
-    Alarm::from_cases("measures-disagree", cases)
+    cases.into_values().filter_map(|cases| Alarm::from_cases("measures-disagree", cases)).collect()
 }
 
-fn case((evidence, scope): (&Evidence, &Scope), (site, subject): (usize, String), gap: Gap, banded: bool) -> Case {
+fn case((evidence, scope): (&Evidence, &Scope), (site, subject): (usize, String), gap: Gap) -> Case {
     let times = gap.ratio.max(1.0 / gap.ratio);
     let [larger, smaller] = if gap.ratio > 1.0 { ["PGA", "PGV"] } else { ["PGV", "PGA"] };
-    let allowed = match &evidence.bands {
-        Some(bands) if banded => format!(", outside both {} bands", per_cent(bands.confidence)),
+    let allowed = match (&evidence.bands, gap.outside) {
+        (Some(bands), Some(true)) => format!(", outside both {} bands", per_cent(bands.confidence)),
+        (Some(bands), Some(false)) => format!(", though their wide {} bands overlap", per_cent(bands.confidence)),
         _ => String::new(),
     };
+    // of a result that has the spectra to use a note is enough; a design is about to use others
+    let is_repaired = !scope.for_design && evidence.consistency.iter().any(|of| of.is_repaired(site));
     Case {
-        severity: if times > MEASURES_APART_DECISIVE { Severity::Caution } else { Severity::Note },
+        severity: if times > MEASURES_APART_DECISIVE && !is_repaired { Severity::Caution } else { Severity::Note },
         badness: times,
         subject,
         what: format!(
@@ -121,19 +129,20 @@ mod tests {
         // 2.5 times in millimetres; 1.9 times; a quarter; censored
         let (one, other) = ([0.001, 0.1, 0.2, 0.1], [0.0025, 0.19, 0.05, f64::INFINITY]);
         let gap = largest_gap(side(&one), side(&other), &AT);
-        assert_eq!(gap, Some(Gap { strength: 2, ratio: 0.25 }));
+        assert_eq!(gap, Some(Gap { strength: 2, ratio: 0.25, outside: None }));
         assert_eq!(largest_gap(side(&one), side(&other), &AT[..2]), None);
     }
 
     #[test]
-    fn with_bands_only_what_they_do_not_hold_counts() {
-        let (one, other) = ([0.1, 0.1, 0.1, 0.1], [0.5, 0.13, 0.1, 0.1]);
+    fn with_bands_what_they_do_not_hold_counts_and_what_none_excuses() {
+        let (one, other) = ([0.1, 0.1, 0.1, 0.1], [0.29, 0.13, 0.1, 0.31]);
         let (low, high) = ([0.08, 0.09, 0.08, 0.08], [0.12, 0.11, 0.12, 0.12]);
-        let (other_low, other_high) = ([0.11, 0.12, 0.05, 0.05], [0.9, 0.14, 0.2, 0.2]);
+        let (other_low, other_high) = ([0.11, 0.12, 0.05, 0.1], [0.9, 0.14, 0.2, 0.9]);
         let one = Side { u_m: &one, band_m: Some([&low, &high]) };
         let other = Side { u_m: &other, band_m: Some([&other_low, &other_high]) };
-        // five times, but the bands meet; 1.3 times, and they do not
-        let gap = largest_gap(one, other, &AT);
-        assert_eq!(gap.map(|gap| gap.strength), Some(1));
+        // 2.9 times, but the bands meet; 1.3 times, and they do not; 3.1 times is too much for any band
+        let gap = |at: &[usize]| largest_gap(one, other, at).map(|gap| (gap.strength, gap.outside));
+        assert_eq!(gap(&AT[..3]), Some((1, Some(true))));
+        assert_eq!(gap(&AT), Some((3, Some(false))));
     }
 }

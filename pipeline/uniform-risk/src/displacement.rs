@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
-use uplift_bootstrap::truth_limits;
+use uplift_bootstrap::{inferred_limits_over_curves, truth_limits};
 use uplift_hazard::{rate_from_probability, return_period_from_probability};
 use uplift_job::table::{ColumnsOf, table_text};
 use uplift_job::text::nearest;
@@ -40,6 +40,9 @@ pub struct DisplacementOptions {
     /// Whether all probabilities of the study are read where no risks are given.
     #[arg(skip)]
     pub every_probability: bool,
+    /// Whether bands over the weighted hazard curves of a site are left out, which take as long as all curves do.
+    #[arg(skip)]
+    pub without_hazard: bool,
     /// Sites [default: all]
     #[arg(long = "site", value_name = "SITE[,…]", value_delimiter = ',')]
     pub sites: Vec<String>,
@@ -74,6 +77,10 @@ pub struct Displacement {
     /// Limits of its 90 % confidence band, m: where it lies for all records like those at hand. None of a single
     /// record.
     pub band_m: Option<[f64; 2]>,
+    /// The same where it is not known either which of the site's weighted hazard curves holds, m. None of a site with
+    /// one curve, and of repaired spectra.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub band_with_hazard_m: Option<[f64; 2]>,
 }
 
 /// Displacements of a result, by site, then risk, then strength.
@@ -132,9 +139,15 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
     let stripes = stored_measure(file, &axes, &[], measure, study.risk.extrapolate)?;
     let units = QuotedUnits::read(file, measure, &Question::from_result(file)?);
     let reweighing = if asked.repaired { Reweighing::from_result(file)? } else { None };
-    let of_strength =
-        |&strength: &usize| bands(&stripes, (&units.records, reweighing.as_ref()), &targets_per_year, strength, &sites);
-    // [strength][site][poe]
+    let question = BandsAsked {
+        stripes: &stripes,
+        units: &units.records,
+        reweighing: reweighing.as_ref(),
+        targets_per_year: &targets_per_year,
+        without_hazard: asked.without_hazard,
+    };
+    let of_strength = |&strength: &usize| question.bands(strength, &sites);
+    // [strength][site][poe][by one curve, by the weighted ones]
     let bands_m = looked_at.par_iter().map(of_strength).collect::<Result<Vec<_>, _>>()?;
     let row = |strength: usize| looked_at.partition_point(|&own| own < strength);
 
@@ -145,7 +158,12 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
                 let [left_m, right_m] = [place.left, place.right].map(|strength| u_m[[site, poe, strength]]);
                 let [left_limits_m, right_limits_m] =
                     [place.left, place.right].map(|at| bands_m[row(at)][of_site][of_poe]);
-                let band_m = [0, 1].map(|limit| rule(place.between(left_limits_m[limit], right_limits_m[limit])));
+                let [band_m, band_with_hazard_m] = [0, 1].map(|kind| {
+                    let (left_m, right_m) = (left_limits_m[kind], right_limits_m[kind]);
+                    let band_m = [0, 1].map(|limit| rule(place.between(left_m[limit], right_m[limit])));
+                    // a single record has none
+                    Some(band_m).filter(|[_, upper_m]| !upper_m.is_nan())
+                });
                 displacements.push(Displacement {
                     site: spectra.sites[site].clone(),
                     im: measure.label(),
@@ -154,8 +172,8 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
                     years: spectra.years,
                     return_period_years: return_period_from_probability(spectra.poes[poe], spectra.years)?,
                     u_m: rule(place.between(left_m, right_m)),
-                    // a single record has none
-                    band_m: Some(band_m).filter(|[_, upper_m]| !upper_m.is_nan()),
+                    band_m,
+                    band_with_hazard_m,
                 });
             }
         }
@@ -180,8 +198,8 @@ impl DisplacementReport {
     /// # Errors
     /// None for a report that was read.
     pub fn csv(&self) -> Result<Vec<u8>, JobError> {
-        let limit = |own: &Displacement, at: usize| own.band_m.map_or(f64::NAN, |limits_m| limits_m[at]);
-        let columns = ColumnsOf::new(&self.displacements)
+        let limit = |band_m: Option<[f64; 2]>, at: usize| band_m.map_or(f64::NAN, |limits_m| limits_m[at]);
+        let mut columns = ColumnsOf::new(&self.displacements)
             .with("site", |own| own.site.as_str())
             .with("im", |own| own.im)
             .with("strength", |own| own.strength)
@@ -189,34 +207,49 @@ impl DisplacementReport {
             .with("years", |own| own.years)
             .with("return_period_years", |own| own.return_period_years)
             .with("u_m", |own| own.u_m)
-            .with(QUOTED_LIMITS[0], |own| limit(own, 0))
-            .with(QUOTED_LIMITS[1], |own| limit(own, 1))
-            .build();
-        table_text(Path::new("standard output"), "", columns)
+            .with(QUOTED_LIMITS[0], |own| limit(own.band_m, 0))
+            .with(QUOTED_LIMITS[1], |own| limit(own.band_m, 1));
+        if self.displacements.iter().any(|own| own.band_with_hazard_m.is_some()) {
+            columns = columns
+                .with("lower_with_hazard_m", |own| limit(own.band_with_hazard_m, 0))
+                .with("upper_with_hazard_m", |own| limit(own.band_with_hazard_m, 1));
+        }
+        table_text(Path::new("standard output"), "", columns.build())
     }
 }
 
-/// Limits of the bands at a strength of the result, `[site][target]`, m; NaN of a single record, and of a site without
-/// repair where repaired spectra are asked for.
-///
-/// - `units`: the records of each pair or earthquake.
-/// - `reweighing`: what has the weights of repaired spectra.
-fn bands(
-    stripes: &StoredMeasure,
-    (units, reweighing): (&[Vec<usize>], Option<&Reweighing>),
-    targets_per_year: &[f64],
-    strength: usize,
-    sites: &[usize],
-) -> Result<Vec<Vec<[f64; 2]>>, UniformRiskError> {
-    let demand = stripes.demand(strength)?;
-    let of_site = |&site: &usize| {
-        Ok(match reweighing.map(|own| own.weights(stripes.measure, site)) {
-            None => truth_limits(&demand, &stripes.weights[site], units, targets_per_year, CONFIDENCE)?,
-            Some(Some(weights)) => truth_limits(&demand, weights, units, targets_per_year, CONFIDENCE)?,
-            Some(None) => vec![[f64::NAN; 2]; targets_per_year.len()],
-        })
-    };
-    sites.iter().map(of_site).collect()
+/// What bands are asked for.
+struct BandsAsked<'a> {
+    stripes: &'a StoredMeasure,
+    /// The records of each pair or earthquake.
+    units: &'a [Vec<usize>],
+    /// What has the weights of repaired spectra; none of plain ones.
+    reweighing: Option<&'a Reweighing>,
+    targets_per_year: &'a [f64],
+    /// Whether those over the weighted hazard curves are left out.
+    without_hazard: bool,
+}
+
+impl BandsAsked<'_> {
+    /// Limits at a strength of the result, by the mean hazard curve and over the weighted ones,
+    /// `[site][target][kind]`, m; NaN of a single record, of a site without repair where repaired spectra are asked
+    /// for, and over the weighted curves where these are left out, where there are none, and of repaired spectra.
+    fn bands(&self, strength: usize, sites: &[usize]) -> Result<Vec<Vec<[[f64; 2]; 2]>>, UniformRiskError> {
+        let Self { stripes, units, reweighing, targets_per_year, without_hazard } = *self;
+        let demand = stripes.demand(strength)?;
+        let of_site = |&site: &usize| {
+            let limits_m = match reweighing.map(|own| own.weights(stripes.measure, site)) {
+                None => truth_limits(&demand, &stripes.weights[site], units, targets_per_year, CONFIDENCE)?,
+                Some(Some(weights)) => truth_limits(&demand, weights, units, targets_per_year, CONFIDENCE)?,
+                Some(None) => vec![[f64::NAN; 2]; targets_per_year.len()],
+            };
+            let curves = if reweighing.is_some() || without_hazard { &[] } else { &stripes.branches[site][..] };
+            let over_curves = |&target: &f64| inferred_limits_over_curves(&demand, curves, units, (target, CONFIDENCE));
+            let over_curves_m = targets_per_year.iter().map(over_curves).collect::<Result<Vec<_>, _>>()?;
+            Ok(limits_m.into_iter().zip(over_curves_m).map(<[_; 2]>::from).collect())
+        };
+        sites.iter().map(of_site).collect()
+    }
 }
 
 /// The spectra by `measure`, `[site, poe, strength]`, m: the plain or the repaired ones.

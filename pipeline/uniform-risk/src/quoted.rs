@@ -19,6 +19,16 @@ pub enum BandOf {
     Earthquakes,
 }
 
+impl BandOf {
+    /// What to say behind a band of whom it is; nothing of one by record, which is what it seems to be.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Records => "",
+            Self::Earthquakes => " by earthquake",
+        }
+    }
+}
+
 impl From<BandOf> for &'static str {
     /// `records` or `earthquakes`, as files and JSON have it.
     fn from(of: BandOf) -> Self {

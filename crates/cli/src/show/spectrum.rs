@@ -6,8 +6,9 @@ use std::path::Path;
 use uplift::spectrum::SpectrumReport;
 use uplift::text::{
     Table, cell_with_band, counted, kind_of_risks, metres_with_named_band, per_cent, risk_in_words, risk_name, rounded,
+    two_digits,
 };
-use uplift::uniform_risk::{BandOf, CONFIDENCE, Displacement, DisplacementReport};
+use uplift::uniform_risk::{CONFIDENCE, Displacement, DisplacementReport};
 
 use super::alarms::print_result_warnings;
 use crate::error::CommandError;
@@ -37,7 +38,8 @@ pub(super) fn print_oscillator(out: &mut impl Write, report: &DisplacementReport
 /// The number first, then what it is of.
 fn print_answers(out: &mut impl Write, report: &DisplacementReport) -> Result<(), CommandError> {
     let repaired = if report.repaired { ", repaired" } else { "" };
-    let of = if report.band_of == BandOf::Earthquakes { ", band by earthquake" } else { "" };
+    let of = Some(report.band_of.words()).filter(|words| !words.is_empty());
+    let of = of.map_or_else(String::new, |words| format!(", band{words}"));
     for own in &report.displacements {
         let Displacement { site, im, strength, u_m, band_m, .. } = own;
         let displacement = if u_m.is_nan() {
@@ -47,6 +49,9 @@ fn print_answers(out: &mut impl Write, report: &DisplacementReport) -> Result<()
         };
         let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
         writeln!(out, "{displacement}  {site}, strength {strength}, {}, by {im}{repaired}{capacity}{of}", risk(own))?;
+        if let Some([lower, upper]) = own.band_with_hazard_m.map(|limits_m| limits_m.map(two_digits)) {
+            writeln!(out, "  with its weighted hazard curves: {} band {lower} to {upper} m", per_cent(CONFIDENCE))?;
+        }
     }
     Ok(())
 }
@@ -75,16 +80,21 @@ pub(super) fn print_displacements(out: &mut impl Write, report: &DisplacementRep
     let capacity = report.capacity_m.map_or_else(String::new, |capacity_m| format!(", capacity {capacity_m} m"));
     let is_banded = report.displacements.iter().any(|own| own.band_m.is_some());
     // wider than the number of records suggests
-    let of = if report.band_of == BandOf::Earthquakes { " by earthquake" } else { "" };
+    let of = report.band_of.words();
     let band = if is_banded { format!(" ({} band{of})", per_cent(CONFIDENCE)) } else { String::new() };
     writeln!(out, "Displacement, m{band}, at strength{capacity}")?;
-    let name = |row: &&[Displacement]| risk_name(row[0].poe, row[0].years);
-    let table = Table::from_rows(&rows)
-        .left("site", |row| row[0].site.clone())
-        .when(risks > 1, |table| table.right("risk", name))
+    // again below with the band over the weighted hazard curves of a site that has them
+    let with_hazard = |row: &[Displacement]| row.iter().any(|own| own.band_with_hazard_m.is_some());
+    let lines = rows.iter().flat_map(|&row| [Some((row, false)), with_hazard(row).then_some((row, true))]).flatten();
+    let table = Table::from_rows(lines)
+        .left("site", |(row, again)| if again { "  with its hazard curves".to_owned() } else { row[0].site.clone() })
+        .when(risks > 1, |table| table.right("risk", |(row, _)| risk_name(row[0].poe, row[0].years)))
         .each(0..rows[0].len(), |table, column| {
             let heading = rounded(rows[0][column].strength, 6).to_string();
-            table.right(heading, move |row| cell_with_band(row[column].u_m, row[column].band_m))
+            table.right(heading, move |(row, again)| {
+                let own = &row[column];
+                cell_with_band(own.u_m, if again { own.band_with_hazard_m } else { own.band_m })
+            })
         });
     Ok(writeln!(out, "{table}")?)
 }

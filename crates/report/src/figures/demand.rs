@@ -143,7 +143,7 @@ pub(super) fn risk_curves(source: &FigureSource) -> Result<Vec<Figure>, UpliftEr
             panel.series.extend(source.targets((1e-4, 2.8), Tone::Distinct(5)));
         }
         let label = measure.measure.label();
-        let caption = "Annual rate at which a displacement is exceeded (Fig. 4.4a), and the target rates.";
+        let caption = "Annual rate at which a displacement is exceeded (Fig. 4.4a).";
         figures.push(source.figure(
             format!("risk-{}", measure.measure.key()),
             format!("Risk of exceeding a displacement, by {label}"),

@@ -46,7 +46,7 @@ pub(super) fn disaggregation(source: &FigureSource) -> Vec<Figure> {
         };
         let label = influence.measure.label();
         let caption = format!(
-            "Share of the risk at {} from below a level of {label}; the rest to 100 % is from above the last level.",
+            "Share of the risk at {} from below a level of {label}; the rest is from above the last level.",
             risk_in_words(stored.poes[poe], stored.years)
         );
         let id = format!("disaggregation-{}", influence.measure.key());
@@ -82,7 +82,7 @@ pub(super) fn influence(source: &FigureSource) -> Vec<Figure> {
         };
         let label = influence.measure.label();
         let caption = format!(
-            "Change of the spectrum of {risk} without one {one}; the most influential are named.",
+            "Change of the spectrum of {risk} without one {one}.",
             one = if stored.units.are_records() { "record" } else { "pair" },
             risk = risk_in_words(stored.poes[poe], stored.years)
         );

@@ -66,7 +66,7 @@ pub(super) fn sites(source: &FigureSource) -> Option<Figure> {
     let panel = Panel::lines("", Axis::linear(STRENGTH), Axis::log(DISPLACEMENT), series);
     let [risk, label] = [risk_in_words(spectra.poes[poe], spectra.years), of_measure.measure.label().to_owned()];
     let title = format!("Uniform risk spectra of {risk}, by {label}");
-    let caption = "Displacement of a rocking structure, by its uplift strength.";
+    let caption = "Displacement of a rocking structure by uplift strength.";
     Some(source.figure("urs-sites", title, caption, vec![panel]))
 }
 
@@ -75,7 +75,8 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
     spectra
         .measures
         .iter()
-        .map(|of_measure| {
+        .zip(&source.band_of)
+        .map(|(of_measure, band_of)| {
             let label = of_measure.measure.label();
             let panel = |site: usize| {
                 let line = |(poe, probability): (usize, &f64)| {
@@ -94,9 +95,10 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
             let banded = source.bands.as_ref().and_then(|bands| Some((bands, bands.by_measure(of_measure.measure)?)));
             let banded = banded.map_or_else(String::new, |(bands, own)| {
                 let confidence = per_cent(bands.confidence);
+                let by = band_of.words();
                 let size = bands.sizes[bands.place_of_set(source.stored.records.len())];
                 if own.inferred.is_some() {
-                    format!(" Areas: {confidence} confidence bands, from {size} records.")
+                    format!(" Areas: {confidence} confidence bands{by}, from {size} records.")
                 } else {
                     format!(" Areas: {confidence} of the spectra of {}, {size} records in each.", bands.drawn_words())
                 }

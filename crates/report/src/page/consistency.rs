@@ -38,8 +38,7 @@ pub(super) fn consistency(source: &FigureSource) -> Option<TitledTable> {
         "If inconsistent, use other records or uplift consistency --repair."
     };
     let note = format!(
-        "Level of the other measure in the scaled records over that of the site's hazard curve; bias: mean ratio \
-         over the rates compared. {repair}"
+        "Level of the other measure in the scaled records over the site's; bias: mean over the rates compared. {repair}"
     );
     TitledTable::new("consistency-table", "Hazard consistency", note, table).unless_empty()
 }

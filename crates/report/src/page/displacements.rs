@@ -2,8 +2,8 @@
 
 use uplift::UpliftError;
 use uplift::result::ResultFile;
-use uplift::text::cell_with_band;
-use uplift::uniform_risk::{DisplacementOptions, displacements};
+use uplift::text::{cell_with_band, spectrum_words};
+use uplift::uniform_risk::{Displacement, DisplacementOptions, displacements};
 use uplift_motion::IntensityMeasure;
 
 use crate::figures::FigureSource;
@@ -14,13 +14,34 @@ pub(super) struct Row {
     pub(super) measure: IntensityMeasure,
     pub(super) site: usize,
     pub(super) poe: usize,
-    /// Whether it is of weighted records.
-    pub(super) repaired: bool,
+    pub(super) kind: Kind,
     /// A cell for each strength.
     pub(super) cells: Vec<String>,
 }
 
-/// The displacements by every measure at the strengths `shown`, by position; the repaired ones below the plain ones.
+/// Which displacements a row has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Plain,
+    /// Of weighted records.
+    Repaired,
+    /// The plain ones, with bands over the weighted hazard curves of the site.
+    WithHazard,
+}
+
+impl Kind {
+    /// What the row is of, called so.
+    pub(super) fn words(self, name: &str) -> String {
+        match self {
+            Self::Plain => name.to_owned(),
+            Self::Repaired => spectrum_words(name, true),
+            Self::WithHazard => format!("{name}, with its hazard curves"),
+        }
+    }
+}
+
+/// The displacements by every measure at the strengths `shown`, by position; below the plain ones those with bands over
+/// the hazard curves of a site, and the repaired ones.
 ///
 /// # Errors
 /// A file that is damaged.
@@ -43,9 +64,16 @@ pub(super) fn rows(file: &ResultFile, source: &FigureSource, shown: &[usize]) ->
         for (index, ([site, poe], _)) in of.u_m.blocks::<2>().enumerate() {
             let spectrum = index * shown.len()..(index + 1) * shown.len();
             for (found, repaired) in found.iter().zip([false, true]) {
+                let found = &found[spectrum.clone()];
+                let mut add = |kind, band_m: fn(&Displacement) -> Option<[f64; 2]>| {
+                    let cells = found.iter().map(|own| cell_with_band(own.u_m, band_m(own))).collect();
+                    rows.push(Row { measure: of.measure, site, poe, kind, cells });
+                };
                 if !repaired || is_repaired(site) {
-                    let cells = found[spectrum.clone()].iter().map(|own| cell_with_band(own.u_m, own.band_m)).collect();
-                    rows.push(Row { measure: of.measure, site, poe, repaired, cells });
+                    add(if repaired { Kind::Repaired } else { Kind::Plain }, |own| own.band_m);
+                }
+                if found.iter().any(|own| own.band_with_hazard_m.is_some()) {
+                    add(Kind::WithHazard, |own| own.band_with_hazard_m);
                 }
             }
         }

@@ -2,13 +2,12 @@
 
 use uplift::UpliftError;
 use uplift::influence::{level_of_share, rank_records};
-use uplift::result::{ResultFile, StoredSpectra};
-use uplift::text::{
-    Table, TableOf, kind_of_risks, metres, nearest, risk_in_words, risk_name, spectrum_words, two_digits,
-};
+use uplift::result::{MeasureSpectra, ResultFile, StoredSpectra};
+use uplift::text::{Table, TableOf, kind_of_risks, metres, nearest, risk_in_words, risk_name, two_digits};
+use uplift::uniform_risk::BandOf;
 
 use super::consistency::consistency;
-use super::displacements::{Row, rows};
+use super::displacements::{Kind, Row, rows};
 use super::{Content, Part, TitledTable, drawn};
 use crate::figures::{Extent, FigureSource};
 
@@ -85,14 +84,15 @@ fn first(source: &FigureSource, rows: &[Row]) -> Option<TitledTable> {
     let rows: Vec<&Row> = rows.iter().filter(is_shown).collect();
     let risk = |poe: usize| risk_in_words(spectra.poes[poe], spectra.years);
     let of_risk = if is_one { String::new() } else { format!(" of {}", risk(poe)) };
-    let title = format!("Displacement, m,{of_risk} by {} (90 % confidence band)", measure.label());
-    let is_repaired = rows.iter().any(|row| row.repaired);
+    let title =
+        format!("Displacement, m,{of_risk} by {} (90 % confidence band{})", measure.label(), source.band_of[0].words());
+    let is_repaired = rows.iter().any(|row| row.kind == Kind::Repaired);
     let is_cut = spectra.sites.len() > FIRST_SITES;
     let cut = if is_cut { "The first sites; all are in the table of all displacements. " } else { "" };
     let note = format!("{cut}{}", if is_repaired { REPAIRED } else { "" });
     let name = |row: &Row| {
         let name = if is_one { risk(row.poe) } else { spectra.sites[row.site].clone() };
-        spectrum_words(&name, row.repaired)
+        row.kind.words(&name)
     };
     let table = Table::from_rows(rows.iter().copied()).left(if is_one { "probability" } else { "site" }, name);
     Some(over_strengths(source, ("summary", title, &note), table))
@@ -103,21 +103,25 @@ fn all(source: &FigureSource, rows: &[Row]) -> TitledTable {
     let spectra = &source.spectra;
     let table = Table::from_rows(rows.iter().filter(|row| row.poe == 0))
         .left("site", |row| &spectra.sites[row.site])
-        .left("measure", |row| spectrum_words(row.measure.label(), row.repaired));
+        .left("measure", |row| row.kind.words(row.measure.label()));
     let table = spectra.poes.iter().enumerate().fold(table, |table, (poe, &probability)| {
         let risk = risk_name(probability, spectra.years);
         table.each(shown_strengths(source).into_iter().enumerate(), |table, (place, eta)| {
             table.right(format!("{risk}: {}", strength(spectra, eta)), move |row: &Row| {
-                let is_same = |of: &&Row| {
-                    (of.measure, of.site, of.poe, of.repaired) == (row.measure, row.site, poe, row.repaired)
-                };
+                let is_same =
+                    |of: &&Row| (of.measure, of.site, of.poe, of.kind) == (row.measure, row.site, poe, row.kind);
                 rows.iter().find(is_same).map_or_else(String::new, |of| of.cells[place].clone())
             })
         })
     });
     let kind = kind_of_risks(&spectra.poes, spectra.years).map_or_else(String::new, |kind| format!(", {kind}"));
     let title = format!("All displacements, m (90 % confidence band{kind})");
-    TitledTable { group: UPLIFTS_AT, ..TitledTable::new("displacements", title, "", table) }
+    let by = |(of, band_of): (&MeasureSpectra, &BandOf)| format!("{}{}", of.measure.label(), band_of.words());
+    let bands: Vec<String> = spectra.measures.iter().zip(&source.band_of).map(by).collect();
+    let note = format!("Bands: {}.", bands.join(", "));
+    let is_told = source.band_of.contains(&BandOf::Earthquakes);
+    let note = if is_told { note.as_str() } else { "" };
+    TitledTable { group: UPLIFTS_AT, ..TitledTable::new("displacements", title, note, table) }
 }
 
 /// A table of displacements: a column for each strength shown.
@@ -201,7 +205,7 @@ fn records(source: &FigureSource) -> Option<TitledTable> {
         .right("largest, %", |(.., of)| format!("{:+.1}", 100.0 * of.largest_change))
         .right("at strength", |(.., of)| format!("{:.3}", of.strength));
     let risk = risk_in_words(stored.poes[poe], stored.years);
-    let note = format!("Change of the spectrum of {risk} without the record that changes it most.");
+    let note = format!("Change of the spectrum of {risk} without its most influential record.");
     TitledTable::new("records", "Influence of single records", note, table).unless_empty()
 }
 

@@ -57,6 +57,7 @@ impl Export {
                 self.places(row).map(|at| cell(quantity, row.of_measure, at)).collect();
         }
         spectrum["confidence"] = CONFIDENCE.into();
+        spectrum["band_of"] = <&str>::from(row.band_of).into();
         add_quoted(&mut spectrum, row, BandKind::PLAIN);
         spectrum["fit"] = coefficients(&row.spectrum.fit);
         spectrum["bands"] = self.bands_json(row, BandKind::PLAIN).into();

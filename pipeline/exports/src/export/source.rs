@@ -14,6 +14,7 @@ use uplift_result::{
 use uplift_studies::uniform_risk::quoted_bands_m;
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::consistency::least_effective;
+use uplift_uniform_risk::{BandOf, QuotedUnits};
 
 use super::added::{Added, Influence};
 use crate::error::ExportsError;
@@ -26,6 +27,8 @@ pub struct Export {
     /// Limits of the quoted band of every ordinate, m, by measure, site, probability, then strength; none for a single
     /// record.
     pub(super) quoted_m: Vec<Option<[f64; 2]>>,
+    /// What they take for independent, by measure.
+    band_of: Vec<BandOf>,
     /// The same of the repaired spectra; none without repair.
     repaired_quoted_m: Vec<Option<[f64; 2]>>,
     pub(super) bands: Option<StoredBands>,
@@ -62,6 +65,8 @@ pub(super) struct Row<'a> {
     /// [`Export::quoted_m`] over the strengths.
     quoted_m: &'a [Option<[f64; 2]>],
     repaired_quoted_m: &'a [Option<[f64; 2]>],
+    /// What these bands take for independent.
+    pub(super) band_of: BandOf,
     /// Years.
     pub(super) return_period: f64,
 }
@@ -95,6 +100,7 @@ impl Export {
             study: file.stored_study()?,
             quoted_m: quoted_bands_m(file, &spectra, false)?,
             repaired_quoted_m: quoted_bands_m(file, &spectra, true)?,
+            band_of: QuotedUnits::from_file(file)?.iter().map(|units| units.of).collect(),
             bands: file.bands()?,
             spreads: file.spreads()?,
             hazard: file.hazard()?,
@@ -131,8 +137,9 @@ impl Export {
 
     /// Every spectrum, by measure, then site, then probability.
     pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        let places = self.spectra.measures.iter().flat_map(|of| of.fits.blocks::<2>().map(move |(at, _)| (at, of)));
-        places.zip(self.spectra.rows()).enumerate().map(|(index, ((at, of_measure), spectrum))| {
+        let measures = self.spectra.measures.iter().zip(&self.band_of);
+        let places = measures.flat_map(|(of, band_of)| of.fits.blocks::<2>().map(move |(at, _)| (at, of, *band_of)));
+        places.zip(self.spectra.rows()).enumerate().map(|(index, ((at, of_measure, band_of), spectrum))| {
             let strengths = self.spectra.strengths.len();
             let ordinates = index * strengths..(index + 1) * strengths;
             Row {
@@ -141,6 +148,7 @@ impl Export {
                 spectrum,
                 quoted_m: &self.quoted_m[ordinates.clone()],
                 repaired_quoted_m: &self.repaired_quoted_m[ordinates],
+                band_of,
                 return_period: self.return_periods[at[1]],
             }
         })

@@ -84,7 +84,14 @@ pub fn quoted_bands_m(
             continue;
         }
         let (strengths, measure) = (spectra.strengths.clone(), Some(of.measure));
-        let asked = DisplacementOptions { strengths, measure, every_probability: true, repaired, ..Default::default() };
+        let asked = DisplacementOptions {
+            strengths,
+            measure,
+            every_probability: true,
+            without_hazard: true,
+            repaired,
+            ..Default::default()
+        };
         bands_m.extend(displacements(file, &asked)?.displacements.into_iter().map(|own| own.band_m));
     }
     Ok(bands_m)

@@ -7,14 +7,14 @@ use std::time::Duration;
 
 use serde::Serialize;
 use uplift_alarms::{
-    BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, CurvesAtSite, far_factors_alarm, few, few_earthquakes, hazard_alarms, ranked,
-    study_alarms,
+    BELOW_FIRST_LEVEL, BEYOND_LAST_LEVEL, CurvesAtSite, far_factors_alarm, few, few_earthquakes, hazard_alarms,
+    noticed_alarm, ranked, study_alarms,
 };
 use uplift_engine::analysis::seconds;
 use uplift_inputs::{
     OtherHazard, Record, RecordSet, SiteHazard, SiteList, read_hazard, read_other_hazard, read_records,
 };
-use uplift_job::alarm::Alarm;
+use uplift_job::alarm::{Alarm, Severity};
 use uplift_job::events::Events;
 use uplift_job::machine::{Needs, PROGRAM_BYTES};
 use uplift_job::study_run::PlanHead;
@@ -80,6 +80,8 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
     let answer = Answer::from_plan(study, &records, (&hazard, &other_hazard), is_repaired)?;
     let (of_earthquakes, consistency) = (few_earthquakes(answer.question()), answer.report(&[]));
     let curve_alarms = curve_alarms(study, (&hazard, &other_hazard), &consistency);
+    let (doubted, notes): (Vec<Alarm>, Vec<Alarm>) =
+        notes.iter().map(|line| noticed_alarm(line)).partition(|alarm| alarm.severity == Severity::Mistake);
     let head = PlanHead {
         study: study_file.to_owned(),
         record_set: records.description.clone(),
@@ -92,9 +94,14 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
         room: needs.room(&study.output.file),
         output: study.output.file.clone(),
         alarms: ranked(
-            input_alarms(study, &records).chain(of_earthquakes).chain(curve_alarms).chain(of_ends).collect(),
+            input_alarms(study, &records)
+                .chain(of_earthquakes)
+                .chain(curve_alarms)
+                .chain(of_ends)
+                .chain(doubted)
+                .collect(),
         ),
-        notes,
+        notes: notes.into_iter().map(|alarm| alarm.what).collect(),
         would_replace: false,
     };
     Ok(Plan { head, levels, consistency })
