@@ -313,7 +313,7 @@ fn structures_without_a_capacity() {
     assert!(exact["demand_m"].as_f64() < exact["zero_stiffness_demand_m"].as_f64());
     let stiff = ["design", "stiff.toml", "--urs", "r.h5"];
     let shown = study.uplift(&stiff).ok().stdout;
-    assert!(shown.contains("no capacity: the force does not fall: no rule applies"), "{shown}");
+    assert!(shown.contains("unlimited capacity: the force does not fall: no rule applies"), "{shown}");
     let shown = study.uplift(&[&stiff[..], &["--details"]].concat()).ok().stdout;
     assert!(shown.contains("do not apply") && shown.contains("warning    post-uplift stiffness"), "{shown}");
 }
@@ -380,7 +380,7 @@ fn differences_from_the_study_are_reported() {
     let own = ["design", "other.toml", "--urs", "r-other.h5", "--spectrum-only", "--json"];
     let own = study.uplift(&own).json();
     assert!(own["own_oscillator"].is_null() && own["other_oscillator"] == false, "{own}");
-    for (factor, is_other) in [(1.004, false), (1.02, true)] {
+    for (factor, is_other) in [(1.08, false), (1.12, true)] {
         let own_mm = 4.0 * 0.5 / needed_mm * factor;
         study.write("near.toml", &format!("{BLOCK}uplift_displacement_m = {}\n", 1e-3 * own_mm));
         assert_eq!(design(&study, "near.toml", &[])["other_oscillator"], is_other, "{own_mm}");
@@ -405,13 +405,11 @@ fn a_verdict_is_that_of_rules_measures_and_own_demand() {
     let (first, second, own) = said("100");
     assert!(first.ends_with(", NOT satisfied; safety factor 100 (Eq. 3.15)") && !own, "{first}");
     assert!(second.contains(": NOT satisfied by equal displacement (") && !second.contains("; "), "{second}");
-    let between = (10..40).map(|factor| said(&factor.to_string())).find(|(first, ..)| first.contains("partly"));
+    let between = (10..40).map(|factor| said(&factor.to_string())).find(|(first, ..)| first.contains(" checks"));
     let (first, second, _) = between.unwrap();
     // what is satisfied and what is not
-    assert!(
-        first.contains(" partly satisfied (by ") && first.contains(", NOT by ") && !first.contains("2.5"),
-        "{first}"
-    );
+    let [one, two] = [1, 2].map(|missed| format!(" NOT satisfied by {missed} of 3 checks"));
+    assert!((first.contains(&one) || first.contains(&two)) && !first.contains("2.5"), "{first}");
     assert!(second.contains(": satisfied by ") && second.contains("; NOT satisfied by "), "{second}");
 }
 

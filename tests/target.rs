@@ -132,10 +132,13 @@ fn a_block_is_judged_itself() {
         assert_eq!(tried["is_safe"], number(&tried["upper_per_year"]) <= 2e-3);
     }
     let needed = number(&own["safe_value"]);
-    assert!(needed >= safe && overturning(needed)["bands"]["by_record"][1].as_f64().unwrap() <= 2e-3);
+    assert!(overturning(needed)["bands"]["by_record"][1].as_f64().unwrap() <= 2e-3);
+    // that it needs less is found, too: just below, the block is not safe
+    let missed = number(&own["missed_at"]);
+    assert!(missed < needed && needed <= 1.03 * missed, "{own}");
     let shown = study.uplift(&ask).ok().stdout;
     let first = if own["models"][0]["is_safe"] == true {
-        format!("Safe width {safe} m by block and oscillator; ")
+        format!("Safe width: the block needs {needed} m, its oscillator {safe} m; best estimate ")
     } else {
         format!("Safe width: the block needs {needed} m, its oscillator {safe} m; at {safe} m the block's rate")
     };

@@ -145,7 +145,7 @@ class StructureCommands:
         vary: Literal["strength", "size", "width", "capacity", "tendon-stiffness"],
         *,
         overturning: float | None = None,
-        exceed: float | Literal["capacity"] | None = None,
+        exceed: float | Literal["capacity", "limit"] | None = None,
         safety_factor: float | None = None,
         per_year: float | None = None,
         poe: float | None = None,
@@ -173,7 +173,7 @@ class StructureCommands:
             Everything else is kept.
         overturning : float, optional
             Target annual rate of overturning.
-        exceed : float or "capacity", optional
+        exceed : float, "capacity" or "limit", optional
             Target displacement, m, or the structure's own capacity, instead of overturning; with one of `per_year`
             (1/yr), `poe` in `years`, `return_period` (years).
         safety_factor : float, optional

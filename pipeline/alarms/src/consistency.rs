@@ -150,9 +150,9 @@ fn remedy(consistency: &StoredConsistency, scope: &Scope, site: usize) -> String
     }
 }
 
-/// The same where a spectrum by PGV and one by PGA disagree at a `site`: of repaired spectra by the measure asked about,
-/// or by that which leaves most effective records; else of records that miss the hazard by that measure, or by the worse;
-/// none where neither is so.
+/// The same where a spectrum by PGV and one by PGA disagree at a `site`: of repaired spectra by the measure asked
+/// about, or by that which leaves most effective records; else of records that miss the hazard by that measure, or by
+/// the worse; none where neither is so.
 pub(super) fn remedy_of_gap(evidence: &Evidence, scope: &Scope, site: usize) -> Option<String> {
     let misses =
         |of: &StoredConsistency| of.bias[site].is_finite() && of.verdict[site].as_str() == Verdict::Inconsistent.key();

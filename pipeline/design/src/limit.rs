@@ -30,6 +30,15 @@ pub enum LimitEvent {
 }
 
 impl LimitEvent {
+    /// What it is.
+    pub fn noun(self) -> &'static str {
+        match self {
+            Self::Capacity => "capacity",
+            Self::TendonYields => "tendon yield",
+            Self::TendonFails => "tendon failure",
+        }
+    }
+
     /// What the frame does, beside `overturns`.
     pub fn words(self) -> &'static str {
         match self {
@@ -81,12 +90,8 @@ impl FrameLimit {
 
     /// `capacity 0.53 m`.
     pub fn in_words(&self) -> String {
-        let at = to_the_centimetre(self.displacement_m);
-        match self.event {
-            LimitEvent::Capacity => format!("capacity {at} m"),
-            LimitEvent::TendonYields => format!("tendon yield at {at} m"),
-            LimitEvent::TendonFails => format!("tendon failure at {at} m"),
-        }
+        let at = if self.event == LimitEvent::Capacity { "" } else { "at " };
+        format!("{} {at}{} m", self.event.noun(), to_the_centimetre(self.displacement_m))
     }
 }
 

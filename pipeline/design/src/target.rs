@@ -126,18 +126,18 @@ pub fn target(
     // where the safe value itself misses the target
     let safe_value = safe_value.max(value);
     let judge = Judge { structure, options, place, of_records, target_per_year, years };
-    let (own, falls) = judge.judge(&mut trials, [safe_value, value, range[1]])?;
+    let (own, falls) = judge.judge(&mut trials, [safe_value, value], range)?;
     notes.extend(own.as_ref().filter(|_| wobbles).map(|_| what_frames_leave_out(structure)));
     let by_proxy = (wobbles || structure.block.is_some()) && own.is_none();
     notes.extend(assumptions(&file, by_proxy));
     notes.extend(trials.without_uncertainty(&source));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
-    let generic = curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?;
     let counts = (trials.records.count(), scatter.pairs.len());
     let event = options.event().words();
     let of_proxy = own_risk((&event, found.risk), (place.name, measure), counts);
     let of_own = own.iter().flat_map(|of| of.own_risks(&event, place, counts));
     alarms.extend(own_risk_alarms(&[of_proxy].into_iter().chain(of_own).collect::<Vec<_>>()));
+    alarms.extend(alarms_of_answer(structure, options.quantity, own.as_ref().map_or(safe_value, |own| own.safe_value)));
     let by_other_measures = judged_by((&file, &others), &mut trials, (place, [safe_value, value], target_per_year))?;
     let mut report = TargetReport {
         uncertainty: trials.around.as_ref().map(|of| TargetUncertainty::from_tried(of, &tried, target_per_year)),
@@ -171,7 +171,7 @@ pub fn target(
         bands: frequencies.bands(value, target_per_year),
         crossings,
         at_return_periods,
-        generic: generic.flatten(),
+        generic: curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?.flatten(),
         tried: tried.iter().map(|tried| TriedValue::from_attempt(tried, target_per_year)).collect(),
         analyses: trials.analyses,
         notes,
@@ -249,6 +249,14 @@ fn why_left_out(structure: &Structure, options: &TargetOptions) -> Option<String
         (false, _) if is_asked => Some(STOPPED.to_owned()),
         _ => None,
     }
+}
+
+/// What cannot be meant of the structure that was found, though that of the file is sound; nothing beyond the range.
+fn alarms_of_answer(structure: &Structure, quantity: Quantity, value: f64) -> Vec<Alarm> {
+    let before = structure_alarms(structure);
+    let found = if value.is_finite() { structure.varied(quantity, value).ok().flatten() } else { None };
+    let of_found = found.map_or_else(Vec::new, |found| structure_alarms(&found));
+    of_found.into_iter().filter(|alarm: &Alarm| before.iter().all(|own| own.kind != alarm.kind)).collect()
 }
 
 /// What a search has tried.

@@ -6,8 +6,7 @@ use std::io::Write;
 use std::path::Path;
 
 use uplift::structure::{
-    Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome, Sensitivity,
-    StructureReport, verdict_word,
+    Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome, Sensitivity, verdict_word,
 };
 use uplift::text::{
     self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, risk_option, short,
@@ -60,9 +59,9 @@ fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
 
 /// The verdict of the rules, with the demand on the structure's oscillator and its risks.
 fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
-    let StructureReport { name, capacity_m, .. } = &report.structure;
-    let has =
-        capacity_m.map_or_else(|| "no capacity: the force does not fall".to_owned(), |m| format!("capacity {m:.2} m"));
+    let name = &report.structure.name;
+    let unlimited = || "unlimited capacity: the force does not fall".to_owned();
+    let has = report.capacity_words().unwrap_or_else(unlimited);
     // of a frame that can wobble it is the oscillator that is judged
     let whose = if report.wobbles { ", by its oscillator alone" } else { "" };
     let doubt = doubt(&report.alarms);

@@ -11,8 +11,8 @@ use uplift_spectra::Noisy;
 use super::alarms::print_in_parts;
 use super::shown_path;
 use super::structure::{
-    WOBBLING, band_in_cell, fewer_levels, limits, marked_band_in_cell, print_by_earthquake, print_moved, print_notes,
-    print_structure, rate, record_set, risk_cells,
+    WOBBLING, band_in_cell, fewer_levels, limits, marked_band_in_cell, noun, print_by_earthquake, print_moved,
+    print_notes, print_structure, rate, record_set, risk_cells,
 };
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use crate::error::CommandError;
@@ -151,9 +151,27 @@ fn print_headline(
             out,
             "{name}: the wobbling frame overturns {times} times as often as its oscillator; annual rates{band}"
         )?,
-        None => writeln!(out, "{name}: annual rate of overturning{band}")?,
+        None => print_rate(out, report)?,
     }
     Ok(())
+}
+
+/// How often the structure overturns by the first measure, at the site where it does most often.
+fn print_rate(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
+    let name = &report.structure.name;
+    let first = report.overturning.first().map(|found| found.im);
+    // the structure itself comes after its oscillator
+    let Some(found) = report.overturning.iter().rfind(|found| Some(found.im) == first) else { return Ok(()) };
+    let Some(worst) = found.sites.iter().max_by(|a, b| a.risk.per_year.total_cmp(&b.risk.per_year)) else {
+        return Ok(());
+    };
+    let [per_year, ..] = risk_cells(&worst.risk);
+    let band =
+        worst.bands.map_or_else(String::new, |own| format!(" (90 % band {}{})", limits(own.quoted()), own.by_whom()));
+    let most =
+        if found.sites.len() > 1 { format!(", the most of {} sites,", found.sites.len()) } else { String::new() };
+    let (model, site, im) = (noun(found.model, &report.structure.kind), &worst.site, found.im);
+    Ok(writeln!(out, "{name}: the {model} overturns {per_year} per year{band} at {site}{most} by {im}")?)
 }
 
 /// `4.5 to 5.1`, over sites and measures; none without ratios, and where one of two events is never seen.

@@ -2,12 +2,12 @@
 
 use std::io::Write;
 
-use uplift::structure::{Bands, LimitEvent, TargetBand, TargetOwn, TargetReport};
+use uplift::structure::{Bands, TargetBand, TargetOwn, TargetReport};
 use uplift::text::{self, Table, per_cent, rounded, short, thousands};
 
 use super::alarms::print_warnings;
 use super::structure::{
-    BLOCK, doubt, fewer_levels, mark_of, measure_option, print_by_earthquake, print_notes, print_structure, rate,
+    BLOCK, doubt, fewer_levels, mark_of, measure_option, noun, print_by_earthquake, print_notes, print_structure, rate,
     record_set, risk_cells,
 };
 use super::uncertainty::{kind_in_words, print_quantities};
@@ -46,8 +46,20 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let what = format!("{}safe {quantity}{against}", doubt(&report.alarms));
     let what = what[..1].to_uppercase() + &what[1..];
     match &report.own {
+        Some(own) if own.decisive().is_safe && own.safe_value < own.value => {
+            writeln!(
+                out,
+                "{what}: the {} needs {}, its oscillator {safe}; {best} of the oscillator",
+                noun(own.decisive().model, report.structure.kind),
+                limit(own.safe_value, report)
+            )?;
+        }
         Some(own) if own.decisive().is_safe => {
-            writeln!(out, "{what} {safe} by {} and oscillator; {best} of the oscillator", noun(report, own))?;
+            writeln!(
+                out,
+                "{what} {safe} by {} and oscillator; {best} of the oscillator",
+                noun(own.decisive().model, report.structure.kind)
+            )?;
         }
         Some(own) => {
             let needs = if own.safe_value.is_finite() {
@@ -58,7 +70,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
             writeln!(
                 out,
                 "{what}: the {} {needs}, its oscillator {safe}; at {} {}",
-                noun(report, own),
+                noun(own.decisive().model, report.structure.kind),
                 unit(own.value.to_string()),
                 how_often(report, own)
             )?;
@@ -79,7 +91,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let [told, allowed] =
         [report.safe_bands.map_or(0.0, |bands| bands.fullest()[1]), *target_per_year].map(|of| rounded(of, 2));
     if told > allowed {
-        writeln!(out, "          the band of one value may exceed the target: the safe value follows from all values")?;
+        writeln!(out, "          limits of single values scatter")?;
     }
     print_other_measures(out, report)?;
     if let Some(misses) = &report.unrepaired {
@@ -141,17 +153,9 @@ fn print_other_measures(out: &mut impl Write, report: &TargetReport) -> Result<(
     Ok(())
 }
 
-/// What decides of the structure itself: of a frame that does not wobble the block that rotates as it does.
-fn noun(report: &TargetReport, own: &TargetOwn) -> &'static str {
-    match own.decisive().model {
-        BLOCK if report.structure.kind != BLOCK => "equivalent block",
-        model => model,
-    }
-}
-
 /// How it misses a target at the value of its oscillator, in words.
 fn how_often(report: &TargetReport, own: &TargetOwn) -> String {
-    let (noun, own) = (noun(report, own), own.decisive());
+    let (noun, own) = (noun(own.decisive().model, report.structure.kind), own.decisive());
     if own.is_met {
         format!("the {noun}'s rate meets the target, its upper limit does not")
     } else {
@@ -217,16 +221,11 @@ fn print_limit(out: &mut impl Write, report: &TargetReport, own: &TargetOwn) -> 
         "Limit     the wobbling frame passes its limit, {limit_in_words}, {per_year} per year at {at}{more}"
     )?;
     if is_more {
-        let exceeded = match limit.event {
-            LimitEvent::Capacity => "capacity".to_owned(),
-            // where tendons yield at the value found
-            LimitEvent::TendonYields | LimitEvent::TendonFails => short(limit.displacement_m),
-        };
         let [structure, result] = [&report.structure.file, &report.source.result].map(|path| typed_path(path));
         let site = uplift::text::typed(&report.site);
         writeln!(
             out,
-            "          uplift target {structure} --urs {result} --site {site} {} --vary {} --exceed {exceeded} \
+            "          uplift target {structure} --urs {result} --site {site} {} --vary {} --exceed limit \
              --per-year {}{}",
             measure_option(report.im),
             report.quantity,
@@ -291,7 +290,7 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
             .right("per year", |tried| rate(tried.risk.per_year))
             .right("upper limit", |tried| rate(tried.upper_per_year))
             .left("", |tried| if tried.is_safe { "safe" } else { "not safe" });
-        writeln!(out, "\nThe {} at other values\n{table}", noun(report, own))?;
+        writeln!(out, "\nThe {} at other values\n{table}", noun(own.decisive().model, report.structure.kind))?;
     }
     print_crossings(out, report)?;
     print_beside(out, report)

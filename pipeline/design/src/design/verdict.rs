@@ -1,7 +1,7 @@
 //! What a design says of a structure: whether it is good enough, by rules, measures, its own demand and its frame.
 
 use uplift_ida::OSCILLATOR;
-use uplift_job::text::{spectrum_words, two_digits};
+use uplift_job::text::{spectrum_words, to_the_centimetre, two_digits};
 
 use super::DesignReport;
 use crate::certainty::DemandBands;
@@ -27,9 +27,10 @@ impl DesignReport {
     /// Whether the structure satisfies both rules and its own demand, by each measure where they differ:
     /// `satisfied by PGV, NOT satisfied by PGA; safety factor 2.5 (Eq. 3.15)`.
     pub fn verdict(&self) -> String {
-        let others = self.by_other_measures.iter().map(|of| (of.im.to_owned(), verdict_of_rules(&of.rules, None)));
+        let words = |im: &str| spectrum_words(im, self.repaired);
+        let others = self.by_other_measures.iter().map(|of| (words(of.im), checks_in_short(&of.rules, None)));
         let by_measure: Vec<(String, String)> =
-            std::iter::once((self.spectrum_words(), verdict_of_rules(&self.rules, self.own_check)))
+            std::iter::once((self.spectrum_words(), checks_in_short(&self.rules, self.own_check)))
                 .chain(others)
                 .filter_map(|(measure, verdict)| Some((measure, verdict?)))
                 .collect();
@@ -38,9 +39,19 @@ impl DesignReport {
             first.clone()
         } else {
             let each = by_measure.iter().map(|(measure, verdict)| format!("{verdict} by {measure}"));
-            each.collect::<Vec<_>>().join(", ")
+            each.collect::<Vec<_>>().join("; ")
         };
         format!("{verdict}; safety factor {} (Eq. 3.15)", self.required_safety_factor)
+    }
+
+    /// `capacity 1.21 m, tendon yield 1.08 m`; none of a structure without a capacity.
+    pub fn capacity_words(&self) -> Option<String> {
+        let capacity_m = self.structure.capacity_m?;
+        let yields = self.structure.tendon_limit.filter(|limit| limit.displacement_m < capacity_m);
+        let yields = yields.map_or_else(String::new, |limit| {
+            format!(", {} {} m", limit.event.noun(), to_the_centimetre(limit.displacement_m))
+        });
+        Some(format!("capacity {capacity_m:.2} m{yields}"))
     }
 
     /// The verdict on the proxy of a frame: `satisfied`; none where no rule applies.
@@ -62,12 +73,13 @@ impl DesignReport {
     pub fn verdicts_by_other_measures(&self) -> Vec<(&'static str, String)> {
         let is_satisfied = |rules: &[RuleOutcome]| rules.iter().filter_map(RuleOutcome::check).all(|of| of.satisfied);
         let told = self.by_other_measures.iter().filter_map(|of| {
+            let by = spectrum_words(of.im, self.repaired);
             if self.frame.is_some() {
-                return Some((of.im, format!("{OSCILLATOR} by {}: {}", of.im, verdict_of_rules(&of.rules, None)?)));
+                return Some((of.im, format!("{OSCILLATOR} by {by}: {}", verdict_of_rules(&of.rules, None)?)));
             }
             let verdicts = verdicts_in_words(&of.rules, None)?;
             let is_silent = is_satisfied(&of.rules) && is_satisfied(&self.rules);
-            (!is_silent).then(|| (of.im, format!("by {}: {verdicts}", of.im)))
+            (!is_silent).then(|| (of.im, format!("by {by}: {verdicts}")))
         });
         told.collect()
     }
@@ -116,6 +128,20 @@ impl DesignReport {
     /// By which spectrum, in words: `PGV`, or `PGV, repaired`.
     pub fn spectrum_words(&self) -> String {
         spectrum_words(self.im, self.repaired)
+    }
+}
+
+/// Whether the rules and the structure's own demand are satisfied, and where they differ how many are; none where none
+/// applies.
+fn checks_in_short(rules: &[RuleOutcome], own: Option<OwnCheck>) -> Option<String> {
+    let rules = rules.iter().filter_map(|outcome| Some(outcome.check()?.satisfied));
+    let all: Vec<bool> = rules.chain(own.map(|own| own.satisfied)).collect();
+    let met = all.iter().filter(|satisfied| **satisfied).count();
+    match all.len() - met {
+        _ if all.is_empty() => None,
+        0 => Some(verdict_word(true).to_owned()),
+        missed if met > 0 => Some(format!("{} by {missed} of {} checks", verdict_word(false), all.len())),
+        _ => Some(verdict_word(false).to_owned()),
     }
 }
 

@@ -86,15 +86,15 @@ pub(super) fn differences(
         );
     }
     if !system.is_of_uplift_displacement(oscillator.uplift_displacement_m) {
+        let own_m = system.spectral_uplift_displacement_m();
         notes.push(format!(
             "The spectrum is of another oscillator: its uplift displacement is {} mm; this structure's is {} mm ({} mm \
              divided by Γ)",
             rounded(1e3 * oscillator.uplift_displacement_m, 4),
-            rounded(1e3 * system.spectral_uplift_displacement_m(), 3),
+            rounded(1e3 * own_m, 3),
             rounded(1e3 * system.conditions().uplift_displacement_m(), 4)
         ));
-        let own_m = rounded(system.spectral_uplift_displacement_m(), 4);
-        settings.push(format!("--set oscillator.uplift_displacement_m={own_m}"));
+        settings.push(format!("--set oscillator.uplift_displacement_m={}", rounded(own_m, 4)));
     }
     if apart(restitution, oscillator.restitution) {
         notes.push(format!(

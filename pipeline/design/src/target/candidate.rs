@@ -12,6 +12,8 @@ use crate::risk::{OVERTURNING_M, capacity_m};
 pub(super) struct Candidate {
     /// As described, with the value.
     pub(super) system: EquivalentSystem,
+    /// The first of its capacity and the yield and failure of its tendons, in its own displacement, m.
+    pub(super) limit_m: Option<f64>,
     /// The oscillators that shake: one where all is known; else one a branch, or those of each record, one record after
     /// the other.
     pub(super) systems: Vec<System>,
@@ -50,11 +52,15 @@ impl Attempt {
     }
 }
 
-/// What must not be exceeded, m, in the displacement of the `oscillator`: Γ times it is the structure's.
-pub(super) fn threshold_m(event: TargetEvent, system: &EquivalentSystem, oscillator: &System) -> f64 {
-    match event {
-        TargetEvent::Beyond(displacement_m) => displacement_m / system.participation(),
-        TargetEvent::BeyondCapacity(factor) => capacity_m(oscillator).map_or(OVERTURNING_M, |own_m| own_m / factor),
-        TargetEvent::Overturning => OVERTURNING_M,
+impl Candidate {
+    /// What must not be exceeded, m, in the displacement of the `oscillator`: Γ times it is the structure's.
+    pub(super) fn threshold_m(&self, event: TargetEvent, oscillator: &System) -> f64 {
+        let of_oscillator = |own_m: f64| own_m / self.system.participation();
+        match event {
+            TargetEvent::Beyond(displacement_m) => of_oscillator(displacement_m),
+            TargetEvent::BeyondCapacity(factor) => capacity_m(oscillator).map_or(OVERTURNING_M, |own_m| own_m / factor),
+            TargetEvent::BeyondLimit => self.limit_m.map_or(OVERTURNING_M, of_oscillator),
+            TargetEvent::Overturning => OVERTURNING_M,
+        }
     }
 }

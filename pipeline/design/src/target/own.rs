@@ -193,12 +193,13 @@ impl Judge<'_> {
     pub(super) fn judge(
         &self,
         trials: &mut Trials<'_>,
-        [safe, best, most]: [f64; 3],
+        [safe, best]: [f64; 2],
+        [least, most]: [f64; 2],
     ) -> Result<(Option<TargetOwn>, Option<String>), DesignError> {
         let value = if safe.is_finite() { safe } else { best };
         match trials.components.take() {
             Some(pairs) => self.judge_frame(trials, pairs, [value, most]),
-            None => self.judge_block(trials, [value, most]),
+            None => self.judge_block(trials, value, [least, most]),
         }
     }
 
@@ -219,7 +220,8 @@ impl Judge<'_> {
         let mut analyses = report.analyses;
         let limit_of = |report: &FrameReport| (report.governing_limit(), report.wobbling().beyond_limit);
         let mut limits = vec![(value, limit_of(&report))];
-        let tried = self.searched((value, models[0].clone()), most, |next| {
+        // that a frame needs less is not worth its many analyses
+        let tried = self.searched((value, models[0].clone()), [value, most], |next| {
             let Some(structure) = self.structure_at(next)? else { return Ok(None) };
             frame.change(&structure)?;
             let levels = frame.levels(&trials.records.set, self.place.measure);
@@ -236,16 +238,16 @@ impl Judge<'_> {
         Ok((Some(TargetOwn { limit_at, limit, beyond_limit, ..own }), None))
     }
 
-    /// Tries values from the `first` on, up to `most`, until the least safe one is known well enough; ascending.
+    /// Tries values from the `first` on, within a range, until the least safe one is known well enough; ascending.
     fn searched(
         &self,
         first: (f64, TargetModel),
-        most: f64,
+        range: [f64; 2],
         mut shake: impl FnMut(f64) -> Result<Option<TargetModel>, DesignError>,
     ) -> Result<Vec<(f64, TargetModel)>, DesignError> {
         let mut tried = vec![first];
         while tried.len() < MOST_VALUES {
-            let Some(next) = self.next(&tried, most) else { break };
+            let Some(next) = self.next(&tried, range) else { break };
             let Some(model) = shake(next)? else { break };
             tried.push((next, model));
             tried.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -257,7 +259,8 @@ impl Judge<'_> {
     fn judge_block(
         &self,
         trials: &mut Trials<'_>,
-        [value, most]: [f64; 2],
+        value: f64,
+        range: [f64; 2],
     ) -> Result<(Option<TargetOwn>, Option<String>), DesignError> {
         if self.structure.block.is_none() || self.options.proxy {
             return Ok((None, None));
@@ -275,7 +278,7 @@ impl Judge<'_> {
             return Ok((None, Some(reason)));
         }
         let Some((model, mut analyses)) = self.rocked(trials, &first)? else { return Ok((None, notes.pop())) };
-        let tried = self.searched((value, model.clone()), most, |next| {
+        let tried = self.searched((value, model.clone()), range, |next| {
             let Some(models) = self.models_at(next, &trials.study, &mut Vec::new())? else { return Ok(None) };
             let Some((model, own)) = self.rocked(trials, &models)? else { return Ok(None) };
             analyses += own;
@@ -329,6 +332,7 @@ impl Judge<'_> {
         let peaks = trials.shake(frame, levels, with_planar)?;
         let threshold_m = match self.options.event() {
             TargetEvent::Overturning => None,
+            TargetEvent::BeyondLimit => frame.limit.map(|limit| limit.displacement_m),
             TargetEvent::BeyondCapacity(factor) => structure.system.capacity_m().map(|own_m| own_m / factor),
             TargetEvent::Beyond(displacement_m) => Some(displacement_m),
         };
@@ -352,11 +356,11 @@ impl Judge<'_> {
         Ok((report, models))
     }
 
-    /// The next value to try; none where the first is safe, where the last that is not lies near enough to the next,
-    /// and where the largest is not.
-    fn next(&self, tried: &[(f64, TargetModel)], most: f64) -> Option<f64> {
+    /// The next value to try, within a range; none where its smallest is safe, where the last that is not lies near
+    /// enough to the next, and where its largest is not.
+    fn next(&self, tried: &[(f64, TargetModel)], [least, most]: [f64; 2]) -> Option<f64> {
         let rates: Vec<(f64, f64)> = tried.iter().map(|(value, of)| (*value, of.upper_per_year())).collect();
-        let next = next_value(&rates, self.target_per_year, self.options.tolerance.max(NEAR))?.min(most);
+        let next = next_value(&rates, self.target_per_year, self.options.tolerance.max(NEAR))?.clamp(least, most);
         let next = rounded_up(next, digits(self.options.tolerance)).min(most);
         tried.iter().all(|(value, _)| value.total_cmp(&next).is_ne()).then_some(next)
     }
@@ -367,7 +371,8 @@ const NO_EVENT: &str = "the block, or the one equivalent to a frame, is judged f
 /// Why the structure itself is left out where strength or capacity vary.
 pub(super) const OF_SIZE: &str = "strength and capacity follow from its size: vary width or size";
 
-/// The value to try after those of these upper limits, `(value, 1/yr)`, ascending; none where enough are tried.
+/// The value to try after those of these upper limits, `(value, 1/yr)`, ascending; none where enough are tried. Below
+/// the first where all are safe.
 fn next_value(rates: &[(f64, f64)], target_per_year: f64, near: f64) -> Option<f64> {
     let line = |[(a, rate_a), (b, rate_b)]: [(f64, f64); 2]| {
         let slope = (rate_b / rate_a).ln() / (b / a).ln();
@@ -375,7 +380,14 @@ fn next_value(rates: &[(f64, f64)], target_per_year: f64, near: f64) -> Option<f
         (slope < 0.0 && value.is_finite()).then_some(value)
     };
     match least(rates, |rate| *rate <= target_per_year) {
-        Some(0) => None,
+        Some(0) => {
+            let first = *rates.first()?;
+            let guess = rates.get(1).and_then(|second| line([first, *second]));
+            // a little further than the line goes, so that the target lies between
+            let guess = guess.map_or(0.0, |value| value / (1.0 + 0.5 * near));
+            let [most, least] = STEPS.map(|step| first.0 / step);
+            Some(if rates.len() == 1 { (least * most).sqrt() } else { guess.clamp(least, most) })
+        }
         Some(at) => {
             let [missed, safe] = [rates[at - 1], rates[at]];
             let [from, to] = [missed.0 * (1.0 + near), safe.0 / (1.0 + near)];
@@ -401,10 +413,17 @@ fn next_value(rates: &[(f64, f64)], target_per_year: f64, near: f64) -> Option<f
 mod tests {
     use super::*;
 
+    /// The smallest value.
+    const LEAST: f64 = 0.4;
+
     /// The values of a search from 1 on, and how many there are.
     fn searched(rate: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
         let mut rates = vec![(1.0, rate(1.0))];
         while let Some(next) = next_value(&rates, 1e-4, 0.02).filter(|_| rates.len() < MOST_VALUES) {
+            if rates.iter().any(|(value, _)| *value == next.max(LEAST)) {
+                break;
+            }
+            let next = next.max(LEAST);
             rates.push((next, rate(next)));
             rates.sort_by(|a, b| a.0.total_cmp(&b.0));
         }
@@ -417,13 +436,16 @@ mod tests {
         let power = |value: f64| 3e-4 * value.powi(-3);
         let bends = |value: f64| 2e-3 * (-1.5 * value).exp();
         let steps = |value: f64| (1e5 * power(value)).ceil() / 1e5;
-        for rate in [&power as &dyn Fn(f64) -> f64, &bends, &steps] {
+        // what is safe at first needs less
+        let less = |value: f64| 3e-5 * value.powi(-3);
+        for rate in [&power as &dyn Fn(f64) -> f64, &bends, &steps, &less] {
             let rates = searched(rate);
             let at = least(&rates, |rate| *rate <= 1e-4).unwrap();
             let [missed, safe] = [rates[at - 1].0, rates[at].0];
             assert!(safe <= 1.0201 * missed && rates.len() <= MOST_VALUES, "{rates:?}");
         }
-        assert_eq!(searched(|_| 9e-5).len(), 1);
+        let all_safe = searched(|_| 9e-5);
+        assert!(all_safe[0].0 == LEAST && all_safe.len() < MOST_VALUES, "{all_safe:?}");
     }
 
     #[test]

@@ -43,6 +43,9 @@ pub enum TargetEvent {
     /// It goes beyond its own displacement capacity, whatever that is at the value tried, divided by this
     /// safety factor.
     BeyondCapacity(f64),
+    /// It passes the first of its displacement capacity and the yield and failure of its tendons, wherever they are at
+    /// the value tried.
+    BeyondLimit,
     /// It goes beyond so many metres.
     Beyond(f64),
 }
@@ -54,6 +57,7 @@ impl TargetEvent {
             Self::Overturning => "overturning".to_owned(),
             Self::BeyondCapacity(1.0) => "exceeding the capacity".to_owned(),
             Self::BeyondCapacity(safety_factor) => format!("exceeding the capacity divided by {safety_factor}"),
+            Self::BeyondLimit => "passing the first of capacity, tendon yield and failure".to_owned(),
             Self::Beyond(displacement_m) => format!("exceeding {displacement_m} m"),
         }
     }
@@ -64,15 +68,18 @@ impl TargetEvent {
 pub enum Exceeded {
     /// The structure's own capacity, whatever that is at the value tried.
     Capacity,
+    /// The first of its capacity and the yield and failure of its tendons, wherever they are at the value tried.
+    Limit,
     /// So many metres.
     Displacement(f64),
 }
 
-/// Reads `0.3` or `capacity`.
+/// Reads `0.3`, `capacity` or `limit`.
 fn exceeded(text: &str) -> Result<Exceeded, String> {
     match text {
         "capacity" => Ok(Exceeded::Capacity),
-        _ => number(text).map(Exceeded::Displacement).map_err(|error| format!("{error}, or `capacity`")),
+        "limit" => Ok(Exceeded::Limit),
+        _ => number(text).map(Exceeded::Displacement).map_err(|error| format!("{error}, or `capacity` or `limit`")),
     }
 }
 
@@ -105,8 +112,8 @@ pub struct TargetOptions {
         long, value_name = "PER_YEAR", allow_negative_numbers = true, value_parser = number, conflicts_with = "exceed"
     )]
     pub overturning: Option<f64>,
-    /// Target displacement, m, or `capacity`, instead of overturning
-    #[arg(long, value_name = "M|capacity", allow_negative_numbers = true, value_parser = exceeded)]
+    /// Displacement, m, `capacity`, or `limit`: the first of capacity, tendon yield and failure
+    #[arg(long, value_name = "M|capacity|limit", allow_negative_numbers = true, value_parser = exceeded)]
     pub exceed: Option<Exceeded>,
     /// Divide the capacity of `--exceed capacity` by this safety factor
     #[arg(long, value_name = "FS", allow_negative_numbers = true, value_parser = number, default_value_t = 1.0)]
@@ -205,6 +212,7 @@ impl TargetOptions {
         match self.exceed {
             None => TargetEvent::Overturning,
             Some(Exceeded::Capacity) => TargetEvent::BeyondCapacity(self.safety_factor),
+            Some(Exceeded::Limit) => TargetEvent::BeyondLimit,
             Some(Exceeded::Displacement(displacement_m)) => TargetEvent::Beyond(displacement_m),
         }
     }
@@ -228,7 +236,7 @@ impl TargetOptions {
         let (displacement_m, safety_factor) = match self.event() {
             TargetEvent::Beyond(displacement_m) => (Some(displacement_m), None),
             TargetEvent::BeyondCapacity(factor) => (None, Some(factor)),
-            TargetEvent::Overturning => (None, None),
+            TargetEvent::Overturning | TargetEvent::BeyondLimit => (None, None),
         };
         number_alarms(
             "target",
@@ -258,7 +266,7 @@ impl TargetOptions {
         match self.event() {
             TargetEvent::Beyond(displacement_m) => asked.push((THRESHOLD, "--exceed", displacement_m)),
             TargetEvent::BeyondCapacity(factor) => asked.push((SAFETY_FACTOR, "--safety-factor", factor)),
-            TargetEvent::Overturning => {}
+            TargetEvent::Overturning | TargetEvent::BeyondLimit => {}
         }
         match (self.overturning.or(self.per_year), self.poe) {
             (Some(per_year), _) => asked.push((PER_YEAR, "the target", per_year)),

@@ -17,12 +17,13 @@ use uplift_structure::Quantity;
 use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, StudyOfResult, plan_levels};
 
-use super::candidate::{Attempt, Candidate, StructureRisk, threshold_m};
+use super::candidate::{Attempt, Candidate, StructureRisk};
 use super::{TargetEvent, TargetOptions};
 use crate::certainty::{Bands, Scatter, rate_bands};
 use crate::design::without_uncertainty;
 use crate::error::DesignError;
 use crate::hazard::Hazard;
+use crate::limit::FrameLimit;
 use crate::opening::{Place, ShakenRecords, job_name, records_and_pairs, required, restitution};
 use crate::overturning::peaks_m;
 use crate::own_frame::{FrameLevels, FramePeaks, OwnFrame};
@@ -156,10 +157,10 @@ impl<'a> Trials<'a> {
         if !value.is_finite() || self.around.is_some() {
             return Ok(None);
         }
-        let Candidate { system, systems } = self.candidate(value)?;
-        let [oscillator] = &systems[..] else { return Ok(None) };
+        let candidate = self.candidate(value)?;
+        let [oscillator] = &candidate.systems[..] else { return Ok(None) };
         let (pool, _) = self.rock(oscillator)?;
-        let threshold_m = threshold_m(self.options.event(), &system, oscillator);
+        let threshold_m = candidate.threshold_m(self.options.event(), oscillator);
         rate_bands(&pool, (self.hazard, self.weights.repaired()), self.scatter, threshold_m)
     }
 
@@ -232,7 +233,12 @@ impl<'a> Trials<'a> {
             None => vec![System::Oscillator(described)],
             Some(around) => around.systems(&system).map_err(|error| refused(error.to_string()))?,
         };
-        Ok(Candidate { system, systems })
+        // without another columns stay as they are
+        let varied = self.structure.varied(quantity, value).map_err(refused)?;
+        let columns = varied.as_ref().unwrap_or(self.structure).columns.as_ref();
+        let of_tendons = columns.and_then(FrameLimit::from_tendons).map(|limit| limit.displacement_m);
+        let limit_m = system.capacity_m().into_iter().chain(of_tendons).min_by(f64::total_cmp);
+        Ok(Candidate { system, limit_m, systems })
     }
 
     /// What the `peaks` of the candidate at `place` among others say.
@@ -257,7 +263,7 @@ impl<'a> Trials<'a> {
         };
         // what has no capacity cannot overturn
         let may_happen = |system: &System| {
-            threshold_m(self.options.event(), &candidate.system, system) < OVERTURNING_M || system.can_overturn()
+            candidate.threshold_m(self.options.event(), system) < OVERTURNING_M || system.can_overturn()
         };
         if candidate.systems.iter().any(may_happen) {
             risk = bounded(risk, &self.weights, &self.scatter.pairs);
@@ -285,7 +291,7 @@ impl<'a> Trials<'a> {
         let run = |record: usize, place: usize| {
             let own = place % self.per_record() + if self.is_of_each_record() { record * self.per_record() } else { 0 };
             let system = &candidate.systems[own];
-            (peaks.row_m(record, place), threshold_m(self.options.event(), &candidate.system, system))
+            (peaks.row_m(record, place), candidate.threshold_m(self.options.event(), system))
         };
         let of_record = |record: usize| places.clone().map(move |place| run(record, place));
         let told = happenings(&self.measure.plan.levels, (0..records).flat_map(of_record))?;
@@ -347,7 +353,7 @@ impl<'a> Trials<'a> {
             let happens = |run: usize| {
                 let (record, place) = (run / self.per_record(), run % self.per_record());
                 let own = if self.is_of_each_record() { run } else { place };
-                let limit_m = threshold_m(event, &candidate.system, &candidate.systems[own]);
+                let limit_m = candidate.threshold_m(event, &candidate.systems[own]);
                 analysed.peaks.at_m([record, place, scale]) > limit_m
             };
             let count = (0..runs).filter(|run| happens(*run)).count();

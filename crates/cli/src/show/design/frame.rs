@@ -26,17 +26,17 @@ pub(super) fn print_verdicts(
         let is_unsafe = unsafe_upper_limits.iter().any(|(of, _)| *of == whose);
         if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
     };
-    let answer = match (wobbling.check, report.structure.capacity_m) {
-        (Some(check), Some(capacity_m)) if check.required_capacity_m.is_finite() => {
+    let answer = match (wobbling.check, report.capacity_words()) {
+        (Some(check), Some(capacity)) if check.required_capacity_m.is_finite() => {
             let (verdict, required_m) = (verdict(wobbling.model, check.satisfied), check.required_capacity_m);
-            format!("{verdict}: {} requires {required_m:.2} m, capacity {capacity_m:.2} m", wobbling.model)
+            format!("{verdict}: {} requires {required_m:.2} m, {capacity}", wobbling.model)
         }
-        (Some(check), Some(capacity_m)) => {
+        (Some(check), Some(capacity)) => {
             let verdict = verdict_word(check.satisfied);
             let model = wobbling.model;
-            format!("{verdict}: {model} overturns more often than the target, capacity {capacity_m:.2} m")
+            format!("{verdict}: {model} overturns more often than the target, {capacity}")
         }
-        _ => "no capacity, the force does not fall".to_owned(),
+        _ => "unlimited capacity: the force does not fall".to_owned(),
     };
     writeln!(out, "Verdict   {name} by {by}: {answer}")?;
     print_proxy(out, report, wobbling.demand_m)?;
@@ -162,7 +162,7 @@ pub(super) fn rule_cell(rule: Rule) -> String {
 /// What the mark of [`rule_cell`] means, where it is.
 pub(super) fn print_mark(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
     if report.rules.iter().any(|outcome| outcome.rule == Rule::EqualEnergy && outcome.check().is_some()) {
-        writeln!(out, "‡ demand rises with the capacity")?;
+        writeln!(out, "‡ rises with capacity")?;
     }
     Ok(())
 }
