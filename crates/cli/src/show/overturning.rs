@@ -170,7 +170,7 @@ fn print_rate(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
         worst.bands.map_or_else(String::new, |own| format!(" (90 % band {}{})", limits(own.quoted()), own.by_whom()));
     let most =
         if found.sites.len() > 1 { format!(", the most of {} sites,", found.sites.len()) } else { String::new() };
-    let (model, site, im) = (noun(found.model, &report.structure.kind), &worst.site, found.im);
+    let (model, site, im) = (noun(found.model, report.structure.kind), &worst.site, found.im);
     Ok(writeln!(out, "{name}: the {model} overturns {per_year} per year{band} at {site}{most} by {im}")?)
 }
 
