@@ -110,19 +110,31 @@ fn a_unit_is_given_to_the_files_that_state_none() {
     let import =
         |unit| study.uplift(&["records", "import", "downloads", "-o", "m.csv", "--force", "--unit", unit]).ok();
     let manifest = || std::fs::read_to_string(study.path().join("m.csv")).unwrap();
-    // one unit or the other is wrong
+    let unit_of_silent_files = |unit: &str| {
+        let manifest = manifest();
+        let lines = manifest.lines().filter(|line| line.contains(&format!(",columns,{unit},"))).count();
+        assert!(lines == 1 && manifest.contains(&format!("silent_H2.txt,\"\",\"\",columns,{unit},")), "{manifest}");
+    };
+    // a file that states its unit keeps it
     let done = import("g");
-    assert!(done.stdout.starts_with("1 pair from 4 files"), "{}", done.stdout);
-    assert!(done.stderr.starts_with("not read (2):"), "{}", done.stderr);
-    assert!(
-        done.stderr.contains("stated_H1.txt: states m/s2, but --unit is g: import it separately"),
-        "{}",
-        done.stderr
-    );
-    assert!(manifest().contains("records import, 1 pair\n") && !manifest().contains("stated"), "{}", manifest());
-    assert!(import("m/s2").stdout.starts_with("2 pairs"));
-    let units = manifest().lines().filter(|line| line.contains(",m/s2,")).count();
-    assert!(units == 1 && manifest().contains("silent_H2.txt,\"\",\"\",columns,m/s2,"), "{}", manifest());
+    assert!(done.stdout.starts_with("2 pairs from 4 files"), "{}", done.stdout);
+    assert!(done.stderr.contains("another unit (2):\n"), "{}", done.stderr);
+    assert!(done.stderr.contains("stated_H1.txt: states m/s2, which is used; --unit is g\n"), "{}", done.stderr);
+    unit_of_silent_files("g");
+    let shown = |record| study.uplift(&["records", "show", "m.csv", record]).ok().stdout;
+    // 0.01 * 199 m/s2, and 0.03 * 199 g
+    assert!(shown("stated").contains(" 0.20292 g"), "{}", shown("stated"));
+    assert!(shown("silent").contains("5.97"), "{}", shown("silent"));
+    let done = import("m/s2");
+    assert!(done.stdout.starts_with("2 pairs") && !done.stderr.contains("another unit"), "{}", done.stderr);
+    unit_of_silent_files("m/s2");
+    // all that the files lack is asked for at once
+    for name in ["silent_H1", "silent_H2"] {
+        study.write(&format!("downloads/{name}.txt"), &"0.1\n-0.2\n".repeat(50));
+    }
+    let said = study.uplift(&["records", "import", "downloads", "-o", "m.csv", "--force"]).stderr;
+    let line = said.lines().find(|line| line.contains("silent_H1.txt")).unwrap_or_default();
+    assert!(line.contains("--unit") && line.contains("--dt-s"), "{said}");
 }
 
 #[test]

@@ -368,15 +368,16 @@ fn impossible_units_are_reported() {
     std::fs::create_dir(study.path().join("d")).unwrap();
     study.write("d/RSN1_A000.AT2", &weak.replace("UNITS OF G", "UNITS OF CM/S2"));
     study.write("d/RSN1_A090.AT2", &weak);
-    for arguments in [
-        &["check", "study.toml"][..],
-        &["records", "show", "gal.AT2"],
-        &["records", "show", "manifest.csv", "A"],
-        &["records", "import", "d", "-o", "set.csv"],
+    for (arguments, component) in [
+        (&["check", "study.toml"][..], "h1 "),
+        (&["records", "show", "gal.AT2"], ""),
+        (&["records", "show", "manifest.csv", "A"], "h1 "),
+        (&["records", "import", "d", "-o", "set.csv"], "h1 "),
     ] {
         let run = study.uplift(arguments).ok();
         let said = run.stdout + &run.stderr;
-        let doubted = ["mistake? PGA 3.", "mistake? A: PGA 3."].iter().any(|doubt| said.contains(doubt));
+        let doubt = format!("{component}PGA 3.");
+        let doubted = ["mistake? ", "mistake? A: "].iter().any(|of| said.contains(&format!("{of}{doubt}")));
         assert!(doubted && said.contains("e-4 g: is the file in g?"), "{arguments:?}\n{said}");
     }
 }

@@ -92,6 +92,26 @@ pub fn download() -> tempfile::TempDir {
     folder
 }
 
+/// Of equal motions the files of the search are kept, whatever the copies are called.
+#[test]
+fn copies_do_not_displace_the_files_of_a_search() {
+    let folder = download();
+    for (copy, file) in [("A_000.AT2", "STA360"), ("A_090.AT2", "STA090")] {
+        let file = format!("RSN12_EVENT_{file}.AT2");
+        std::fs::copy(folder.path().join("more").join(&file), folder.path().join(copy))
+            .or_else(|_| std::fs::copy(folder.path().join(&file), folder.path().join(copy)))
+            .unwrap();
+    }
+    let done = uplift(folder.path(), &["records", "import", ".", "-o", "set.csv"]).ok();
+    assert!(done.stderr.contains("A_000.AT2: the same motion as"), "{}", done.stderr);
+    assert!(done.stderr.contains("no pair of files here: RSN99\n"), "{}", done.stderr);
+    let rows = rows(&folder.path().join("set.csv"));
+    assert_eq!(
+        (rows[0]["record_id"].as_str(), rows[0]["event"].as_str()),
+        ("RSN12_EVENT_STA", "Some Event, Somewhere")
+    );
+}
+
 #[test]
 fn a_folder_of_downloads_becomes_a_manifest() {
     let folder = download();

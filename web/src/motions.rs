@@ -104,6 +104,9 @@ impl Motions {
         let read = read_record(file, name, &options).map_err(|error| match error {
             MotionError::MissingUnit { name, .. } => format!("{name}: the file names no {UNKNOWN_UNIT}"),
             MotionError::MissingTimeStep { name } => format!("{name}: the file names no {UNKNOWN_STEP}"),
+            MotionError::MissingUnitAndTimeStep { name } => {
+                format!("{name}: the file names no {UNKNOWN_UNIT}; and no {UNKNOWN_STEP}")
+            }
             error => refused(error),
         })?;
         let is_horizontal = |own: &uplift_motion::Recording| {

@@ -246,6 +246,16 @@ pub enum MotionError {
         /// The file.
         name: String,
     },
+    /// Neither the file nor the caller says unit and time step.
+    #[error(
+        "{name}: one column of accelerations without unit and time step; give both: the unit (--unit; unit in a \
+         manifest and in Python), one of: {}; and the time step in seconds (--dt-s; dt_s)",
+        AccelerationUnit::ACCEPTED
+    )]
+    MissingUnitAndTimeStep {
+        /// The file.
+        name: String,
+    },
     /// The number of values differs from the head.
     #[error("{name}: header says {declared} points, file has {found}: the file is damaged or cut; get it again")]
     PointCount {

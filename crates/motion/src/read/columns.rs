@@ -41,13 +41,19 @@ pub fn read_columns(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<A
 pub(super) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Recording, MotionError> {
     let mut table = Table::parse(&decode(bytes), Source { name, format: RecordFormat::Columns })?;
     let stated = table.head.unit()?;
+    let unit = options.unit_or(stated, name);
     let dt_s = match &table.times {
         Some(times) => uniform_step_s(times, table.decimal_comma_hint, name)?,
-        None => {
-            table.head.dt_s().or(options.dt_s).ok_or_else(|| MotionError::MissingTimeStep { name: name.to_owned() })?
-        }
+        None => table.head.dt_s().or(options.dt_s).ok_or_else(|| {
+            let name = name.to_owned();
+            if unit.is_ok() {
+                MotionError::MissingTimeStep { name }
+            } else {
+                MotionError::MissingUnitAndTimeStep { name }
+            }
+        })?,
     };
-    let unit = options.unit_or(stated, name)?;
+    let unit = unit?;
     let accelerogram = options.accelerogram(name, dt_s, unit, table.accelerations)?;
     Ok(Recording { accelerogram, unit, description: RecordingDescription::default() })
 }
@@ -230,6 +236,9 @@ mod tests {
             "a.txt: one column of accelerations and no time step; give the time step in seconds (--dt-s; dt_s in \
              a manifest and in Python), or a file with two columns (time, acceleration)"
         );
+        // all that is missing at once
+        let both = read_columns(b"1\n2\n", "a.txt", &ReadOptions::default()).unwrap_err().to_string();
+        assert!(both.contains("--unit") && both.contains("--dt-s"), "{both}");
     }
 
     #[test]

@@ -3,11 +3,12 @@
 //! Every file is read twice: first for what its head says, by which components are paired, then with its partner
 //! to be measured. So memory holds a pair a thread, however large the folder.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use uplift_job::checksum::checksum;
 use uplift_job::events::{Events, each};
-use uplift_motion::{MotionError, ReadOptions, RecordPair, read_auto, read_record, record_bytes};
+use uplift_motion::{AccelerationUnit, MotionError, ReadOptions, RecordPair, read_auto, read_record, record_bytes};
 
 use super::component::Component;
 use super::group::{self, Candidate};
@@ -69,7 +70,8 @@ pub(super) fn find_pairs(
         }
     }
     let count = components.len();
-    let components = without_duplicates(components, &mut warnings);
+    warnings.extend(options.unit.into_iter().flat_map(|given| stated_units(&components, given)));
+    let components = without_duplicates(components, &search, &mut warnings);
     let candidates = group::pairs(components, &search, &mut warnings);
     warnings.extend(search.missing(candidates.iter().filter_map(|candidate| candidate.rsn)));
 
@@ -90,26 +92,18 @@ pub(super) fn find_pairs(
 /// The components of a file.
 ///
 /// # Errors
-/// Why it is not read; one that states another unit than the one given is not either, since one of the two is wrong.
+/// Why it is not read.
 fn components_of(path: &Path, options: FileOptions) -> Result<Vec<Component>, String> {
     let bytes = record_bytes(path).map_err(|error| error.to_string())?;
     let name = path.display().to_string();
     let read = |unit| read_record(&bytes, &name, &ReadOptions { unit, ..options.read_options(None) });
     let (file, given_unit) = match (read(None), options.unit) {
-        (Err(MotionError::MissingUnit { .. }), Some(given)) => (read(Some(given)), Some(given)),
+        (Err(MotionError::MissingUnit { .. } | MotionError::MissingUnitAndTimeStep { .. }), Some(given)) => {
+            (read(Some(given)), Some(given))
+        }
         (stated, _) => (stated, None),
     };
     let file = file.map_err(|error| error.to_string())?;
-    if let Some(given) = options.unit
-        && let Some(other) = file.recordings.iter().map(|recording| recording.unit).find(|unit| *unit != given)
-    {
-        return Err(format!(
-            "{name}: states {}, but --unit is {}: import it separately, without --unit; or \
-             correct its head",
-            other.symbol(),
-            given.symbol()
-        ));
-    }
     let file_sha256 = checksum(&bytes);
     let several = file.recordings.len() > 1;
     let named = RecordName::from_path(path).orientation;
@@ -122,6 +116,7 @@ fn components_of(path: &Path, options: FileOptions) -> Result<Vec<Component>, St
             path: path.to_owned(),
             channel: several.then_some(index + 1),
             format: file.format,
+            unit: recording.unit,
             given_unit,
             dt_s: recording.accelerogram.dt_s(),
             points: samples.len(),
@@ -162,19 +157,42 @@ fn measured(candidate: Candidate, options: FileOptions, pulses: bool) -> Result<
     Ok(ImportedPair { id: pair.id, components, vertical, measures, search, warnings })
 }
 
-/// Leaves out what is there already, and says so.
-fn without_duplicates(components: Vec<Component>, warnings: &mut Vec<Warning>) -> Vec<Component> {
-    let mut seen = std::collections::HashMap::new();
-    let mut kept: Vec<Component> = Vec::new();
-    for component in components {
-        let first = *seen.entry(component.samples_sha256.clone()).or_insert(kept.len());
-        match kept.get(first) {
-            Some(same) => warnings.push(Warning {
-                kind: "duplicate",
-                text: format!("{}: the same motion as {}; left out", component.place(), same.place()),
-            }),
-            None => kept.push(component),
-        }
+/// Remarks on components whose files state another unit than the one `given`.
+fn stated_units(components: &[Component], given: AccelerationUnit) -> impl Iterator<Item = Warning> {
+    let others = components.iter().filter(move |component| component.unit != given);
+    others.map(move |component| Warning {
+        kind: "another unit",
+        text: format!(
+            "{}: states {}, which is used; --unit is {}",
+            component.place(),
+            component.unit.symbol(),
+            given.symbol()
+        ),
+    })
+}
+
+/// Keeps one of equal motions, and says which are left out: one that the search results list comes first, then one with
+/// a record sequence number, then the first.
+fn without_duplicates(
+    components: Vec<Component>,
+    search: &SearchResults,
+    warnings: &mut Vec<Warning>,
+) -> Vec<Component> {
+    let rank = |component: &Component| {
+        let rsn = RecordName::from_path(&component.path).rsn;
+        (search.find(rsn).is_none(), rsn.is_none())
+    };
+    let mut best = HashMap::new();
+    for (index, component) in components.iter().enumerate() {
+        let own = (rank(component), index);
+        best.entry(component.samples_sha256.clone()).and_modify(|kept| *kept = own.min(*kept)).or_insert(own);
     }
-    kept
+    let kept: Vec<usize> = components.iter().map(|component| best[&component.samples_sha256].1).collect();
+    let left_out = kept.iter().enumerate().filter(|(index, kept)| index != *kept);
+    warnings.extend(left_out.map(|(index, &kept)| {
+        let [place, same] = [index, kept].map(|index| components[index].place());
+        Warning { kind: "duplicate", text: format!("{place}: the same motion as {same}; left out") }
+    }));
+    let numbered = components.into_iter().enumerate();
+    numbered.filter(|(index, _)| kept[*index] == *index).map(|(_, component)| component).collect()
 }

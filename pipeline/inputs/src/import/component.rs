@@ -15,6 +15,8 @@ pub(super) struct Component {
     pub(super) format: RecordFormat,
     /// What its head says.
     pub(super) description: RecordingDescription,
+    /// The unit of its accelerations in the file.
+    pub(super) unit: AccelerationUnit,
     /// The unit given for it; none where the file states its own.
     pub(super) given_unit: Option<AccelerationUnit>,
     /// Time step, s.

@@ -39,20 +39,24 @@ const USUAL_PGV_CM_S: f64 = 400.0;
 const USUAL_PGA_RATIO: f64 = 20.0;
 
 /// What to say of the largest accelerations \[g\] and velocities \[cm/s\] of the components of a record, which the
-/// ground hardly has.
+/// ground hardly has; of several components it says which.
 pub(crate) fn unusual_peaks(pga_g: &[f64], pgv_cm_s: &[f64]) -> Option<String> {
     let [least, largest] = USUAL_PGA_G;
-    if let Some(strong) = pga_g.iter().find(|&&pga_g| pga_g >= largest || pga_g.is_nan()) {
-        return Some(format!("mistake? PGA {strong:.3} g: is its unit right, cm/s2 perhaps?"));
+    let name = |at: usize| if pga_g.len() > 1 { format!("h{} ", at + 1) } else { String::new() };
+    if let Some(at) = pga_g.iter().position(|&pga_g| pga_g >= largest || pga_g.is_nan()) {
+        let (name, strong) = (name(at), pga_g[at]);
+        return Some(format!("mistake? {name}PGA {strong:.3} g: is its unit right, cm/s2 perhaps?"));
     }
-    if let Some(fast) = pgv_cm_s.iter().find(|&&pgv_cm_s| pgv_cm_s > USUAL_PGV_CM_S) {
-        return Some(format!("mistake? PGV {fast:.0} cm/s: are its unit (m/s2 perhaps) and its baseline right?"));
+    if let Some(at) = pgv_cm_s.iter().position(|&pgv_cm_s| pgv_cm_s > USUAL_PGV_CM_S) {
+        let (name, fast) = (name(at), pgv_cm_s[at]);
+        return Some(format!("mistake? {name}PGV {fast:.0} cm/s: are its unit (m/s2 perhaps) and its baseline right?"));
     }
     let weakest = pga_g.iter().copied().fold(f64::INFINITY, f64::min);
     let strongest = pga_g.iter().copied().fold(0.0, f64::max);
     let question = "is the file in g? Check the unit in its head";
-    if weakest < least {
-        return Some(format!("mistake? PGA {weakest:.3e} g: {question}"));
+    if let Some(at) = pga_g.iter().position(|&pga_g| pga_g == weakest).filter(|_| weakest < least) {
+        let name = name(at);
+        return Some(format!("mistake? {name}PGA {weakest:.3e} g: {question}"));
     }
     (strongest > USUAL_PGA_RATIO * weakest)
         .then(|| format!("mistake? PGA {weakest:.3e} g of one component, {strongest:.3} g of the other: {question}"))
@@ -218,10 +222,10 @@ mod tests {
         }
         // 0.3 g read as cm/s2; 1.3 g read so beside 0.9 g; 30 cm/s2 read as g
         for (pga_g, words) in [
-            ([3.06e-4, 3.0e-4], "PGA 3.000e-4 g: is the file in g?"),
+            ([3.06e-4, 3.0e-4], "h2 PGA 3.000e-4 g: is the file in g?"),
             ([1.3e-3, 0.9], "PGA 1.300e-3 g of one component, 0.900 g of the other: is the file in g?"),
-            ([30.0, 0.1], "PGA 30.000 g: is its unit right, cm/s2 perhaps?"),
-            ([0.0, 0.1], "PGA 0.000e0 g"),
+            ([30.0, 0.1], "h1 PGA 30.000 g: is its unit right, cm/s2 perhaps?"),
+            ([0.0, 0.1], "h1 PGA 0.000e0 g"),
         ] {
             let told = unusual_peaks(&pga_g, &[20.0]).unwrap();
             assert!(told.starts_with(&format!("mistake? {words}")), "{told}");
@@ -229,9 +233,11 @@ mod tests {
         // 50 cm/s and 0.2 g read as g in place of m/s2
         let told = unusual_peaks(&[1.96, 1.5], &[490.0, 380.0]).unwrap();
         assert!(
-            told.starts_with("mistake? PGV 490 cm/s: are its unit (m/s2 perhaps) and its baseline right?"),
+            told.starts_with("mistake? h1 PGV 490 cm/s: are its unit (m/s2 perhaps) and its baseline right?"),
             "{told}"
         );
+        // of one component alone there is nothing to tell apart
+        assert!(unusual_peaks(&[30.0], &[20.0]).unwrap().starts_with("mistake? PGA 30.000 g"));
     }
 
     #[test]
