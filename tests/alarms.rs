@@ -486,14 +486,17 @@ fn a_file_that_says_another_unit_or_kind_is_answered_with_the_line_to_write() {
     study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.unit=cm/s"]).fails(
         4,
         &[
-            "but the study declares \"cm/s\"",
+            "but the study reads \"cm/s\"",
             "write pgv = { file = …, unit = \"m/s\" } in [[sites]], or",
             "--set 'sites.Here.pgv.unit=m/s'",
         ],
     );
     study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.unit=m/s"]).ok();
     study.write("pgv.csv", &format!("pgv_cm_s,poe\n{}", rows(1.0)));
-    words(&["write pgv = { file = …, kind = \"poe\", years = … } in [[sites]], with the years that they are of"]);
+    words(&[
+        "but without kind = \"poe\" and years the study means annual rates",
+        "write pgv = { file = …, kind = \"poe\", years = … } in [[sites]], with the years that they are of",
+    ]);
     // the other way round, and of one branch of several
     study.uplift(&["check", "study.toml", "--set", "sites.Here.pgv.kind=poe", "--set", "sites.Here.pgv.years=50"]).ok();
     study.write("pgv.csv", &format!("pgv_cm_s,maf\n{}", rows(1.0)));

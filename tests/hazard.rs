@@ -161,6 +161,32 @@ fn a_hardly_possible_curve_is_warned_of_when_it_is_shown() {
     assert!(words.iter().all(|words| asked.contains(words)), "{asked}");
     let right = study.uplift(&["hazard", "show", "plain.csv", "--unit", "m/s"]).ok().stdout;
     assert!(right.contains("0.1 to 300") && !right.contains("Warnings"), "{right}");
+    // probabilities under the heading of rates
+    study.write("poe.csv", "pgv_cm_s,maf\n0.5,0.99\n1,0.98\n5,0.6\n80,0.01\n300,0.0001\n");
+    let doubted = study.uplift(&["hazard", "show", "poe.csv"]).ok().stdout;
+    let words = "mistake? poe: its rates level off just below 1 (0.99 a year at 0.5 cm/s), as probabilities in many \
+                 years do";
+    assert!(doubted.contains(words) && doubted.contains("poe for maf in its head"), "{doubted}");
+    // rows that are left out
+    let shown = study.uplift(&["hazard", "show", "zeros.csv", "poe.csv"]).fails(4, &["zeros.csv"]).stdout;
+    assert!(shown.contains("\npoe "), "{shown}");
+    study.write("zeros.csv", "pgv_cm_s,PoE in 50 years\n0.1,1\n0.5,0.9\n80,0.01\n300,0.0001\n400,0\n500,0\n");
+    let told = study.uplift(&["hazard", "show", "zeros.csv"]).ok();
+    for dropped in ["zeros at the end of the hazard curve are left out (2)", "probabilities of 1 at the start"] {
+        assert!(told.stderr.contains(&format!("zeros.csv: {dropped}")), "{}", told.stderr);
+    }
+}
+
+/// One file that is no curve does not hide the others, and is named.
+#[test]
+fn a_curve_in_an_impossible_unit_is_named_beside_the_others() {
+    let study = SmallStudy::new();
+    study.write("ok.csv", "pgv_cm_s,maf\n0.5,0.8\n80,0.001\n300,0.00001\n");
+    study.write("inches.csv", "PGV [in/s],maf\n0.5,0.1\n20,0.0001\n");
+    let run = study.uplift(&["hazard", "show", "ok.csv", "inches.csv"]);
+    let run = run.fails(4, &["inches.csv: measure PGV cannot be in \"in/s\": use cm/s or m/s"]);
+    assert!(run.stdout.contains("\nok ") && run.stdout.contains("PGV [cm/s]"), "{}", run.stdout);
+    study.uplift(&["hazard", "show", "inches.csv"]).fails(4, &["inches.csv: measure PGV"]);
 }
 
 #[test]

@@ -133,6 +133,8 @@ fn default_levels_reach_as_far_as_the_curves_of_all_sites() {
     }
     study.uplift(&["merge", "study.toml", "one", "two", "-o", "s.h5", "-q"]).ok();
     study.uplift(&["run", "study.toml", "-o", "w.h5", "-q", "--set", &format!("pgv.{levels}")]).ok();
+    let set = study.uplift(&["check", "study.toml", "--details", "--set", &format!("pgv.{levels}")]).ok().stdout;
+    assert!(!set.contains("default levels"), "{set}");
     let csv = |name: &str| std::fs::read_to_string(study.path().join(name)).unwrap();
     assert!(csv("r.urs.csv") == csv("s.urs.csv") && csv("r.urs.csv") == csv("w.urs.csv"));
     let swept = study.uplift(&["sweep", "study.toml", "--over", "oscillator.restitution=0.9,0.95", "-o", "sweep"]).ok();

@@ -159,6 +159,18 @@ pub struct CsvCurve {
     pub dropped_certain: usize,
 }
 
+impl CsvCurve {
+    /// What to say of the rows that were left out, each kind by itself.
+    pub fn dropped(&self) -> impl Iterator<Item = String> {
+        let kinds =
+            [(self.dropped_zeros, "zeros at the end"), (self.dropped_certain, "probabilities of 1 at the start")];
+        kinds
+            .into_iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, what)| format!("{what} of the hazard curve are left out ({count}): they give no annual rate"))
+    }
+}
+
 /// Reads a hazard curve from a file, which gzip may have packed; see [`read_csv`].
 ///
 /// # Errors

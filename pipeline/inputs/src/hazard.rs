@@ -99,8 +99,11 @@ fn extrapolated_note(study: &UniformRiskStudy, hazard: &[Vec<SiteHazard>]) -> Op
 }
 
 /// That the levels of `plan` are the default ones that the curves of all `sites` cover, and whose curves cut them; none
-/// where they are not.
+/// where the study gives its levels.
 fn shortened_note(plan: &MeasurePlan, sites: &[SiteHazard]) -> Option<String> {
+    if !plan.is_cut {
+        return None;
+    }
     let spans = sites.iter().flat_map(|site| {
         let branches = site.branches.iter().map(|branch| &branch.input);
         let curves = std::iter::once(&site.curve).chain(branches).map(|input| &input.curve);
@@ -108,18 +111,10 @@ fn shortened_note(plan: &MeasurePlan, sites: &[SiteHazard]) -> Option<String> {
     });
     let from = spans.clone().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let to = spans.min_by(|a, b| a.2.total_cmp(&b.2))?;
-    let cut = MeasurePlan::default_within(plan.measure, from.1, to.2);
-    (cut.as_ref() == Some(plan)).then(|| {
-        let (first, last) = (plan.levels.first().copied(), plan.levels.last().copied());
-        let whose = if from.0 == to.0 { from.0.to_owned() } else { format!("{} and {}", from.0, to.0) };
-        format!(
-            "default levels of {} cut to {} to {} {} by the hazard curves of {whose}",
-            plan.measure.label(),
-            first.unwrap_or_default(),
-            last.unwrap_or_default(),
-            plan.measure.unit()
-        )
-    })
+    let (first, last) = (plan.levels.first()?, plan.levels.last()?);
+    let whose = if from.0 == to.0 { from.0.to_owned() } else { format!("{} and {}", from.0, to.0) };
+    let (measure, unit) = (plan.measure.label(), plan.measure.unit());
+    Some(format!("default levels of {measure} cut to {first} to {last} {unit} by the hazard curves of {whose}"))
 }
 
 /// That curves do not say how horizontal components are combined; none where all do.
@@ -280,16 +275,8 @@ impl SiteReader<'_> {
     /// The curve of a file for the records' definition of the measure.
     fn read_file(&mut self, path: &Path) -> Result<ReadCurve, String> {
         let (read, is_defined) = read_converted(self.study, (self.site, self.file), path)?;
-        for (count, what) in
-            [(read.dropped_zeros, "zeros at the end"), (read.dropped_certain, "probabilities of 1 at the start")]
-        {
-            if count > 0 {
-                self.notes.push(format!(
-                    "site {}, {}: {what} of the hazard curve are left out ({count}): they give no annual rate",
-                    self.site,
-                    self.measure.label()
-                ));
-            }
+        for dropped in read.dropped() {
+            self.notes.push(format!("site {}, {}: {dropped}", self.site, self.measure.label()));
         }
         if !is_defined {
             self.undefined.push(format!("{}, {}", self.site, self.measure.label()));

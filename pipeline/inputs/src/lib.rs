@@ -13,6 +13,7 @@ mod hardly_possible;
 mod hazard;
 pub mod hazard_curves;
 pub mod import;
+mod levelling_off;
 mod made;
 pub mod manifest;
 mod other_unit;
@@ -35,6 +36,7 @@ pub use error::InputsError;
 pub use file_options::FileOptions;
 pub use hardly_possible::hardly_possible;
 pub use hazard::{BranchHazard, HazardInput, OtherHazard, SiteHazard, read_hazard, read_other_hazard};
+pub use levelling_off::levelling_off;
 pub(crate) use made::made_pairs;
 pub use other_unit::{
     POE, curve_line, file_of, unit_of_branch, unit_that_covers, unit_that_explains, units_that_make_possible,

@@ -91,6 +91,11 @@ fn unit_setting(study: &UniformRiskStudy, site: &str, file: &CurveFile, unit: Cu
 /// line that agrees with it.
 pub(super) fn with_remedy(error: &HazardError, study: &UniformRiskStudy, site: &str, file: &CurveFile) -> String {
     let HazardError::Contradiction { place, what, found, declared } = error else { return error.to_string() };
+    let read_as = if *what == "second column" && file.kind == CurveKind::Maf {
+        "without kind = \"poe\" and years the study means annual rates".to_owned()
+    } else {
+        format!("the study reads {declared}")
+    };
     let remedy = match *what {
         "unit" => {
             let found = found.trim_matches('"');
@@ -115,7 +120,7 @@ pub(super) fn with_remedy(error: &HazardError, study: &UniformRiskStudy, site: &
         _ => return error.to_string(),
     };
     format!(
-        "{place}: the file declares its {what} as {found}, but the study declares {declared}: if the file is right, \
+        "{place}: the file declares its {what} as {found}, but {read_as}: if the file is right, \
          {remedy}; else correct the file"
     )
 }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use uplift::hazard_curves::{CurveOptions, HazardImportOptions, import as import_curves, show as show_curves};
+use uplift::{JobError, UpliftError};
 use uplift_hazard::SiteSelection;
 use uplift_report::{HazardPlotOptions, plot_hazard};
 
@@ -107,7 +108,9 @@ struct ShowArguments {
 }
 
 fn show(arguments: &ShowArguments, terminal: &Terminal) -> Result<(), CommandError> {
-    print_curves(&show_curves(&arguments.files, &arguments.site.applied_to(&arguments.curves), terminal)?)
+    let report = show_curves(&arguments.files, &arguments.site.applied_to(&arguments.curves), terminal)?;
+    print_curves(&report)?;
+    if report.mistakes.is_empty() { Ok(()) } else { Err(UpliftError::from(JobError::Inputs(report.mistakes)).into()) }
 }
 
 #[derive(Debug, Args)]

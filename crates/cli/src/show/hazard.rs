@@ -27,7 +27,7 @@ pub(crate) fn print_hazard_import(report: &HazardImportReport) -> Result<(), Com
 }
 
 pub(crate) fn print_curves(report: &HazardReport) -> Result<(), CommandError> {
-    let HazardReport { probabilities, years, curves } = report;
+    let HazardReport { probabilities, years, curves, mistakes: _ } = report;
     let mut out = output();
     let level = |level: Option<f64>| level.map_or_else(|| "-".to_owned(), |level| format!("{level:.4}"));
     let table = Table::from_rows(curves.iter().take(SHOWN))

@@ -51,7 +51,7 @@ impl MeasurePlan {
         if most < last && highest < most {
             parts.push(most.to_string());
         }
-        Some(Self { measure, levels: parts.join(",").parse().ok()? })
+        Some(Self { measure, levels: parts.join(",").parse().ok()?, is_cut: true })
     }
 }
 

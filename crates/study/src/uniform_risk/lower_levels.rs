@@ -50,7 +50,7 @@ impl MeasurePlan {
         if lowest.is_none_or(|lowest| start < lowest * (1.0 - EPSILON)) {
             notations.insert(0, start.to_string());
         }
-        Ok(Self { measure: self.measure, levels: self.levels.preceded_by(&notations)? })
+        Ok(Self { measure: self.measure, levels: self.levels.preceded_by(&notations)?, is_cut: false })
     }
 
     /// The levels as a study file has them, `pgv.levels_cm_s = ["1:0.5:20", "25:5:200"]`.
@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     fn plan(levels: &str) -> MeasurePlan {
-        MeasurePlan { measure: IntensityMeasure::Pgv, levels: levels.parse().unwrap() }
+        MeasurePlan { measure: IntensityMeasure::Pgv, levels: levels.parse().unwrap(), is_cut: false }
     }
 
     #[test]

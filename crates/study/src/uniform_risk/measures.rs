@@ -62,6 +62,8 @@ pub struct MeasurePlan {
     pub measure: IntensityMeasure,
     /// Levels in [`IntensityMeasure::unit`], cm/s for PGV, g for PGA and spectral accelerations; at least two.
     pub levels: Grid,
+    /// Whether they are the default levels, cut to what the hazard curves cover.
+    pub is_cut: bool,
 }
 
 /// What a study file says about one measure. The section that switches it on, the key of its curve in a site and that
@@ -195,7 +197,7 @@ pub(super) fn read(root: &mut Section<'_>) -> (Vec<IntensityMeasure>, Option<Vec
         let levels = section.read(&keys.levels);
         section.finish();
         match (&mut plans, levels) {
-            (Some(plans), Some(levels)) => plans.push(MeasurePlan { measure, levels }),
+            (Some(plans), Some(levels)) => plans.push(MeasurePlan { measure, levels, is_cut: false }),
             _ => plans = None,
         }
     }

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use uplift_hazard::{
-    CsvOptions, Declared, ExportedCurve, ExportedCurves, HazardCurve, SecondColumn, SiteSelection, Statistic, read_csv,
-    read_export, table_text,
+    CsvCurve, CsvOptions, Declared, ExportedCurve, ExportedCurves, HazardCurve, HazardError, SecondColumn,
+    SiteSelection, Statistic, read_csv, read_export, table_text,
 };
 use uplift_job::JobError;
 use uplift_job::events::Events;
@@ -57,7 +57,11 @@ pub fn read(files: &[PathBuf], options: &CurveOptions, events: &dyn Events) -> R
 }
 
 /// The curves of one file.
-fn read_file(path: &Path, options: &CurveOptions, events: &dyn Events) -> Result<Vec<NamedCurve>, InputsError> {
+pub(super) fn read_file(
+    path: &Path,
+    options: &CurveOptions,
+    events: &dyn Events,
+) -> Result<Vec<NamedCurve>, InputsError> {
     let export = match curves_of(path, &options.site, events) {
         Ok(curves) => {
             if let Some(far) = curves.iter().filter_map(|curve| curve.distance_km).reduce(f64::max) {
@@ -80,19 +84,33 @@ fn read_file(path: &Path, options: &CurveOptions, events: &dyn Events) -> Result
     if an_export {
         return Err(export);
     }
+    let read = read_table(path, &text, options).map_err(|error| with_file(error, path))?;
+    for dropped in read.dropped() {
+        events.note(&format!("{}: {dropped}", path.display()));
+    }
+    let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    let folder = path.parent().and_then(Path::file_name).map(|folder| format!("{}/", folder.to_string_lossy()));
+    let name = format!("{}{stem}", folder.unwrap_or_default());
+    Ok(vec![NamedCurve { name, curve: read.curve, read_as: Some(read.read_as) }])
+}
+
+/// The curve in the `text` of a table, in field units.
+fn read_table(path: &Path, text: &str, options: &CurveOptions) -> Result<CsvCurve, HazardError> {
     let name = path.display().to_string();
-    let mut declared = Declared::completed(&text, &name, options.measure.as_deref(), options.unit.as_deref())?;
+    let mut declared = Declared::completed(text, &name, options.measure.as_deref(), options.unit.as_deref())?;
     if let Ok(known) = declared.measure.parse::<IntensityMeasure>() {
         known.label().clone_into(&mut declared.measure);
     }
     let options =
         CsvOptions { declared, second_column: options.years.map(|_| SecondColumn::Probability), years: options.years };
-    let read = read_csv(&text, &name, &options)?;
-    let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-    let folder = path.parent().and_then(Path::file_name).map(|folder| format!("{}/", folder.to_string_lossy()));
-    let curve = read.curve.in_field_units(STANDARD_GRAVITY_M_S2)?;
-    let name = format!("{}{stem}", folder.unwrap_or_default());
-    Ok(vec![NamedCurve { name, curve, read_as: Some(read.read_as) }])
+    let read = read_csv(text, &name, &options)?;
+    Ok(CsvCurve { curve: read.curve.in_field_units(STANDARD_GRAVITY_M_S2)?, ..read })
+}
+
+/// The same with the name of the file, which what is wrong with a curve by itself lacks.
+fn with_file(error: HazardError, path: &Path) -> HazardError {
+    let (file, reason) = (path.display().to_string(), error.to_string());
+    if reason.contains(&file) { error } else { HazardError::File { file, reason } }
 }
 
 /// The curves of an export; of all sites those that have one, the others are reported.

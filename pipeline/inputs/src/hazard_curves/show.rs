@@ -5,17 +5,20 @@ use std::path::PathBuf;
 use serde::Serialize;
 use uplift_hazard::{HazardCurve, rate_from_probability};
 use uplift_job::events::Events;
-use uplift_job::text::{per_cent, rounded};
+use uplift_job::text::{distinct, per_cent, rounded};
 use uplift_motion::IntensityMeasure;
 use uplift_study::usual_top_level;
 
 use super::NamedCurve;
-use super::read::{CurveOptions, read};
+use super::read::{CurveOptions, read_file};
 use crate::error::InputsError;
 use crate::hardly_possible::hardly_possible;
+use crate::levelling_off::levelling_off;
 
 /// Probabilities at which levels are reported.
 const PROBABILITIES: [f64; 5] = [0.5, 0.2, 0.1, 0.05, 0.02];
+/// What to do with a file of probabilities that calls them rates.
+const POE_HEAD: &str = "Write poe for maf in its head, and give --years";
 /// Years that they refer to.
 const YEARS: f64 = 50.0;
 
@@ -28,6 +31,8 @@ pub struct HazardReport {
     pub years: f64,
     /// The curves.
     pub curves: Vec<ShownCurve>,
+    /// What is wrong with files that hold none.
+    pub mistakes: Vec<String>,
 }
 
 /// A curve in a few numbers.
@@ -60,10 +65,20 @@ pub struct ShownCurve {
 /// Looks at the curves of `files`.
 ///
 /// # Errors
-/// A file that holds none; a table that does not say what it holds.
+/// No file from which a curve can be read; what is wrong with the first.
 pub fn show(files: &[PathBuf], options: &CurveOptions, events: &dyn Events) -> Result<HazardReport, InputsError> {
-    let curves = read(files, options, events)?;
-    Ok(HazardReport { probabilities: PROBABILITIES.to_vec(), years: YEARS, curves: curves.iter().map(shown).collect() })
+    let (mut curves, mut errors) = (Vec::new(), Vec::new());
+    for file in distinct(files) {
+        match read_file(file, options, events) {
+            Ok(read) => curves.extend(read.iter().map(shown)),
+            Err(error) => errors.push(error),
+        }
+    }
+    if curves.is_empty() && !errors.is_empty() {
+        return Err(errors.swap_remove(0));
+    }
+    let mistakes = errors.iter().map(ToString::to_string).collect();
+    Ok(HazardReport { probabilities: PROBABILITIES.to_vec(), years: YEARS, curves, mistakes })
 }
 
 fn shown(NamedCurve { name, curve, read_as }: &NamedCurve) -> ShownCurve {
@@ -90,7 +105,10 @@ fn warning(curve: &HazardCurve) -> Option<String> {
         let (_, usual) = usual_top_level(measure)?;
         Some(usual.unlikely("the last level", curve.last().im)?.to_string())
     };
-    hardly_possible(curve, measure).map(|found| found.to_string()).or_else(unusual_end).or_else(|| cut_short(curve))
+    let probabilities =
+        || Some(format!("its rates {}: is it a curve of probabilities? {POE_HEAD}", levelling_off(curve)?));
+    let hardly_possible = || hardly_possible(curve, measure).map(|found| found.to_string());
+    probabilities().or_else(hardly_possible).or_else(unusual_end).or_else(|| cut_short(curve))
 }
 
 /// What to say of a curve that ends before the rarest level of the report, as one does that lost its last rows.
