@@ -65,7 +65,7 @@ fn pairs_by_key() {
     let found = json(&study, &arguments);
     let unmatched = &found["unmatched"];
     assert_eq!(texts(&unmatched["measured_only"]), ["5, low"]);
-    assert_eq!(texts(&unmatched["computed_only"]), ["9, high"]);
+    assert_eq!(texts(&unmatched["computed_only"]), ["4, low", "9, high"]);
     assert_eq!(texts(&unmatched["measured_blank"]), ["4, low"]);
     let groups = found["groups"].as_array().unwrap();
     let names: Vec<String> = groups.iter().map(|group| group["of"].to_string()).collect();
@@ -107,7 +107,7 @@ fn pairs_by_key() {
     // the same bits on any number of threads
     assert_eq!(found, json(&study, &[&arguments[..], &["--threads", "1"]].concat()));
     let answer = study.uplift(&[&["validate"], &arguments[..]].concat()).ok().stdout;
-    let left_out = "\nLeft out 2 measured and 1 computed rows, without a partner or a value\n";
+    let left_out = "\nLeft out 2 measured and 2 computed rows, without a partner or a value\n";
     assert!(answer.contains(left_out) && !answer.contains("Two samples"), "{answer}");
     let told = study.uplift(&[&["validate"], &arguments[..], &["--permutation", "--details"]].concat()).ok().stdout;
     for words in [
@@ -212,6 +212,33 @@ fn mistakes() {
     run(&["good.csv", "good.csv", "--by", "level", "--significance", "10", "--replicates", "0"])
         .fails(2, &["significance 10", "0 replicates"]);
     run(&["good.csv", "missing.csv"]).fails(4, &["missing.csv"]);
+}
+
+/// Peaks in another unit than their column says.
+#[test]
+fn peaks_in_another_unit_are_asked_about() {
+    let study = SmallStudy::new();
+    let peaks = |name: &str, column: &str, times: f64| {
+        let rows = (1..=8).map(|row| format!("{row},{}\n", times * f64::from(row))).collect::<Vec<_>>().concat();
+        study.write(name, &format!("exc_id,{column}\n{rows}"));
+    };
+    let answer = |arguments: &[&str]| {
+        study.uplift(&[&["validate", "tests.csv", "model.csv", "--replicates", "50"], arguments].concat()).ok().stdout
+    };
+    peaks("model.csv", "u_m", 0.022);
+    for (times, words) in [
+        (20.0, "mistake? the median of the measured peaks is 90 m; usual is from 1e-4 to 20 m"),
+        (2.0, "mistake? the median of the measured peaks is 91 times that of the computed: are both in the units"),
+    ] {
+        peaks("tests.csv", "u_m", times);
+        assert!(answer(&[]).contains(words), "{}", answer(&[]));
+    }
+    peaks("tests.csv", "u_mm", 20.0);
+    assert!(!answer(&[]).contains("mistake?"), "{}", answer(&[]));
+    for name in ["tests.csv", "model.csv"] {
+        peaks(name, "f_kn", 1e4);
+    }
+    assert!(!answer(&["--value", "f_kn"]).contains("mistake?"));
 }
 
 /// 200 000 motions take seconds, and what is no longer exact is said.

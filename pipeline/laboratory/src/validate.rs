@@ -1,5 +1,6 @@
 //! Whether computed peaks are distributed as measured ones (Section 6.8): two tables joined, tested group by group.
 
+mod doubts;
 mod group;
 mod join;
 mod options;

@@ -6,6 +6,7 @@ use uplift::text::{Table, share};
 use uplift::validate::{GroupReport, PRule, ValidateReport};
 use uplift_validation::{Pairs, Quantiles};
 
+use super::alarms::print_lines;
 use super::structure::print_notes;
 use super::{print_files, print_more, shown_path};
 use crate::error::CommandError;
@@ -21,6 +22,7 @@ pub(crate) fn print_validation(report: &ValidateReport, terminal: &Terminal) -> 
     if terminal.shows_details() {
         print_details(&mut out, report)?;
     }
+    print_lines(&mut out, &report.doubts, true)?;
     print_more(&mut out, terminal)?;
     drop(out);
     print_files(&report.files, terminal)

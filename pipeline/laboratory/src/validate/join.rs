@@ -14,9 +14,9 @@ const TOLD: usize = 5;
 /// Rows that stand in no statistic, by their key and groups, or by their number where they have no key.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct Unmatched {
-    /// Measured, and not computed.
+    /// Measured, and not computed: there is no such row, or its value is blank.
     pub measured_only: Vec<String>,
-    /// Computed, and not measured.
+    /// Computed, and not measured: there is no such row, or its value is blank.
     pub computed_only: Vec<String>,
     /// Measured rows whose value is blank.
     pub measured_blank: Vec<String>,
@@ -83,9 +83,7 @@ pub(super) fn by_key(measured: &Peaks, computed: &Peaks) -> Result<(Joined, Unma
         let name = key(row);
         match (row.value, of_computed.get(&name).map(|other| (*other, other.value))) {
             (None, _) => unmatched.measured_blank.push(words(&name)),
-            (_, None) => unmatched.measured_only.push(words(&name)),
-            // told below
-            (_, Some((_, None))) => {}
+            (_, None | Some((_, None))) => unmatched.measured_only.push(words(&name)),
             (Some(m), Some((other, Some(c)))) => {
                 let groups = row.groups.iter().zip(&other.groups);
                 let groups = groups.map(|(one, two)| one.clone().or_else(|| two.clone()).unwrap_or_default()).collect();
@@ -97,7 +95,7 @@ pub(super) fn by_key(measured: &Peaks, computed: &Peaks) -> Result<(Joined, Unma
         let name = key(row);
         if row.value.is_none() {
             unmatched.computed_blank.push(words(&name));
-        } else if !of_measured.contains_key(&name) {
+        } else if of_measured.get(&name).is_none_or(|other| other.value.is_none()) {
             unmatched.computed_only.push(words(&name));
         }
     }

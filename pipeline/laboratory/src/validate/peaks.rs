@@ -16,6 +16,8 @@ const UNITS: [&[(&str, f64)]; 5] = [
     &[("rad", 1.0), ("deg", std::f64::consts::PI / 180.0)],
     &[("", 1.0), ("percent", 1e-2)],
 ];
+/// Which of them are lengths.
+const LENGTHS: usize = 0;
 
 /// A peak.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,6 +135,12 @@ pub(super) fn unit_of(value: &str) -> &'static str {
     split(value).map_or("", |(_, unit, _)| unit)
 }
 
+/// How many metres the unit of a length is, by the name of its column; none of other quantities.
+pub(super) fn metres_of(value: &str) -> Option<f64> {
+    let (_, unit, _) = split(value)?;
+    UNITS[LENGTHS].iter().find_map(|(name, metres)| (*name == unit).then_some(*metres))
+}
+
 /// Stem, unit and quantity of a name; the longest unit that it may end in.
 fn split(value: &str) -> Option<(&str, &'static str, usize)> {
     let with_unit = UNITS.iter().enumerate().flat_map(|(quantity, units)| {
@@ -225,5 +233,6 @@ mod tests {
             assert_eq!(unit_of(name), unit, "{name}");
         }
         assert_eq!(split("base_shear_n"), Some(("base_shear", "n", 1)));
+        assert_eq!(["u_mm", "u_m", "base_shear_n"].map(metres_of), [Some(1e-3), Some(1.0), None]);
     }
 }

@@ -38,6 +38,8 @@ pub struct ValidateReport {
     pub groups: Vec<GroupReport>,
     /// Rows that stand in no statistic.
     pub unmatched: Unmatched,
+    /// What is probably mistaken, above all a unit.
+    pub doubts: Vec<String>,
     /// What to know before using the numbers.
     pub notes: Vec<String>,
     /// The files written.

@@ -10,6 +10,7 @@ use uplift_job::machine::require_memory;
 use uplift_job::outputs::{self, Output, OutputKind};
 use uplift_validation::{ValidationError, holm_adjusted};
 
+use super::doubts::doubts;
 use super::group::{GroupReport, memory_of_group};
 use super::join::{Joined, Unmatched, as_samples, by_key};
 use super::options::{PRule, ValidateOptions};
@@ -84,6 +85,7 @@ pub fn validate(options: &ValidateOptions, events: &dyn Events) -> Result<Valida
         replicates: options.replicates,
         seed: options.seed,
         band: options.band,
+        doubts: doubts(&options.value, &groups),
         notes: notes(options, &groups, &unmatched, are_pairs),
         groups,
         unmatched,
