@@ -615,7 +615,15 @@ fn a_design_sheet_says_what_the_design_says() {
     assert!(page.contains(&cell) && page.contains(" a year, a lower bound): "), "{cell}");
     assert_eq!(page.contains("not significant (rounding)"), page.contains("*</td>"));
     let (lead, rest) = page.split_once("<div class=\"answer\">").unwrap().1.split_once("</div>").unwrap();
-    let said: f64 = lead.split_once("the demand is ").unwrap().1.split_once(" m").unwrap().0.parse().unwrap();
+    let said: f64 = lead
+        .split_once("the demand on the equivalent oscillator is ")
+        .unwrap()
+        .1
+        .split_once(" m")
+        .unwrap()
+        .0
+        .parse()
+        .unwrap();
     assert!((said / demand_m - 1.0).abs() < 0.06, "{lead}");
     let satisfied = found["rules"].as_array().unwrap().iter().all(|rule| rule["from_spectrum"]["satisfied"] == true);
     assert_eq!(lead.contains("class=\"verdict no\""), !satisfied, "{lead}");

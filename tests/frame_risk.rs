@@ -157,7 +157,14 @@ fn a_design_has_the_frame_beside_its_proxy() {
     let own = ["design", "free.toml", "--urs", "r-free.h5", "--site", "Here", "--spectrum-only", "--json"];
     assert_eq!(study.uplift(&own).json()["other_oscillator"], false);
     let sheet = std::fs::read_to_string(study.path().join("s.html")).unwrap();
-    assert!(sheet.contains("The wobbling frame itself") && sheet.contains("required capacity, m"), "{sheet}");
+    assert!(sheet.contains("required capacity, m") && !sheet.contains("itself"), "{sheet}");
+    // the sheet begins as the terminal does: with the verdict on the frame; its oscillator follows under its own name
+    let lead: Vec<&str> = sheet.split_once("<div class=\"answer\">").unwrap().1.split("<p").skip(1).collect();
+    let own = word(models[0]["check"]["satisfied"] == true);
+    let verdict = |text: &str| text.contains("the wobbling frame requires a capacity of ") && text.contains(own);
+    assert!(verdict(lead[0]) && lead[1].contains(">Its demand is "), "{lead:?}");
+    assert!(lead[2].contains("The wobbling frame overturns "), "{lead:?}");
+    assert!(lead[3].contains(">The demand on the equivalent oscillator is "), "{lead:?}");
 
     // a factor that just the best estimate of the demand meets
     let factor = 0.99 * number(&design["structure"]["capacity_m"]) / number(&models[0]["demand_m"]);

@@ -1,10 +1,11 @@
 //! The design sheet: one page on one structure at one site, to hand over.
 //!
-//! It leads with demand, margin and risk in a sentence each; then the structure to scale, the numbers, and what they
-//! rest on. Style and policy are those of the report.
+//! It leads with verdict, demand and risk in a sentence each, of a frame that wobbles first; then the structure to
+//! scale, the numbers, and what they rest on. Style and policy are those of the report.
 
 mod bands;
 mod drawing;
+mod lead;
 mod numbers;
 
 use std::path::Path;
@@ -22,8 +23,9 @@ use crate::page::{STYLE, render};
 pub(crate) use bands::bands;
 use drawing::drawing;
 pub(crate) use drawing::drawing as elevation;
+use lead::lead;
 pub(crate) use numbers::facts;
-use numbers::{kind_name, lead, rounding_words, tables};
+use numbers::{kind_name, rounding_words, tables};
 
 const SHEET: &str = concat!(include_str!("page/table.html"), include_str!("sheet/sheet.html"));
 

@@ -1,6 +1,5 @@
-//! The numbers of a design sheet: in sentences, as facts of the structure, in tables.
+//! The numbers of a design sheet: as facts of the structure, and in tables.
 
-use serde::Serialize;
 use uplift::structure::{
     DemandRounding, DesignReport, EventRisk, RuleCheck, RuleOutcome, Sensitivity, StructureReport, verdict_word,
 };
@@ -10,149 +9,19 @@ use uplift_spectra::Noisy;
 
 use crate::page::TitledTable;
 
-/// A sentence at the head of the sheet; `yes` or `no` where it is a verdict.
-#[derive(Debug, Serialize)]
-pub(super) struct Sentence {
-    text: String,
-    class: Option<&'static str>,
-}
-
-/// Demand, margin and risk, a sentence each.
-pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
-    let mut sentences = Vec::new();
-    let mut say = |text: String, class: Option<&'static str>| sentences.push(Sentence { text, class });
-    let (site, years) = (&report.site, report.years);
-    let rounding = rounding(report);
-    let of = format!("At {site}, for {}", risk_in_words(report.poe, years));
-    let capacity =
-        report.structure.capacity_m.map(|capacity_m| format!("; the capacity is {} m", two_digits(capacity_m)));
-    let capacity = capacity.unwrap_or_default();
-    match (&report.exact, &report.spectrum) {
-        (Some(exact), _) if exact.overturns => {
-            say(format!("{of}, no displacement meets the target: the structure overturns more often."), Some("no"));
-        }
-        (Some(exact), _) => {
-            let demand = marked(exact.demand_m, rounding.map(|of| &of.demand_m), two_digits);
-            let band = exact.bands.as_ref().map_or_else(String::new, |bands| {
-                let [lower_m, upper_m] = bands.demand_m.quoted().map(two_digits);
-                format!(" (90 % band{} {lower_m} to {upper_m} m)", bands.demand_m.by_whom())
-            });
-            say(format!("{of}, the demand is {demand} m{band}{capacity}."), None);
-        }
-        (None, Some(spectrum)) => {
-            let demand = two_digits(spectrum.zero_stiffness_demand_m);
-            say(format!("{of}, the demand without stiffness after uplift is {demand} m{capacity}."), None);
-        }
-        (None, None) => say(format!("{of}, no demand."), None),
-    }
-    // the rule that asks for more is the one that counts
-    let asked = report.rules.iter().filter_map(|outcome| Some((outcome.rule, outcome.check()?)));
-    if let Some((rule, check)) = asked.max_by(|a, b| a.1.required_capacity_m.total_cmp(&b.1.required_capacity_m)) {
-        let safety = report.required_safety_factor;
-        if check.required_capacity_m.is_finite() && check.capacity_m.is_finite() {
-            let required = two_digits(check.required_capacity_m);
-            let verdict = verdict_word(check.satisfied);
-            let margin =
-                format!("{}{} m", if check.margin_m < 0.0 { "−" } else { "+" }, two_digits(check.margin_m.abs()));
-            say(
-                format!(
-                    "With a safety factor of {safety}, {} requires a capacity of {required} m: {verdict}, margin \
-                     {margin}.",
-                    rule.words()
-                ),
-                Some(class(check.satisfied)),
-            );
-        } else if check.overturns {
-            say(format!("By {} it overturns.", rule.words()), Some("no"));
-        }
-    }
-    let is_of_proxy = report.frame.is_some();
-    if let Some(own) = report.own_check.filter(|_| !is_of_proxy) {
-        let words = own.in_words(report.required_safety_factor);
-        say(format!("By {words}: {}.", verdict_word(own.satisfied)), Some(class(own.satisfied)));
-    }
-    for (whose, words) in report.unsafe_upper_limits() {
-        let whose = if is_of_proxy { "The" } else { "Its" }.to_owned() + " " + whose;
-        say(format!("{whose} is {words}."), Some("no"));
-    }
-    if let Some(beyond) = report.beyond_tendon() {
-        say(format!("Its tendons: {beyond}."), Some("no"));
-    }
-    for (_, verdict) in report.verdicts_by_other_measures() {
-        let (first, rest) = verdict.split_at(1);
-        say(format!("{}{rest}.", first.to_uppercase()), Some(class(!verdict.contains("NOT"))));
-    }
-    if let Some(frame) = &report.frame {
-        let own = frame.wobbling();
-        let demand =
-            if_finite(own.demand_m, "no displacement that meets the target", |m| format!("{} m", two_digits(m)));
-        let times = report
-            .frame_over_proxy()
-            .map_or_else(String::new, |ratio| format!(", {ratio:.1} times that of its oscillator"));
-        let verdict = own.check.map_or_else(String::new, |check| {
-            let required = if_finite(check.required_capacity_m, "", |m| format!(" it requires {} m:", two_digits(m)));
-            let differ = if report.verdicts_differ() == Some(true) { "; the verdicts differ" } else { "" };
-            let verdict = verdict_word(check.satisfied);
-            format!(";{required} {verdict}{differ}")
-        });
-        let class = own.check.map(|check| class(check.satisfied));
-        say(format!("The wobbling frame itself has a demand of {demand}{times}{verdict}."), class);
-    }
-    if let Some(reason) = &report.without_frame {
-        say(format!("The frame itself is left out: {reason}."), None);
-    }
-    if let Some(exact) = &report.exact {
-        let rounding = rounding.map(|of| &of.overturning_per_year);
-        let overturns = in_words("It overturns", &exact.overturning, rounding, years);
-        let band = exact.bands.and_then(|bands| bands.overturning_per_year).map_or_else(String::new, |bands| {
-            let [lower, upper] = bands.quoted();
-            let shown = |per_year: f64| if per_year > 0.0 { power(per_year, 1) } else { "0".to_owned() };
-            format!(" 90 % band{}: {} to {} a year.", bands.by_whom(), shown(lower), shown(upper))
-        });
-        say(format!("{overturns}{band}"), None);
-    }
-    for result in report.uncertainty.iter().flat_map(|uncertainty| &uncertainty.results) {
-        say(format!("Uncertain properties, {}.", result.in_words()), None);
-    }
-    sentences
-}
-
-/// How a verdict is marked.
-fn class(satisfied: bool) -> &'static str {
-    if satisfied { "yes" } else { "no" }
-}
-
 /// What rounding makes of the numbers; none where it was not asked.
-fn rounding(report: &DesignReport) -> Option<&DemandRounding> {
+pub(super) fn rounding(report: &DesignReport) -> Option<&DemandRounding> {
     Some(&report.exact.as_ref()?.sensitivity.as_ref()?.rounding)
 }
 
 /// The value as `shown`, with an asterisk where rounding shows it otherwise.
-fn marked(value: f64, rounding: Option<&Noisy>, shown: impl Fn(f64) -> String) -> String {
+pub(super) fn marked(value: f64, rounding: Option<&Noisy>, shown: impl Fn(f64) -> String) -> String {
     rounding.map_or_else(|| shown(value), |rounding| rounding.marked(&shown))
 }
 
 /// That more than counted happens, beside a rate.
-fn lower_bound(risk: &EventRisk) -> &'static str {
+pub(super) fn lower_bound(risk: &EventRisk) -> &'static str {
     if risk.is_lower_bound() { ", a lower bound" } else { "" }
-}
-
-fn in_words(what: &str, risk: &EventRisk, rounding: Option<&Noisy>, years: f64) -> String {
-    if risk.per_year == 0.0 {
-        // a neighbour that overturns is in the note
-        return risk.at_most_per_year.map_or_else(
-            || format!("{what} in none of the analyses."),
-            |most| format!("{what} in none of the analyses: at most {} a year.", power(most, 1)),
-        );
-    }
-    let between = 1.0 / risk.per_year;
-    format!(
-        "{what} once in {} years on average ({} a year{}): {} in {years} years.",
-        if between < 1e7 { two_digits(between) } else { power(between, 1) },
-        marked(risk.per_year, rounding, |per_year| power(per_year, 1)),
-        lower_bound(risk),
-        chance(risk.probability)
-    )
 }
 
 /// Which numbers hang on rounding, and from where to where; none where none does.
@@ -171,7 +40,7 @@ pub(super) fn rounding_words(report: &DesignReport) -> Option<String> {
         metres_or_overturns,
         " m",
     );
-    tell("the structure itself", &rounding.demand_m, metres_or_overturns, " m");
+    tell("the equivalent oscillator", &rounding.demand_m, metres_or_overturns, " m");
     for outcome in &report.rules {
         if let Some(check) = &outcome.from_spectrum {
             tell(&format!("error of {}", outcome.rule.words()), &rounding.error_of(check.demand_m), relative, "");
@@ -231,9 +100,9 @@ pub(crate) fn facts(structure: &Structure, of: &StructureReport) -> Vec<(&'stati
     facts
 }
 
-/// Demands, rules, risk, and what of them is noise.
+/// The frame, then its equivalent oscillator: demands, rules, risk, and what of them is noise.
 pub(super) fn tables(report: &DesignReport) -> Vec<TitledTable> {
-    [demands(report), frame(report), rules(report), risk(report), noise(report)].into_iter().flatten().collect()
+    [frame(report), demands(report), rules(report), risk(report), noise(report)].into_iter().flatten().collect()
 }
 
 fn demands(report: &DesignReport) -> Option<TitledTable> {
@@ -252,7 +121,7 @@ fn demands(report: &DesignReport) -> Option<TitledTable> {
         let what = "the same with the uplift and impacts of the structure";
         row(what, marked(zero_stiffness_m, zero_stiffness, metres_or_overturns));
         row(
-            "the structure itself, exact",
+            "the equivalent oscillator, exact",
             marked(exact.demand_m, rounding.map(|of| &of.demand_m), metres_or_overturns),
         );
     }
@@ -264,7 +133,7 @@ fn demands(report: &DesignReport) -> Option<TitledTable> {
         power(report.target_per_year, 2)
     );
     let table = Table::new(["demand on", "displacement, m"], rows);
-    TitledTable::new("demand", "Demand", note, table).unless_empty()
+    TitledTable::new("demand", "Demand on the equivalent oscillator", note, table).unless_empty()
 }
 
 /// The frame that wobbles, by both models.
@@ -293,7 +162,7 @@ fn frame(report: &DesignReport) -> Option<TitledTable> {
          unconservative (Section 6.2.3).",
         frame.levels.len()
     );
-    TitledTable::new("frame", "The frame itself", note, table).unless_empty()
+    TitledTable::new("frame", "The frame", note, table).unless_empty()
 }
 
 fn rules(report: &DesignReport) -> Option<TitledTable> {
@@ -350,7 +219,7 @@ fn risk(report: &DesignReport) -> Option<TitledTable> {
     let beyond = exact.beyond_capacity.iter().map(|risk| row(what.clone(), risk, of_beyond));
     let overturning = row("overturning".to_owned(), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
     let years = format!("in {} years", report.years);
-    let header = ["the structure itself", "per year", &years, "return period, years", "from outside the levels"];
+    let header = ["equivalent oscillator", "per year", &years, "return period, years", "from outside the levels"];
     let note = "Counted over all records and levels, weighted by the hazard of the site (Eq. 4.4).";
     Some(TitledTable::new("risk", "Risk", note, Table::new(header, beyond.chain([overturning]))))
 }
@@ -361,7 +230,7 @@ fn noise(report: &DesignReport) -> Option<TitledTable> {
     let mut range = |what: &str, [of, rounding]: [&Noisy; 2], shown: fn(f64) -> String| {
         rows.push(vec![what.to_owned(), rounding.marked(shown), shown(of.lowest), shown(of.highest)]);
     };
-    range("demand on the structure, m", [&noise.demand_m, &rounding.demand_m], metres_or_overturns);
+    range("demand on the equivalent oscillator, m", [&noise.demand_m, &rounding.demand_m], metres_or_overturns);
     if let (Some(of), Some(rounding)) = (&noise.rule_errors, &rounding.rule_errors) {
         range("own error of equal displacement", [&of.equal_displacement, &rounding.equal_displacement], relative);
         range("own error of equal energy", [&of.equal_energy, &rounding.equal_energy], relative);
@@ -385,7 +254,7 @@ fn relative(error: f64) -> String {
 }
 
 /// A probability in per cent, two digits of it unless they say that it is certain.
-fn chance(probability: f64) -> String {
+pub(super) fn chance(probability: f64) -> String {
     let short = two_digits(100.0 * probability);
     if short == "100" { per_cent(probability) } else { format!("{short} %") }
 }
@@ -412,7 +281,7 @@ fn counted(per_year: f64) -> String {
 }
 
 /// A factor of so many decimals times a power of ten, which is raised.
-fn power(value: f64, decimals: usize) -> String {
+pub(super) fn power(value: f64, decimals: usize) -> String {
     let written = format!("{value:.decimals$e}");
     let (factor, exponent) = written.split_once('e').unwrap_or((&written, "0"));
     format!("{factor}·10^{{{}}}", exponent.replace('-', "−"))
