@@ -392,9 +392,61 @@ fn from_a_spectrum_to_a_stack() {
     assert_eq!(first.contains("NOT satisfied"), first.ends_with("(other stacks not tried)"), "{said}");
     let alone = study.uplift(&[&round[..], &["--proxy"]].concat()).ok().stdout;
     assert!(alone.lines().next().unwrap().ends_with("by its oscillator alone"), "{alone}");
-    // a spectrum asks for less than the columns have
-    let arguments = [&arguments[..], &["1"]].concat();
-    study.uplift(&arguments).fails(2, &["the columns have 0.4000 m without any restrainer"]);
+    // a spectrum asks for less than the columns have: that is an answer, of the oscillator
+    let enough = |file: &str| {
+        let arguments = ["restrainer", "design", file, "--catalogue", &catalogue];
+        study.uplift(&[&arguments[..], &spectrum, &["1"]].concat()).ok().stdout
+    };
+    let said = enough("tower.toml");
+    let none = "none needed by the oscillator of tower: the columns have 0.4000 m without any restrainer\n";
+    assert!(said.contains(none) && said.contains("required by equal ") && !said.contains("Found"), "{said}");
+    // the frame itself is tried, too
+    let said = enough("round.toml");
+    let first = said.lines().next().unwrap();
+    assert!(first.contains("restrainer; without tendons ") && first.contains("satisfied by the wobbling"), "{said}");
+    let free = tower.split("[restrainer]").next().unwrap().replace("restrained-frame", "frame");
+    study.write("free-round.toml", &(free + "column_shape = \"cylinder\"\n"));
+    let own = study.uplift(&[&["design", "free-round.toml", "--json"][..], &spectrum, &["1"]].concat()).json();
+    let found = study.uplift(&[&round[..9], &["--safety-factor", "1", "--json"]].concat()).json();
+    assert_eq!(found["frame"]["models"][0]["demand_m"], own["frame"]["models"][0]["demand_m"]);
+    assert!(found["found"] == 0 && found["stacks"].as_array().unwrap().is_empty(), "{found}");
+}
+
+/// Advice that can be followed: what cannot be at all, which limit refuses the nearest stack, and what to write.
+#[test]
+fn why_there_is_no_stack() {
+    let study = SmallStudy::new();
+    let (bridge, catalogue) = (structure("footbridge.toml"), structure("disc-springs.csv"));
+    let design = |more: &[&str]| {
+        study.uplift(&[&["restrainer", "design", &bridge, "--catalogue", &catalogue][..], more].concat())
+    };
+    for more in [&["--capacity-m", "1.25"][..], &["--capacity-m", "2.2", "--springs", "100"]] {
+        let words = ["the tendon alone gives 1.21 m, so no stack can give", "use a stiffer tendon or wider columns"];
+        design(more).fails(2, &words);
+    }
+    let words = ["the tendon alone has 9828 kN/m, so no stack can have the 15539 kN/m that it needs"];
+    design(&["--positive-stiffness"]).fails(2, &words);
+    let refused = "320 kN exceeds the tendon's yield over 1.5, 318 kN: --tendon-factor 1.49\n";
+    design(&["--capacity-m", "0.9"]).fails(2, &[refused]);
+    let found = design(&["--capacity-m", "0.9", "--tendon-factor", "1.49"]).ok().stdout;
+    assert!(found.contains("Found     1 stack of 32 discs"), "{found}");
+    design(&["--capacity-m", "0.8", "--stroke", "0.5"]).fails(2, &["of its stroke, more than 50 %: --stroke 0."]);
+    // each of the limits named has its option, and no other is
+    design(&["--capacity-m", "0.8", "--stroke", "0.7", "--largest-diameter-m", "0.1"])
+        .fails(2, &["0.2 m is wider than 0.1 m: --largest-diameter-m 0.2\n"]);
+    let pier = structure("pier.toml");
+    study.uplift(&["restrainer", "design", &pier, "--catalogue", &catalogue, "--capacity-m", "2"]).fails(
+        2,
+        &["the file has no table [restrainer]: write it in place of tendon_stiffness_n_m", "kind = \"tendon\""],
+    );
+    let help = study.uplift(&["restrainer", "design", "--help"]).ok().stdout;
+    assert!(help.contains("Most packets in series, 1 to 100") && help.contains("in parallel, 1 to 4"), "{help}");
+    // as many stacks as asked for, with and without details
+    let rows = |more: &[&str]| {
+        let said = design(&[&["--capacity-m", "0.8"], more].concat()).ok().stdout;
+        said.lines().filter(|line| line.contains(" x ") && line.contains('/') && !line.starts_with("Stack")).count()
+    };
+    assert_eq!([rows(&[]), rows(&["--most", "6"]), rows(&["--most", "2"])], [3, 6, 2]);
 }
 
 /// One file serves statics and design: the oscillator of the design has the capacity of the exact law.

@@ -16,8 +16,8 @@ use crate::stack::DiscStack;
 
 /// Density of steel, kg/m³.
 const STEEL_DENSITY_KG_M3: f64 = 7850.0;
-/// Stacks of so many discs in a row are a matter of guidance, not of springs.
-const MOST_SERIES: u32 = 100;
+/// Most packets in series: stacks of more are a matter of guidance, not of springs.
+pub const MOST_SERIES: u32 = 100;
 /// In parallel, friction between more discs is no longer small.
 const MOST_PARALLEL: u32 = 4;
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use uplift::restrainer::{RestrainerCurve, RestrainerDesign, stack_name};
 use uplift::structure::verdict_word;
-use uplift::text::{Table, TableOf};
+use uplift::text::{Table, TableOf, counted};
 use uplift_statics::Candidate;
 
 use super::alarms::print_warnings;
@@ -58,15 +58,19 @@ pub(crate) fn print_restrainer_curve(report: &RestrainerCurve, terminal: &Termin
     print_files(&report.files, terminal)
 }
 
-/// The best stacks; in detail all of them, their states, and what imperfections do to the first.
+/// Stacks in the answer where nothing says how many.
+const MOST: usize = 3;
+
+/// The best stacks, as many as asked for; in detail all of them, their states, and what imperfections do to the first.
 pub(crate) fn print_restrainer_design(
     report: &RestrainerDesign,
+    most: Option<usize>,
     urs: Option<&Path>,
     terminal: &Terminal,
 ) -> Result<(), CommandError> {
     let mut out = output();
-    print_best(&mut out, report)?;
-    if terminal.shows_details() {
+    print_best(&mut out, report, most.unwrap_or(MOST))?;
+    if terminal.shows_details() && report.found > 0 {
         print_details(&mut out, report)?;
     }
     print_warnings(&mut out, &report.alarms, urs, terminal)?;
@@ -75,26 +79,24 @@ pub(crate) fn print_restrainer_design(
     print_files(&report.files, terminal)
 }
 
-/// The best stack, and the next two.
-fn print_best(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), CommandError> {
-    match report.stacks.first() {
-        Some(best) => {
-            writeln!(out, "Stack     {} for {}{}", stack_name(best), report.name, frame_words(report))?;
-        }
-        None => writeln!(out, "Stack     none meets the target and limits")?,
+/// The best stack, and the next ones.
+fn print_best(out: &mut impl Write, report: &RestrainerDesign, most: usize) -> Result<(), CommandError> {
+    let (name, words) = (&report.name, frame_words(report));
+    if let Some(best) = report.stacks.first() {
+        writeln!(out, "Stack     {} for {name}{words}", stack_name(best))?;
+    } else {
+        let has = format!("the columns have {:.4} m without any restrainer", report.target.free_capacity_m);
+        writeln!(out, "Stack     none needed by the oscillator of {name}: {has}{words}")?;
     }
     if let Some(reason) = &report.without_frame {
         writeln!(out, "Frame     left out: {reason}")?;
     }
     writeln!(out, "Target    {}", report.target.words)?;
-    writeln!(
-        out,
-        "Found     {} stacks of {} discs in {}",
-        report.found,
-        report.discs,
-        shown_path(&report.catalogue).display()
-    )?;
-    let table = Table::from_rows(report.stacks.iter().take(3))
+    if report.found > 0 {
+        let (found, discs) = (counted(report.found, "stack"), report.discs);
+        writeln!(out, "Found     {found} of {discs} discs in {}", shown_path(&report.catalogue).display())?;
+    }
+    let table = Table::from_rows(report.stacks.iter().take(most))
         .left("stack", stack_name)
         .right("off target, %", |stack| format!("{:+.1}", 100.0 * stack.miss))
         .right("T, kN", |stack| kilo(stack.tendon_n))
@@ -106,13 +108,14 @@ fn print_best(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), Com
 /// What the frame that wobbles says of the best stack.
 fn frame_words(report: &RestrainerDesign) -> String {
     let Some(frame) = &report.frame else {
-        return if report.proxy { ", by its oscillator alone".to_owned() } else { String::new() };
+        return if report.proxy && report.found > 0 { ", by its oscillator alone".to_owned() } else { String::new() };
     };
     let wobbling = frame.wobbling();
     let Some(check) = wobbling.check else { return String::new() };
     // each takes analyses of its own
-    let others = if check.satisfied || report.found == 1 { "" } else { " (other stacks not tried)" };
-    let verdict = verdict_word(check.satisfied);
+    let others = if check.satisfied || report.found < 2 { "" } else { " (other stacks not tried)" };
+    let without = if report.found == 0 { "without tendons " } else { "" };
+    let verdict = format!("{without}{}", verdict_word(check.satisfied));
     if check.required_capacity_m.is_infinite() {
         return format!("; {verdict} by the wobbling frame, which overturns more often than the target{others}");
     }

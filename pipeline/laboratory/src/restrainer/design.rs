@@ -1,5 +1,6 @@
 //! Stacks out of a catalogue for the columns of a structure.
 
+mod advice;
 mod report;
 
 use std::path::Path;
@@ -14,9 +15,9 @@ use uplift_job::table::{ColumnsOf, write_table};
 use uplift_job::text::risk_in_words;
 use uplift_result::ResultFile;
 use uplift_statics::selection::{select, stopper_yield_force_n};
-use uplift_statics::{Candidate, Imperfections, Limits, Ranking, StaticsError, Target, TendonPath};
+use uplift_statics::{Candidate, Imperfections, Limits, StaticsError, Target, TendonPath};
 use uplift_structure::{Kind, StructureDescription};
-use uplift_study::{ColumnShape, Structure};
+use uplift_study::{ColumnShape, RestrainerFile, Structure};
 
 use super::catalogue;
 use super::options::RestrainerDesignOptions;
@@ -26,6 +27,8 @@ pub use report::{AtDemand, RestrainerDesign, StackTarget, StopperReport};
 
 /// A column of every list of stacks, and of no other table.
 const STACK_COLUMN: &str = "tendon_utilisation";
+/// Stacks that are reported where nothing says how many.
+const MOST: usize = 12;
 /// Slack of which the effect is reported, m.
 const SLACK_M: f64 = 0.002;
 /// Prestress of which the effect is reported, as a share of the load on a column: that of column J, 2 kN of 52.2 kN.
@@ -37,8 +40,8 @@ const DUCT_GAP_M: f64 = 0.0087;
 ///
 /// # Errors
 /// A structure without columns, or whose restrainer has no tendon; a catalogue that cannot be read; a target that
-/// cannot be, or that no stack meets, with what comes nearest; a table that would replace something else or cannot be
-/// written; what a design by a spectrum may meet.
+/// cannot be, or that no stack meets, with what refuses the nearest; a table that would replace something else or
+/// cannot be written; what a design by a spectrum may meet.
 pub fn design(
     structure: &Structure,
     options: &RestrainerDesignOptions,
@@ -50,22 +53,19 @@ pub fn design(
     }
     let columns = pushed(structure, 0)?;
     let held = columns.restrainer().and_then(|held| held.parts().tendon.map(|tendon| (tendon, *held.parts())));
-    let Some((tendon, parts)) = held else {
-        return Err(JobError::Usage(format!(
-            "{}: a stack needs a tendon in series, and [restrainer] has none: give tendon_stiffness_n_m, or \
-             tendon_area_m2 and tendon_length_m (kind = \"tendon\" until there is a stack)",
-            structure.file.display()
-        ))
-        .into());
-    };
+    let Some((tendon, parts)) = held else { return Err(without_tendon(structure).into()) };
     let limits = Limits { prestress_n: parts.prestress_n, path: columns.path(), ..options.limits.behind(tendon) };
     let discs = catalogue::read(&options.catalogue)?;
     let (target, told, alarms) = target_of(structure, options, events)?;
-    let all = select(&columns, &discs, target, &limits, options.rank)?;
-    if all.is_empty() {
-        return Err(JobError::Usage(none_found(&columns, &discs, (target, &told), &limits, options)).into());
+    let needs_none = told.capacity_m.is_some_and(|capacity_m| capacity_m <= told.free_capacity_m);
+    let all = if needs_none { Vec::new() } else { select(&columns, &discs, target, &limits, options.rank)? };
+    if all.is_empty() && !needs_none {
+        let advice = advice::advice(&columns, &discs, target, &limits)?;
+        let (discs, catalogue) = (discs.len(), options.catalogue.display());
+        let words = format!("no stack of the {discs} discs of {catalogue} meets {}: {advice}", told.words);
+        return Err(JobError::Usage(words).into());
     }
-    let stacks: Vec<Candidate> = all.iter().take(options.most.max(1)).cloned().collect();
+    let stacks: Vec<Candidate> = all.iter().take(options.most.unwrap_or(MOST).max(1)).cloned().collect();
     let with = |stack: &Candidate| columns.clone().with_restrainer(stack.restrainer.clone(), limits.path);
     let stopper = |(stack, stopper)| stopper_behind(stack, &with(stack)?, stopper, limits.tendon_factor);
     let asked = options.stopper_gap_m.zip(options.stopper_stiffness_n_m);
@@ -75,7 +75,12 @@ pub fn design(
         None => Vec::new(),
         Some(demand_m) => stacks.iter().map(|stack| at_demand(&with(stack)?, demand_m)).collect::<Result<_, _>>()?,
     };
-    let (frame, without_frame) = with_stack(structure, &with(&stacks[0])?, &stacks[0], options, events)?;
+    let (frame, without_frame) = if let Some(first) = stacks.first() {
+        with_stack(structure, &with(first)?, first, options, events)?
+    } else {
+        let free = Some(columns.clone().with_restrained(0)?);
+        wobbling(&Structure { columns: free, ..without_restrainers(structure)? }, options, events)?
+    };
     let (duct_gap_m, tendon_length_m) = match limits.path {
         TendonPath::Shifted { duct_gap_m, tendon_length_m } => (duct_gap_m, tendon_length_m),
         TendonPath::Column | TendonPath::Foundation => {
@@ -89,9 +94,10 @@ pub fn design(
         duct_gap_m,
         tendon_length_m,
     };
-    let wanted = named(&all, options.tolerances_of.as_deref())?;
-    let tolerances_of = stack_name(wanted);
-    let tolerances = with(wanted)?.tolerances(&imperfections)?;
+    let (tolerances_of, tolerances) = match named(&all, options.tolerances_of.as_deref())? {
+        Some(wanted) => (stack_name(wanted), with(wanted)?.tolerances(&imperfections)?),
+        None => Default::default(),
+    };
     let mut files = Vec::new();
     if let Some(table) = &options.table {
         events.writing_into(table.parent().unwrap_or(Path::new("")));
@@ -156,19 +162,42 @@ fn with_stack(
     options: &RestrainerDesignOptions,
     events: &dyn Events,
 ) -> Result<(Option<FrameReport>, Option<String>), LaboratoryError> {
-    let none = (None, None);
-    let Some(result) = &options.urs else { return Ok(none) };
-    let Some(capacity_m) = stack.capacity_m.filter(|_| !options.proxy) else { return Ok(none) };
-    if structure.column_shape != ColumnShape::Cylinder {
-        return Ok(none);
-    }
+    let Some(capacity_m) = stack.capacity_m.filter(|_| options.urs.is_some()) else { return Ok((None, None)) };
     let description = StructureDescription {
         tendon_stiffness_n_m: structure.description.tendon_stiffness_for_capacity_n_m(capacity_m)?,
         ..structure.description
     };
-    let stacked = resolved(structure, &description, Some(held.clone()))?;
-    let found = design_by_spectrum(&stacked, result, &options.by_spectrum(), events)?;
+    wobbling(&resolved(structure, &description, Some(held.clone()))?, options, events)
+}
+
+/// What the frame itself says of a structure that can wobble; none by its proxy alone and without a result.
+fn wobbling(
+    structure: &Structure,
+    options: &RestrainerDesignOptions,
+    events: &dyn Events,
+) -> Result<(Option<FrameReport>, Option<String>), LaboratoryError> {
+    let Some(result) = options.urs.as_ref().filter(|_| !options.proxy) else { return Ok((None, None)) };
+    if structure.column_shape != ColumnShape::Cylinder {
+        return Ok((None, None));
+    }
+    let found = design_by_spectrum(structure, result, &options.by_spectrum(), events)?;
     Ok((found.frame, found.without_frame))
+}
+
+/// That a structure has no tendon to put a stack behind, and what to write.
+fn without_tendon(structure: &Structure) -> JobError {
+    let tendon = "kind = \"tendon\" until there is a stack, tendon_stiffness_n_m or tendon_area_m2 and tendon_length_m";
+    // tendons of the description are linear restrainers, as those of the table may be
+    let advice = if RestrainerFile::load(&structure.file).is_ok() {
+        format!("[restrainer] has none: give {tendon}")
+    } else {
+        let place = match structure.description.kind {
+            Kind::RestrainedFrame => "in place of tendon_stiffness_n_m and tendon_anchorage",
+            _ => "below kind = \"restrained-frame\"",
+        };
+        format!("the file has no table [restrainer]: write it {place}, with anchorage, {tendon}")
+    };
+    JobError::Usage(format!("{}: a stack needs a tendon in series, and {advice}", structure.file.display()))
 }
 
 /// What a stack is called: packets in alternate sense, discs in each where there are several, the disc.
@@ -177,17 +206,17 @@ pub fn stack_name(stack: &Candidate) -> String {
     format!("{} x {parallel}{}", stack.springs, stack.disc)
 }
 
-/// The stack of this name, whatever its spaces; the first where none is given.
-fn named<'a>(stacks: &'a [Candidate], name: Option<&str>) -> Result<&'a Candidate, LaboratoryError> {
-    let Some(name) = name else { return Ok(&stacks[0]) };
+/// The stack of this name, whatever its spaces; the first where none is given, and none where none is needed.
+fn named<'a>(stacks: &'a [Candidate], name: Option<&str>) -> Result<Option<&'a Candidate>, LaboratoryError> {
+    let (Some(name), Some(first)) = (name, stacks.first()) else { return Ok(stacks.first()) };
     let plain = |name: &str| name.split_whitespace().collect::<String>();
-    Ok(stacks.iter().find(|stack| plain(&stack_name(stack)) == plain(name)).ok_or_else(|| {
+    Ok(Some(stacks.iter().find(|stack| plain(&stack_name(stack)) == plain(name)).ok_or_else(|| {
         JobError::Usage(format!(
             "{name:?} is none of the {} stacks that meet the target: name one of the list, e.g. \"{}\"",
             stacks.len(),
-            stack_name(&stacks[0])
+            stack_name(first)
         ))
-    })?)
+    })?))
 }
 
 /// The target as the search takes it, as it is reported, and what to know of the spectrum that it comes from.
@@ -199,27 +228,22 @@ fn target_of(
     let columns = pushed(structure, 0)?;
     let free = columns.without_stoppers()?.linear(0.0)?;
     let critical_stiffness_n_m = free.critical_stiffness_n_m();
-    let at_m = options.at_m.unwrap_or(2.0 * columns.geometry().width_m());
+    let free_capacity_m = columns.geometry().width_m();
+    let at_m = options.at_m.unwrap_or(2.0 * free_capacity_m);
     let report = |words: String, stiffness_n_m: f64, capacity_m: Option<f64>| StackTarget {
         words,
         stiffness_n_m,
         capacity_m,
         demand_m: None,
         at_m: capacity_m.unwrap_or(at_m),
+        free_capacity_m,
         critical_stiffness_n_m,
     };
     let capacity = |words: String, capacity_m: f64| {
         if !(capacity_m > 0.0 && capacity_m.is_finite()) {
-            return Err(
-                JobError::Usage(format!("a displacement capacity of {capacity_m} m: give one above 0, in m")).into()
-            );
-        }
-        let free_m = columns.geometry().width_m();
-        if capacity_m <= free_m {
-            return Err(JobError::Usage(format!(
-                "{words}: the columns have {free_m:.4} m without any restrainer, and need none for {capacity_m:.4} m"
-            ))
-            .into());
+            return Err(LaboratoryError::from(JobError::Usage(format!(
+                "a displacement capacity of {capacity_m} m: give one above 0, in m"
+            ))));
         }
         let told = report(words, free.stiffness_for_capacity_n_m(capacity_m), Some(capacity_m));
         Ok((Target::Capacity { capacity_m }, told, Vec::new()))
@@ -229,6 +253,11 @@ fn target_of(
             let words = format!("{:.0} kN/m at {at_m:.4} m", 1e-3 * stiffness_n_m);
             Ok((Target::Stiffness { stiffness_n_m, at_m }, report(words, stiffness_n_m, None), Vec::new()))
         }
+        (_, Some(capacity_m), _) if capacity_m > 0.0 && capacity_m <= free_capacity_m => Err(JobError::Usage(format!(
+            "a capacity of {capacity_m:.4} m: the columns have {free_capacity_m:.4} m without any restrainer; \
+                 give more"
+        ))
+        .into()),
         (_, Some(capacity_m), _) => capacity(format!("a capacity of {capacity_m:.4} m"), capacity_m),
         (.., Some(result)) => {
             let design = DesignOptions { spectrum_only: true, ..options.by_spectrum() };
@@ -299,50 +328,6 @@ fn resolved(
         None => JobError::input(structure.name()).into(),
     })?;
     Ok(Structure { description: *description, system, columns, ..structure.clone() })
-}
-
-/// What to say where no stack meets the target: what comes nearest without the limits.
-fn none_found(
-    columns: &uplift_statics::RestrainedColumns,
-    discs: &[uplift_statics::CatalogueDisc],
-    (target, told): (Target, &StackTarget),
-    limits: &Limits,
-    options: &RestrainerDesignOptions,
-) -> String {
-    let loose = Limits {
-        tolerance: 0.99,
-        capacity_excess: 10.0,
-        stroke_share: 1.0,
-        tendon_factor: 1.0,
-        largest_force_n: None,
-        largest_diameter_m: None,
-        least_inner_diameter_m: None,
-        largest_length_m: None,
-        ..*limits
-    };
-    let nearest = select(columns, discs, target, &loose, Ranking::Target).ok().and_then(|all| all.into_iter().next());
-    let snapping = discs.iter().filter(|disc| disc.disc.snaps_through()).count();
-    let advice = match nearest {
-        None if snapping == discs.len() => {
-            "every disc snaps through (h0/t from 1.414 on), and behind a tendon has no unique state: use discs of \
-             less cone height"
-                .to_owned()
-        }
-        None => {
-            "no stack of these discs comes near it: use other discs, or allow more in a row with --springs".to_owned()
-        }
-        Some(near) => format!(
-            "the nearest without limits is {}, {:+.1} % of the target, pressed by {:.0} % of its stroke, {:.0} \
-             kN, {:.3} m long: allow it by --tolerance, --stroke, --tendon-factor, --largest-diameter-m, \
-             --least-inner-diameter-m, --largest-length-m or --largest-force-n, or take other discs",
-            stack_name(&near),
-            100.0 * near.miss,
-            100.0 * near.stroke_share,
-            1e-3 * near.tendon_n,
-            near.length_m
-        ),
-    };
-    format!("no stack of the {} discs of {} meets {}: {advice}", discs.len(), options.catalogue.display(), told.words)
 }
 
 fn write(stacks: &[Candidate], structure: &Structure, file: &Path) -> Result<(), LaboratoryError> {

@@ -92,9 +92,9 @@ pub struct RestrainerDesignOptions {
         help_heading = OUTPUT
     )]
     pub rank: Ranking,
-    /// Number of stacks to print
-    #[arg(long, value_name = "N", default_value_t = 12, help_heading = OUTPUT)]
-    pub most: usize,
+    /// Number of stacks to print [default: 3; in detail 12]
+    #[arg(long, value_name = "N", help_heading = OUTPUT)]
+    pub most: Option<usize>,
     /// Stack whose tolerances are reported [default: the first]
     #[arg(long, value_name = "STACK", help_heading = OUTPUT)]
     pub tolerances_of: Option<String>,
@@ -148,10 +148,10 @@ pub struct LimitOptions {
     /// Largest height of the unloaded stack, m
     #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
     pub largest_length_m: Option<f64>,
-    /// Most discs in parallel
+    /// Most discs in parallel, 1 to 4
     #[arg(long, value_name = "N", default_value_t = 2)]
     pub parallel: u32,
-    /// Most packets in series
+    /// Most packets in series, 1 to 100
     #[arg(long, value_name = "N", default_value_t = 40)]
     pub springs: u32,
 }

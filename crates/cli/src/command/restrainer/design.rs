@@ -35,6 +35,6 @@ pub(super) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
     match &options.urs {
         Some(urs) if arguments.json => print_answer_json(&report, urs),
         None if arguments.json => print_json(&report),
-        urs => print_restrainer_design(&report, urs.as_deref(), terminal),
+        urs => print_restrainer_design(&report, options.most, urs.as_deref(), terminal),
     }
 }

@@ -20,6 +20,8 @@ pub struct StackTarget {
     pub demand_m: Option<f64>,
     /// Travel at which the stiffness counts, m.
     pub at_m: f64,
+    /// Displacement capacity of the columns without restrainers, m.
+    pub free_capacity_m: f64,
     /// Stiffness at which the linear force neither falls nor rises, N/m.
     pub critical_stiffness_n_m: f64,
 }
@@ -59,14 +61,14 @@ pub struct RestrainerDesign {
     pub discs: usize,
     /// The target.
     pub target: StackTarget,
-    /// How many stacks meet it.
+    /// How many stacks meet it; 0 where a spectrum asks for no more than the columns have without.
     pub found: usize,
     /// The first of them.
     pub stacks: Vec<Candidate>,
     /// Each of these at the demand; none where the target is no spectrum's.
     pub at_demand: Vec<AtDemand>,
-    /// The structure with the first of these as a frame that wobbles; none where it cannot, by its proxy, and where the
-    /// target is no spectrum's.
+    /// The structure with the first of these, or without tendons where none is needed, as a frame that wobbles; none
+    /// where it cannot, by its proxy, and where the target is no spectrum's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frame: Option<FrameReport>,
     /// Whether the verdict is that of the proxy of a frame that can wobble.
@@ -76,7 +78,7 @@ pub struct RestrainerDesign {
     pub without_frame: Option<String>,
     /// A stopper for each of these; none was asked for where there is none.
     pub stoppers: Vec<StopperReport>,
-    /// The stack that the tolerances are of, as [`stack_name`](super::stack_name) calls it.
+    /// The stack that the tolerances are of, as [`stack_name`](super::stack_name) calls it; empty where none is needed.
     pub tolerances_of: String,
     /// What imperfections do to it.
     pub tolerances: Vec<Tolerance>,
