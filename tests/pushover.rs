@@ -449,6 +449,19 @@ fn why_there_is_no_stack() {
     assert_eq!([rows(&[]), rows(&["--most", "6"]), rows(&["--most", "2"])], [3, 6, 2]);
 }
 
+/// Figures of columns without tendons have none, and are all of the format asked for.
+#[test]
+fn figures_of_free_columns() {
+    let study = SmallStudy::new();
+    let pier = structure("single-pier.toml");
+    study.uplift(&["plot", &pier, "-o", "figures", "--format", "png"]).ok();
+    let entries = std::fs::read_dir(study.path().join("figures")).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    assert_eq!(names, ["elevation.png", "protocol.png", "pushover.png", "sections.png"]);
+}
+
 /// One file serves statics and design: the oscillator of the design has the capacity of the exact law.
 #[test]
 fn a_restrainer_in_a_design() {

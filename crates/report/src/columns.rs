@@ -6,7 +6,6 @@ use uplift::UpliftError;
 use uplift::outputs::{self, provide_folder};
 use uplift::pushover::{ProtocolReport, PushoverReport};
 use uplift::restrainer::RestrainerCurve;
-use uplift::result::write_atomically;
 use uplift::study::Structure;
 
 use crate::figures::{column_figures, protocol_figure, pushover_figure, restrainer_figure};
@@ -14,7 +13,7 @@ use crate::files::{FigureOptions, write_figure_file};
 use crate::plot::none_called;
 use crate::sheet::elevation;
 
-/// Name of the drawing of a structure, .svg.
+/// Name of the drawing of a structure.
 const ELEVATION: &str = "elevation";
 
 /// Draws a pushover as `file`, in the format of its ending.
@@ -62,10 +61,8 @@ pub fn plot_columns(
         let names = figures.iter().map(|figure| figure.id.as_str()).chain([ELEVATION]);
         return Err(none_called(wanted, "structure", names));
     }
-    let elevation_file = folder.join(format!("{ELEVATION}.svg"));
-    let mut planned = options.outputs(chosen.iter().map(|figure| figure.id.as_str()), folder);
-    planned.extend(drawn.then(|| outputs::Output::new(&elevation_file, outputs::OutputKind::Figure)));
-    outputs::check(&planned, &[&structure.file], force)?;
+    let ids = chosen.iter().map(|figure| figure.id.as_str()).chain(drawn.then_some(ELEVATION));
+    outputs::check(&options.outputs(ids, folder), &[&structure.file], force)?;
     provide_folder(folder)?;
     let mark = outputs::mark();
     let mut files = Vec::new();
@@ -73,9 +70,7 @@ pub fn plot_columns(
         files.extend(options.write(figure, folder, &mark)?);
     }
     if drawn {
-        let svg = uplift_plot::with_description(&elevation(&structure.description), &mark);
-        write_atomically(&elevation_file, svg.as_bytes())?;
-        files.push(elevation_file);
+        files.extend(options.write_svg(ELEVATION, &elevation(&structure.description), folder, &mark)?);
     }
     Ok(files)
 }

@@ -105,11 +105,18 @@ impl FigureOptions {
     /// # Errors
     /// A file that cannot be written, and no font for a PNG.
     pub fn write(self, figure: &Figure, folder: &Path, mark: &str) -> Result<Vec<PathBuf>, UpliftError> {
-        let drawing = drawing_of(figure, self.look())?;
+        self.write_svg(&figure.id, &drawing_of(figure, self.look())?.svg, folder, mark)
+    }
+
+    /// As [`write`](Self::write), of a drawing that is SVG already.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    pub(crate) fn write_svg(self, id: &str, svg: &str, folder: &Path, mark: &str) -> Result<Vec<PathBuf>, UpliftError> {
         let mut written = Vec::new();
         for ending in self.format.endings() {
-            let file = folder.join(format!("{}.{ending}", figure.id));
-            write_drawing(figure, &drawing, &file, (mark, self.dots_per_inch))?;
+            let file = folder.join(format!("{id}.{ending}"));
+            write_drawing(id, svg, &file, (mark, self.dots_per_inch))?;
             written.push(file);
         }
         Ok(written)
@@ -131,32 +138,27 @@ pub fn check_figure_file(file: &Path, inputs: &[impl AsRef<Path>], force: bool) 
 /// A file that cannot be written, and no font for a PNG.
 pub fn write_figure_file(figure: &Figure, file: &Path) -> Result<(), UpliftError> {
     let usual = FigureOptions::default();
-    write_drawing(figure, &drawing_of(figure, usual.look())?, file, (&outputs::mark(), usual.dots_per_inch))
+    write_drawing(&figure.id, &drawing_of(figure, usual.look())?.svg, file, (&outputs::mark(), usual.dots_per_inch))
 }
 
 /// Writes a figure that was drawn, in the format of the ending, with what it says of itself.
-fn write_drawing(
-    figure: &Figure,
-    drawing: &Drawing,
-    file: &Path,
-    (mark, dots_per_inch): (&str, u16),
-) -> Result<(), UpliftError> {
+fn write_drawing(id: &str, svg: &str, file: &Path, (mark, dots_per_inch): (&str, u16)) -> Result<(), UpliftError> {
     let mark = visible(mark).into_owned();
     if file.extension().is_some_and(|extension| extension == "png") {
-        let image = png(&drawing.svg, f32::from(dots_per_inch)).map_err(|error| refused(figure, error))?;
+        let image = png(svg, f32::from(dots_per_inch)).map_err(|error| refused(id, error))?;
         Ok(write_atomically(file, &with_software(&image, &mark))?)
     } else {
-        Ok(write_atomically(file, with_description(&drawing.svg, &mark).as_bytes())?)
+        Ok(write_atomically(file, with_description(svg, &mark).as_bytes())?)
     }
 }
 
 /// A figure as SVG, in whose texts what is no letter is spelt out: no reader of XML takes it.
 fn drawing_of(figure: &Figure, look: Look) -> Result<Drawing, UpliftError> {
-    let drawing = svg(figure, look).map_err(|reason| refused(figure, reason))?;
+    let drawing = svg(figure, look).map_err(|reason| refused(&figure.id, reason))?;
     Ok(Drawing { svg: visible(&drawing.svg).into_owned(), ..drawing })
 }
 
 /// A figure that the drawing library does not draw.
-pub(crate) fn refused(figure: &Figure, reason: impl Display) -> UpliftError {
-    JobError::input(format!("{}: {reason}", figure.id)).into()
+pub(crate) fn refused(id: &str, reason: impl Display) -> UpliftError {
+    JobError::input(format!("{id}: {reason}")).into()
 }

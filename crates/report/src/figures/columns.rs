@@ -141,24 +141,23 @@ fn protocol_figure_of(history: &[ProtocolPoint]) -> Figure {
     )
 }
 
-/// Every figure of a structure's columns: its pushover, linear restrainers of several stiffnesses (Fig. 5.4) and in
-/// both anchorages (Fig. 6.4a), the moment at the base by anchorage (Fig. 6.4b, c), sections, the protocol of Fig.
-/// 5.11, the restrainer (Fig. 5.9, 6.8) and the path of its tendon (Fig. 6.9, A2.1).
+/// Every figure of a structure's columns: its pushover, sections and the protocol of Fig. 5.11; of restrained ones
+/// linear restrainers of several stiffnesses (Fig. 5.4) and in both anchorages (Fig. 6.4a), the moment at the base by
+/// anchorage (Fig. 6.4b, c), the restrainer (Fig. 5.9, 6.8) and the path of its tendon (Fig. 6.9, A2.1).
 ///
 /// # Errors
 /// Columns that cannot be restrained otherwise: none that could be pushed.
 pub fn column_figures(report: &PushoverReport) -> Result<Vec<Figure>, UpliftError> {
     let columns = &report.pushed;
     let history = LoadingProtocol::default().history(1)?;
-    let mut figures = vec![
-        pushover_figure(report),
-        stiffnesses(columns)?,
-        anchorages(columns)?,
-        base_moments(columns)?,
-        sections(report),
-        protocol_figure_of(&history),
-    ];
-    if let Some(restrainer) = columns.restrainer() {
+    let mut figures = vec![pushover_figure(report)];
+    // of a structure without tendons nobody asks what they do
+    let restrainer = columns.restrainer();
+    if restrainer.is_some() {
+        figures.extend([stiffnesses(columns)?, anchorages(columns)?, base_moments(columns)?]);
+    }
+    figures.extend([sections(report), protocol_figure_of(&history)]);
+    if let Some(restrainer) = restrainer {
         let to_m = report.rows.last().map_or(0.0, |row| row.elongation_m);
         let flat_m = restrainer.elongation_at_m(uplift_statics::Threshold::SpringsFlat).unwrap_or(f64::INFINITY);
         figures.push(restrainer_figure_of(&report.name, restrainer, to_m.min(flat_m)));

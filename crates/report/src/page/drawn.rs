@@ -46,7 +46,7 @@ impl DrawnFigure {
     pub(super) fn new(figure: &Figure) -> Result<Self, UpliftError> {
         let (mut drawings, mut panels) = (Vec::new(), Vec::new());
         for panel in &figure.panels {
-            let drawing = panel_svg(panel).map_err(|reason| refused(figure, reason))?;
+            let drawing = panel_svg(panel).map_err(|reason| refused(&figure.id, reason))?;
             drawings.push(visible(&drawing.svg).into_owned());
             panels.extend(drawing.places.into_iter().map(|place| readable(panel, place)));
         }
@@ -54,7 +54,7 @@ impl DrawnFigure {
             id: figure.id.clone(),
             title: figure.title.clone(),
             caption: figure.caption.clone(),
-            legend: swatches(figure).map_err(|reason| refused(figure, reason))?,
+            legend: swatches(figure).map_err(|reason| refused(&figure.id, reason))?,
             drawings,
             panels,
         })
