@@ -275,7 +275,7 @@ fn a_return_period_is_reported_as_given() {
     let told = ask(&study, "status r.h5").stdout;
     let asked: Vec<&str> = told.lines().filter(|line| line.contains("  block: ")).collect();
     assert!(asked[0].contains(", 475 years (") && !asked[0].contains("poe"), "{told}");
-    assert!(asked[1].contains(", per year 0.000210526,"), "{told}");
+    assert!(asked[1].contains(", per year 2.105e-4,"), "{told}");
     ask(&study, "report r.h5 -o page.html -q");
     let page = std::fs::read_to_string(study.path().join("page.html")).unwrap();
     assert!(page.contains("475 years (") && !page.contains("poe 0.0"), "475 years");

@@ -548,6 +548,33 @@ fn the_documentation_shows_what_is_printed() {
     hold_console(folder.path(), "docs/frames.md", 1);
 }
 
+/// Against a frame that overturns at the target no error is a number; spectra of one demand have one line.
+#[test]
+fn errors_are_of_demands_that_there_are() {
+    let study = study(STUDY);
+    let free = FRAME.split("[restrainer]").next().unwrap().replace("restrained-frame", "frame");
+    study.write("free.toml", &free);
+    for (period, overturns) in [("20", false), ("1e5", true)] {
+        let ask = ["risk", "free.toml", "--urs", "r.h5", "--site", "Here", "--return-period", period, "--details"];
+        let said = study.uplift(&ask).ok().stdout;
+        assert_eq!(said.starts_with("Demand       overturns on free"), overturns, "{said}");
+        assert_eq!(!said.contains("(error "), overturns, "{said}");
+        let planar: Vec<&str> =
+            said.lines().find(|line| line.starts_with("planar frame ")).unwrap().split_whitespace().collect();
+        assert_eq!(planar.ends_with(&["-", "-"]), overturns, "{said}");
+        // both by their displacement before overturning, or both by that they overturn
+        let alike = if overturns {
+            "equal displacement and equal energy: overturns"
+        } else {
+            "zero stiffness and equal displacement: "
+        };
+        assert!(said.contains(&format!("\n  spectrum, {alike}")), "{said}");
+        // what nobody gave to sixteen digits is not shown with them
+        let long = said.split_whitespace().find(|word| word.contains("0.") && word.len() > 12);
+        assert!(long.is_none(), "{long:?}");
+    }
+}
+
 /// A demand of zero is explained, once.
 #[test]
 fn a_structure_that_does_not_uplift_is_said_to() {

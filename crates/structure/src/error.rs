@@ -74,8 +74,9 @@ pub enum StructureError {
     Massless,
     /// The moment of inertia about the pivot is below that of all the mass at the centre.
     #[error(
-        "`moment_of_inertia_kg_m2` is {moment_of_inertia_kg_m2} kg m², below m R² = {least_kg_m2} kg m²: \
-         give the moment of inertia about the pivot corner, not about the mass centre"
+        "`moment_of_inertia_kg_m2` is {moment_of_inertia_kg_m2} kg m², below m R² = {} kg m²: \
+         give the moment of inertia about the pivot corner, not about the mass centre",
+        four_digits(*least_kg_m2)
     )]
     InertiaBelowPointMass {
         /// The value given, kg m².
@@ -205,4 +206,9 @@ pub fn require(
     requirement: &'static str,
 ) -> Result<f64, StructureError> {
     if holds { Ok(value) } else { Err(StructureError::OutOfRange { key, value, unit, requirement }) }
+}
+
+/// A value that was computed, without the digits that nobody gave.
+fn four_digits(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -200,6 +200,8 @@ fn impossible_structures_are_refused() {
     assert!(
         matches!(refused, Err(StructureError::InertiaBelowPointMass { least_kg_m2, .. }) if least_kg_m2 > 24_999.0)
     );
+    let refused = Body::new(geometry, 1234.5678, 1.0).unwrap_err().to_string();
+    assert!(refused.contains("below m R² = 30860 kg m²"), "{refused}");
     // R sin α = 0.499 m does not reach an uplift displacement of 0.5 m, 2R sin α does
     let soft = Conditions::new(10.0, 0.5).unwrap();
     let block = Block::new(geometry, 1000.0).unwrap();

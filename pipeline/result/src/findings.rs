@@ -1,7 +1,7 @@
 //! What structures were asked under a result, and the answers, as they stand in its file.
 
 use uplift_job::checksum::checksum;
-use uplift_job::text::{rate, risk_in_words, rounded, short};
+use uplift_job::text::{rate, risk_in_words, short};
 use uplift_labelled::{LabelledError, LabelledWriter};
 
 use super::declared::group;
@@ -170,16 +170,11 @@ impl Finding {
         let told = |(name, value): &(String, String)| match (name.as_str(), &risk) {
             ("poe", Some(risk)) => format!(", {risk}"),
             ("years", Some(_)) => String::new(),
-            ("per year", _) => format!(", {name} {}", value.parse().map_or(value.clone(), six_digits)),
+            ("per year", _) => format!(", {name} {}", value.parse().map_or(value.clone(), short)),
             _ => format!(", {name} {value}"),
         };
         std::iter::once(self.inquiry.key().to_owned()).chain(self.request.iter().map(told)).collect()
     }
-}
-
-/// A number to six digits: 1/475 has many more, and nobody asked for them.
-fn six_digits(value: f64) -> String {
-    rounded(value, 6).to_string()
 }
 
 impl FindingRow {

@@ -19,6 +19,9 @@ use crate::terminal::Terminal;
 /// The proxy whose restitution is its own.
 const OSCILLATOR: &str = "equivalent oscillator";
 
+/// What readings of a spectrum begin with.
+const SPECTRUM: &str = "spectrum, ";
+
 fn is_block(report: &FrameRiskReport) -> bool {
     report.structure.kind == BLOCK
 }
@@ -26,6 +29,11 @@ fn is_block(report: &FrameRiskReport) -> bool {
 /// Words of a frame, as they are said of this structure: a block is shaken as a frame of one column without a deck.
 fn own_word(report: &FrameRiskReport, of_frame: &str) -> String {
     if is_block(report) { of_frame.replace("frame", "block") } else { of_frame.to_owned() }
+}
+
+/// The error of a proxy; none of the frame, and where the frame overturns at the target: it has no demand to compare.
+fn error_of<'a>(report: &FrameRiskReport, of: &'a ModelDemand) -> Option<&'a Banded> {
+    of.error.as_ref().filter(|_| report.demands[0].demand_m.value.is_finite())
 }
 
 fn band(of: &Banded, shown: fn(f64) -> String) -> String {
@@ -55,16 +63,26 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
     if let Some(exceeded) = exceeded(report, value) {
         writeln!(out, "  {exceeded}")?;
     }
-    for proxy in proxies {
-        let of = proxy
-            .error
-            .as_ref()
-            .filter(|_| value > report.structure.uplift_displacement_m)
-            .map_or_else(String::new, |error| format!(" (error {})", relative_error_in_words(error.value)));
+    let told = proxies.iter().map(|proxy| {
+        let error = error_of(report, proxy).filter(|_| value > report.structure.uplift_displacement_m);
+        let error = error.map_or_else(String::new, |of| match relative_error_in_words(of.value) {
+            words if of.value.is_infinite() => format!(" ({words})"),
+            words => format!(" (error {words})"),
+        });
         let restitution = report.structure.restitution.filter(|_| is_block(report) && proxy.model == OSCILLATOR);
         let keeps = restitution.map_or_else(String::new, |restitution| format!(", restitution {restitution}"));
         let demand = metres_with_band(proxy.demand_m.value, None);
-        writeln!(out, "  {}{keeps}: {demand}{of}", own_word(report, proxy.model))?;
+        (own_word(report, proxy.model) + &keeps, demand + &error)
+    });
+    let told: Vec<(String, String)> = told.collect();
+    // by zero stiffness and by equal displacement a spectrum has one demand where neither overturns
+    let are_alike = |(one, demand): &(String, String), (other, same): &(String, String)| {
+        demand == same && [one, other].iter().all(|name| name.starts_with(SPECTRUM))
+    };
+    for alike in told.chunk_by(are_alike) {
+        let (first, demand) = &alike[0];
+        let others: String = alike[1..].iter().map(|(name, _)| name.replace(SPECTRUM, " and ")).collect();
+        writeln!(out, "  {first}{others}: {demand}")?;
     }
     let how_often = |risk: &EventRisk, bands: Option<Bands>| {
         let [per_year, _, return_period] = risk_cells(risk);
@@ -113,7 +131,7 @@ fn print_details(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
 fn print_demands(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), CommandError> {
     let is_repaired = report.demands.iter().any(|demand| demand.repaired_m.is_some());
     let error =
-        |demand: &ModelDemand, shown: fn(&Banded) -> String| demand.error.as_ref().map_or("-".to_owned(), shown);
+        |demand: &ModelDemand, shown: fn(&Banded) -> String| error_of(report, demand).map_or("-".to_owned(), shown);
     let table = Table::from_rows(&report.demands)
         .left("model", |demand| own_word(report, demand.model))
         .right("demand, m", |demand| metres_or_overturns(demand.demand_m.value))

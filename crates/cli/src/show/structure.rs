@@ -6,7 +6,7 @@ use uplift::alarms::Alarm;
 /// The model of a frame that is held against its proxies.
 pub(super) use uplift::structure::WOBBLING_FRAME as WOBBLING;
 use uplift::structure::{Bands, EventRisk, StructureReport};
-use uplift::text::{self, per_cent, short, two_digits};
+use uplift::text::{self, per_cent, short, three_digits, two_digits};
 
 use super::alarms::is_doubted;
 use super::{ROUNDING_DECIDES, shown_path};
@@ -38,7 +38,7 @@ pub(super) fn print_structure(out: &mut impl Write, structure: &StructureReport)
         format!("           strength f_up/(m g)      {:.4}", structure.strength),
         format!("           factor on the motion     {:.4}", structure.participation),
         format!("           strength of the spectrum {:.4}", structure.spectral_strength),
-        format!("           uplift displacement      {} m", structure.uplift_displacement_m),
+        format!("           uplift displacement      {} m", three_digits(structure.uplift_displacement_m)),
     ];
     lines.extend(structure.restitution.map(|restitution| format!("           oscillator's restitution {restitution}")));
     let stiffness_n_m = structure.post_uplift_stiffness_n_m;
