@@ -408,7 +408,9 @@ fn an_interrupted_bootstrap_resumes() {
         let done = done.fails(5, &["Run the same command to resume"]);
         assert!(!LabelledReader::open(&study.path().join("parts.h5")).unwrap().exists("/bootstrap"));
         kept = kept_strengths(&done.stderr);
-        assert!(study.uplift(&["status", "parts.h5"]).ok().stdout.contains("an interrupted bootstrap"));
+        let status = study.uplift(&["status", "parts.h5"]).ok().stdout;
+        let resume = "; to resume it type: uplift bootstrap parts.h5 --threads 1 --replicates 40000\n";
+        assert!(status.contains("an interrupted bootstrap") && status.contains(resume), "{status}");
         let own = done.stderr.split_once("parts.bootstrap-").unwrap().1;
         let own = format!("parts.bootstrap-{}", own.split_once(".h5").unwrap().0) + ".h5";
         let status = study.uplift(&["status", &own]).ok().stdout;

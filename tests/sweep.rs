@@ -222,6 +222,19 @@ fn an_unfinished_sweep_has_a_status() {
     }
     study.uplift(&ask).ok();
     study.uplift(&["status", "study.toml"]).fails(4, &["no result"]);
+    // in a folder of another name: by the command in its results, before there is one by its checkpoints
+    study.uplift(&[&ask[..], &["-o", "sw"]].concat()).ok();
+    std::fs::remove_file(study.path().join("sw/comparison.csv")).unwrap();
+    let words = "sw: unfinished sweep, 2 variants finished; the same `uplift sweep` resumes it\n";
+    assert_eq!(study.uplift(&["status", "sw"]).ok().stdout, words);
+    study.uplift(&["run", "study.toml", "--shard", "1/1", "-q"]).ok();
+    std::fs::create_dir(study.path().join("begun")).unwrap();
+    let shard = study.path().join("results/study.shard-1-of-1");
+    std::fs::rename(shard, study.path().join("begun/restitution-0.85.h5.part")).unwrap();
+    let said = study.uplift(&["status", "begun"]).ok().stdout;
+    let words = "begun: unfinished sweep or run, 0 results finished; the same command resumes it\n\
+                 begun/restitution-0.85.h5.part: checkpoint of an unfinished run, 360 of 360 analyses (100 %)";
+    assert!(said.starts_with(words), "{said}");
 }
 
 #[test]

@@ -14,7 +14,7 @@ mod resampled;
 mod source;
 mod write;
 
-pub use checkpoint::{finished_strengths, part_path};
+pub use checkpoint::{Interrupted, interrupted, part_path};
 pub use job::bootstrap;
 pub use options::BootstrapOptions;
 pub use report::{BootstrapReport, BootstrapRow, Initiation, ReferenceRow, RepairedFigures, read_reference};

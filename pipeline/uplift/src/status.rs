@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
-use std::fs::DirEntry;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -12,7 +11,7 @@ use uplift_engine::checkpoint::{Finding, RowFile, checkpoint_path};
 use uplift_job::JobError;
 use uplift_job::lock::ResultLock;
 use uplift_job::outputs::SITE_ARRAYS;
-use uplift_questions::bootstrap::{finished_strengths, part_path};
+use uplift_questions::bootstrap::{Interrupted, interrupted, part_path};
 use uplift_result::earlier::made_of;
 use uplift_result::{Overview, ResultFile, StoredFinding, is_hdf5};
 use uplift_studies::uniform_risk::site_table::SLICE;
@@ -56,6 +55,10 @@ pub struct SweepStatus {
     pub folder: PathBuf,
     /// Variants that have a result.
     pub variants: usize,
+    /// Whether it is known to be one, by its name or by the command of a result in it.
+    pub is_certain: bool,
+    /// The checkpoints of unfinished variants.
+    pub unfinished: Vec<UnfinishedStatus>,
 }
 
 /// The file of an interrupted bootstrap.
@@ -65,6 +68,8 @@ pub struct BootstrapStatus {
     pub file: PathBuf,
     /// Strengths that are finished, of all measures.
     pub strengths: u64,
+    /// The command that resumes it, where it is known.
+    pub command: Option<String>,
 }
 
 /// A finished result.
@@ -149,15 +154,11 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
             return Err(JobError::input(format!("{} is not an HDF5 file", input.display())).into());
         }
     }
-    let is_sweep = input.extension().is_some_and(|extension| extension == "sweep");
-    if let Some(sweep) = is_sweep.then(|| SweepStatus::read(input)).flatten() {
+    if let Some(sweep) = SweepStatus::read(input) {
         return Ok(StatusReport { sweep: Some(sweep), ..StatusReport::default() });
     }
     if input.is_dir() {
-        let is_result = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "h5");
-        let of_results = in_folder(input).filter(|(name, _)| !name.ends_with(SITE_ARRAYS));
-        let first = of_results.map(|(_, path)| path).filter(is_result).min();
-        let what = first.map_or_else(
+        let what = results_in(input).min().map_or_else(
             || "it has no results".to_owned(),
             |first| format!("name a result in it, such as {}", first.display()),
         );
@@ -230,28 +231,48 @@ fn neighbours(result: &Path) -> impl Iterator<Item = (String, PathBuf)> {
 /// What is in a folder, with the name of each.
 fn in_folder(folder: &Path) -> impl Iterator<Item = (String, PathBuf)> + use<> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    entries.map(|entry| (name_of(&entry), entry.path()))
+    entries.map(|entry| (entry.file_name().to_string_lossy().into_owned(), entry.path()))
 }
 
-fn name_of(entry: &DirEntry) -> String {
-    entry.file_name().to_string_lossy().into_owned()
+/// The results in a folder.
+fn results_in(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
+    let is_result = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "h5");
+    in_folder(folder).filter(|(name, _)| !name.ends_with(SITE_ARRAYS)).map(|(_, path)| path).filter(is_result)
+}
+
+/// The checkpoints of unfinished runs in a folder.
+fn unfinished_in(folder: &Path) -> Vec<UnfinishedStatus> {
+    let mut checkpoints: Vec<PathBuf> =
+        in_folder(folder).filter(|(name, _)| name.ends_with(".h5.part")).map(|(_, path)| path).collect();
+    checkpoints.sort();
+    let read = |path: &PathBuf| {
+        let has_result = path.with_extension("").is_file();
+        Some(UnfinishedStatus::from_finding(path, &RowFile::read(path).ok()??, has_result))
+    };
+    checkpoints.iter().filter_map(read).filter(|unfinished| !unfinished.is_kept_for_others).collect()
 }
 
 impl SweepStatus {
-    /// Of the sweep in `folder`: it has checkpoints, or results and no comparison yet.
+    /// Of the sweep in `folder`: it has checkpoints, or results of a sweep and no comparison yet.
     fn read(folder: &Path) -> Option<Self> {
-        let names: Vec<String> = std::fs::read_dir(folder).ok()?.flatten().map(|entry| name_of(&entry)).collect();
-        let count = |ending: &str| names.iter().filter(|name| name.ends_with(ending)).count();
-        let (variants, begun) = (count(".h5"), count(".h5.part"));
-        let is_unfinished = begun > 0 || (variants > 0 && !comparison(folder).exists());
-        is_unfinished.then(|| Self { folder: folder.to_owned(), variants })
+        let results: Vec<PathBuf> = results_in(folder).collect();
+        let is_of_sweep = |path: &PathBuf| {
+            let head = ResultFile::open(path).and_then(|file| file.head());
+            head.is_ok_and(|head| head.command.contains(" sweep "))
+        };
+        let is_named = folder.extension().is_some_and(|extension| extension == "sweep");
+        let is_certain = is_named || results.iter().any(is_of_sweep);
+        let unfinished = unfinished_in(folder);
+        let lacks_comparison = is_certain && !results.is_empty() && !comparison(folder).exists();
+        let (folder, variants) = (folder.to_owned(), results.len());
+        (lacks_comparison || !unfinished.is_empty()).then_some(Self { folder, variants, is_certain, unfinished })
     }
 }
 
 impl BootstrapStatus {
     fn read(file: PathBuf) -> Option<Self> {
-        let strengths = finished_strengths(&file)?;
-        Some(Self { file, strengths })
+        let Interrupted { strengths, command } = interrupted(&file)?;
+        Some(Self { file, strengths, command })
     }
 }
 

@@ -33,17 +33,24 @@ pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
         };
         writeln!(out, "slices of the sites: {} of {count}; {missing}", done.len())?;
     }
-    if let Some(SweepStatus { folder, variants }) = &report.sweep {
-        let (folder, variants) = (shown_path(folder).display(), counted(*variants, "variant"));
-        writeln!(out, "{folder}: unfinished sweep, {variants} finished; the same `uplift sweep` resumes it")?;
+    if let Some(SweepStatus { folder, variants, is_certain, unfinished }) = &report.sweep {
+        let folder = shown_path(folder).display();
+        let (what, of, command) =
+            if *is_certain { ("sweep", "variant", "`uplift sweep`") } else { ("sweep or run", "result", "command") };
+        let finished = counted(*variants, of);
+        writeln!(out, "{folder}: unfinished {what}, {finished} finished; the same {command} resumes it")?;
+        for unfinished in unfinished {
+            print_unfinished(&mut out, unfinished)?;
+        }
     }
-    if let Some(BootstrapStatus { file, strengths }) = &report.bootstrap {
-        writeln!(
-            out,
-            "{}: an interrupted bootstrap, {strengths} strengths finished; the same `uplift bootstrap` resumes \
-             it",
-            shown_path(file).display()
-        )?;
+    if let Some(BootstrapStatus { file, strengths, command }) = &report.bootstrap {
+        let words = command.as_ref().and_then(|command| command.split_once(" bootstrap "));
+        let resume = words.map_or_else(
+            || "to resume it type `uplift bootstrap` with the same options".to_owned(),
+            |(_, words)| format!("to resume it type: uplift bootstrap {}", one_line(words)),
+        );
+        let file = shown_path(file).display();
+        writeln!(out, "{file}: an interrupted bootstrap, {strengths} strengths finished; {resume}")?;
     }
     if let Some(holder) = &report.written_by {
         writeln!(out, "being written now, by {holder}")?;

@@ -41,6 +41,17 @@ pub(super) struct Expected {
 pub(super) struct Checkpoint {
     path: PathBuf,
     fingerprint: String,
+    /// What was typed to compute it.
+    command: String,
+}
+
+/// What the file of an interrupted bootstrap says of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Interrupted {
+    /// Finished strengths of all measures.
+    pub strengths: u64,
+    /// What was typed to compute it; none in files of earlier versions, and where nothing was typed.
+    pub command: Option<String>,
 }
 
 /// Where the bootstrap of the result at `result` keeps what is finished.
@@ -53,19 +64,22 @@ fn fingerprint_in(part: &Path) -> Option<String> {
     LabelledReader::open(part).ok()?.attribute::<String>("/", "fingerprint").ok()
 }
 
-/// Finished strengths of all measures in the file of an interrupted bootstrap; none where there is none.
-pub fn finished_strengths(part: &Path) -> Option<u64> {
+/// The interrupted bootstrap in the file `part`; none where there is none.
+pub fn interrupted(part: &Path) -> Option<Interrupted> {
     fingerprint_in(part)?;
     let reader = LabelledReader::open(part).ok()?;
     let count = |measure: &String| {
         reader.array::<u32>(&format!("/{measure}/strength")).map_or(0, |strengths| strengths.values.len() as u64)
     };
-    Some(reader.children("/").ok()?.iter().map(count).sum())
+    let strengths = reader.children("/").ok()?.iter().map(count).sum();
+    let command = reader.attribute::<String>("/", "command").ok().filter(|command| !command.is_empty());
+    Some(Interrupted { strengths, command })
 }
 
 impl Checkpoint {
-    /// The checkpoint of this very bootstrap: its fingerprint covers all numbers that the bands depend on.
-    pub(super) fn new(source: &Source<'_>) -> Self {
+    /// The checkpoint of this very bootstrap, for which `command` was typed: its fingerprint covers all numbers that
+    /// the bands depend on.
+    pub(super) fn new(source: &Source<'_>, command: &str) -> Self {
         // pairs are of the bands of the truth, which are not kept
         let Source { stored, reweighing, plan, settings, quoted: _ } = source;
         let mut hash = Sha256::new();
@@ -94,14 +108,14 @@ impl Checkpoint {
         for count in plan.multiplicities() {
             hash.update(count.to_le_bytes());
         }
-        Self::beside(&stored.path, hexadecimal(&hash.finalize()))
+        Self::beside(&stored.path, hexadecimal(&hash.finalize()), command.to_owned())
     }
 
     /// In its own file where that of the result holds another bootstrap, which may be all that is left of it.
-    fn beside(result: &Path, fingerprint: String) -> Self {
+    fn beside(result: &Path, fingerprint: String, command: String) -> Self {
         let (path, own) = (part_path(result), beside(result, &format!("bootstrap-{}.part.h5", &fingerprint[..8])));
         let is_of_another = fingerprint_in(&path).is_some_and(|other| other != fingerprint);
-        Self { path: if own.exists() || is_of_another { own } else { path }, fingerprint }
+        Self { path: if own.exists() || is_of_another { own } else { path }, fingerprint, command }
     }
 
     /// Where it is.
@@ -153,6 +167,7 @@ impl Checkpoint {
         let mut writer = LabelledWriter::create(&self.path)?;
         writer.attribute("/", "program", "uplift")?;
         writer.attribute("/", "fingerprint", self.fingerprint.as_str())?;
+        writer.attribute("/", "command", self.command.as_str())?;
         for (key, rows) in by_measure(&finished.strengths) {
             let row = row_axis(&mut writer, &format!("{key}_row"), rows.len())?;
             writer.array(&format!("/{key}/strength"), &[&row], &indices(&rows), "1", "index of the strength")?;

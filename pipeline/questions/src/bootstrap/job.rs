@@ -50,7 +50,7 @@ pub fn bootstrap(
     let quoted = QuotedUnits::from_file(&file)?;
     let source =
         Source { stored: &stored, reweighing: reweighing.as_ref(), plan: &plan, quoted: &quoted, settings: &settings };
-    let checkpoint = Checkpoint::new(&source);
+    let checkpoint = Checkpoint::new(&source, &options.command);
     let bands = compute(&source, Some(&checkpoint), events)?;
     events.remark("", &format!("{:.1} s", start.elapsed().as_secs_f64()));
     write_bands(

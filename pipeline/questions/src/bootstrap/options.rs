@@ -39,6 +39,9 @@ pub struct BootstrapOptions {
     /// Figures to compare with, which the report hands on: see [`read_reference`](super::read_reference).
     #[arg(skip)]
     pub reference: Vec<ReferenceRow>,
+    /// What the caller typed; kept in the checkpoint.
+    #[arg(skip)]
+    pub command: String,
     /// Whether existing files are overwritten.
     #[arg(skip)]
     pub force: bool,

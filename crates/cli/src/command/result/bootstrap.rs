@@ -7,7 +7,7 @@ use uplift::bootstrap::{BootstrapOptions, bootstrap as run, read_reference};
 use uplift::spectrum::spectrum;
 use uplift::uniform_risk::DisplacementOptions;
 
-use crate::command::arguments::{RARE, ResultArguments};
+use crate::command::arguments::{RARE, ResultArguments, command_line};
 use crate::error::CommandError;
 use crate::show::{print_bootstrap, print_json};
 use crate::terminal::Terminal;
@@ -34,6 +34,7 @@ pub(crate) fn bootstrap(arguments: &BootstrapArguments, terminal: &Terminal) -> 
     let options = BootstrapOptions {
         study: found.bootstrap,
         reference: reference.unwrap_or_default(),
+        command: command_line(),
         force: arguments.result.force(),
         ..arguments.options.clone()
     };
