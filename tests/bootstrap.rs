@@ -24,7 +24,7 @@ fn the_widest_band_is_of_the_table_above() {
         let said = study.uplift(&["bootstrap", "r.h5", "--sizes", "2,4", "--replicates", "60"]).ok().stdout;
         let told = said
             .lines()
-            .find_map(|line| line.strip_prefix("Widest of these bands: "))
+            .find_map(|line| line.strip_prefix("Widest for its ordinate: "))
             .unwrap_or_else(|| panic!("{said}"));
         let (site, rest) = told.split_once(", strength ").unwrap();
         let strength = rest.split_once(", ").unwrap().0;
@@ -534,16 +534,31 @@ fn measures_are_compared() {
     // PGV or PGA, that its records miss the site's hazard, and what to type
     let mut lines = text.lines();
     let first = lines.next().unwrap();
-    assert!(first.contains(" scatters least, but its records miss the site's hazard: "), "{text}");
+    assert!(first.contains("), but its records miss the site's hazard: "), "{text}");
+    // all by the numbers of the table: measure, scatter of the displacement and of initiation
+    let mut told: Vec<(f64, f64, &str)> = Vec::new();
+    for (name, numbers) in text.lines().filter_map(|line| line.split_once("  ")) {
+        let numbers: Vec<f64> = numbers.split_whitespace().map_while(|word| word.parse().ok()).collect();
+        told.extend((numbers.len() == 2).then(|| (numbers[0], numbers[1], name)));
+    }
+    assert_eq!(told.len(), 10, "{text}");
+    let of = |name: &str| told.iter().find(|(.., own)| *own == name).unwrap().0;
+    let order = if first.starts_with("PGV") { ["PGV", "PGA"] } else { ["PGA", "PGV"] };
+    let [less, more] = order.map(of);
+    let words = format!("{} scatters less than {} ({less:.2}, {more:.2}), but ", order[0], order[1]);
+    assert!(first.starts_with(&words) && less <= more, "{text}");
+    let least = text.lines().find(|line| line.starts_with("Least scatter of all 10: ")).unwrap();
+    let [level, initiation] = [|row: &(f64, f64, &str)| row.0, |row: &(f64, f64, &str)| row.1].map(|of| {
+        let least = told.iter().map(of).fold(f64::INFINITY, f64::min);
+        told.iter().filter(|row| of(row) == least).map(|row| format!("{} ({least:.2})", row.2)).collect::<Vec<_>>()
+    });
+    for (what, names) in [("displacement", level), ("initiation", initiation)] {
+        assert!(names.iter().any(|name| least.contains(&format!("{what} {name}"))), "{names:?}: {text}");
+    }
     assert_eq!(lines.next(), Some("Repair: uplift consistency r.h5 --repair"), "{text}");
     // marks are explained before they are used
-    assert!(text.find("\n+ has no hazard curve").unwrap() < text.find("Best for ").unwrap(), "{text}");
-    assert!(
-        text.contains("\nBest for the displacement: ")
-            && text.contains("\nBest for initiation: ")
-            && text.contains("\nSA(1.0) +"),
-        "{text}"
-    );
+    assert!(text.find("\n+ has no hazard curve").unwrap() < text.find("Least scatter").unwrap(), "{text}");
+    assert!(text.contains("\nSA(1.0) +"), "{text}");
     assert!(!text.contains("Efficiency:"), "{text}");
     let details = study.uplift(&["measures", "r.h5", "--details"]).ok().stdout;
     for word in ["Efficiency: ", "Sufficiency: ", "SA(1.0) +", "magnitude\n", "ln_duration\n"] {
@@ -599,7 +614,7 @@ fn trends_of_table_4_1_appear_with_real_records() {
     println!("{text}");
     assert!(
         text.split_whitespace().collect::<Vec<_>>().join(" ").contains("| 3.9 63")
-            && text.contains("\nWidest of these bands: ")
+            && text.contains("\nWidest for its ordinate: ")
             && !text.contains("Rocking initiation"),
         "the reference stands beside ours"
     );

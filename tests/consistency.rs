@@ -1,6 +1,7 @@
 //! Whether the records bring the hazard of the other measure: `uplift consistency`, and what a run says of it.
 
 use serde_json::Value;
+use uplift::consistency::Verdict;
 use uplift::result::ResultFile;
 use uplift_motion::IntensityMeasure;
 
@@ -130,6 +131,13 @@ fn a_verdict_can_be_required() {
     assert!(lines.next().is_some_and(|first| first.contains(&miss)), "{said}");
     assert_eq!(lines.next(), Some("Repair: uplift consistency r.h5 --repair"), "{said}");
     assert!(said.contains("times site's level, mean"), "{said}");
+    // what decides: the mean, and the worst rate
+    for legend in [
+        "\nconsistent: 0.9 to 1.1 times, and at each rate within a factor of 1.16\n",
+        "\noff: 0.75 to 1.33 times, and at each rate within a factor of 1.49\n",
+    ] {
+        assert!(said.contains(legend), "{legend}{said}");
+    }
     // a mean that is right is not all that a verdict rests on
     let said = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
     let asked = json(&study.uplift(&["consistency", "r.h5", "--json", "-q"]).ok());
@@ -145,6 +153,35 @@ fn a_verdict_can_be_required() {
         told += usize::from(is_more);
     }
     assert!(told > 0, "{said}");
+}
+
+/// Each row of the table has what the records were before the repair, and what they are after it.
+#[test]
+fn a_repair_is_seen_to_have_worked() {
+    let study = SmallStudy::repaired();
+    let said = study.uplift(&["consistency", "r.h5", "--repair"]).ok().stdout;
+    let found = study.uplift(&["consistency", "r.h5", "--json"]).json();
+    let rows = found["rows"].as_array().unwrap();
+    let repaired = rows.iter().filter(|row| row["repair"]["failed"].is_null()).count();
+    assert!(repaired > 0 && repaired < rows.len(), "{found}");
+    let first = format!("{repaired} of {} cases repaired: uplift spectrum r.h5 --repaired", rows.len());
+    assert!(said.starts_with(&first), "{said}");
+    let table = said.lines().skip_while(|line| !line.starts_with("site ")).skip(1);
+    let shown: Vec<String> = table.map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
+    for row in rows {
+        let text = |key: &str| row[key].as_str().unwrap();
+        let repair = &row["repair"];
+        let number = |key: &str| repair[key].as_f64().unwrap();
+        let after = if repair["failed"].is_null() {
+            let verdict = Verdict::from_bias(number("bias"), number("max"));
+            let records = format!("{:.0} of {}", number("least_effective"), repair["least_effective_of"]);
+            format!("| {} {:.2} {verdict} {records}", text("shows"), number("bias"))
+        } else {
+            "| none - -".to_owned()
+        };
+        let (begin, end) = (format!("{} {} ", text("site"), text("scaled_to")), format!("{} {after}", text("verdict")));
+        assert!(shown.iter().any(|line| line.starts_with(&begin) && line.ends_with(&end)), "{begin}{end}: {said}");
+    }
 }
 
 #[test]

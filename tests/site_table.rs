@@ -462,6 +462,12 @@ fn slices_that_do_not_make_the_table_are_refused() {
     for ask in ["table", "spectrum"] {
         study.uplift(&[ask, "whole.h5"]).fails(4, &["not in the result, but in whole.sites.h5 and whole.sites.csv"]);
     }
+    // what is refused of a table is where it can be had
+    let words = ["its sites are a table: its column `verdict` needs consistency.repair"];
+    study.uplift(&["consistency", "whole.h5"]).fails(4, &words);
+    study.uplift(&["run", "study.toml", "-o", "of.h5", "-q", "--set", "consistency.repair=weights"]).ok();
+    let words = ["their verdicts are the column `verdict` of of.sites.coefficients.csv"];
+    study.uplift(&["consistency", "of.h5"]).fails(4, &words);
     // a table that was edited is not joined
     let table = "results/study.slice-2-of-3.sites.csv";
     study.write(table, &read(study.path(), table).replacen("PGV", "PGA", 1));

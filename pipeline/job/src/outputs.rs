@@ -41,6 +41,8 @@ const MARKS: [&[u8]; 7] = [MATLAB_MARK, WORKBOOK_MARK, PNG_MARK, SVG_MARK, PAGE_
 pub const SITE_ARRAYS: &str = "sites.h5";
 /// The ending of the table with their spectra.
 pub const SITE_SPECTRA: &str = "sites.csv";
+/// The ending of the table with their coefficients and verdicts.
+pub const SITE_COEFFICIENTS: &str = "sites.coefficients.csv";
 /// The attribute `kind` of a file with the numbers of many sites.
 pub const SITES_KIND: &str = "sites";
 

@@ -58,6 +58,11 @@ pub fn consistency(
 ) -> Result<ConsistencyReport, QuestionsError> {
     let (locked, file) = LockedResult::open(result, events)?;
     let question = Question::from_result(&file)?;
+    if question.sites.is_empty()
+        && let Some(elsewhere) = file.without_verdicts()
+    {
+        return Err(elsewhere.into());
+    }
     let shaken = disaggregated(&question, &options.disaggregations)?;
     if !question.can_be_asked() {
         return Ok(Answer::from_question(question, &file, None, false, events)?.report(&[]));

@@ -3,8 +3,9 @@
 use std::ops::Deref;
 use std::path::Path;
 
-use uplift_job::outputs::{SITE_ARRAYS, SITE_SPECTRA, beside};
+use uplift_job::outputs::{SITE_ARRAYS, SITE_COEFFICIENTS, SITE_SPECTRA, beside};
 use uplift_motion::IntensityMeasure;
+use uplift_study::Repair;
 
 use super::bands::StoredBands;
 use super::consistency::StoredConsistency;
@@ -116,6 +117,20 @@ impl ResultFile {
             ));
         }
         self.fail("the study has no sites, so the result has no spectra: add [[sites]] and run it again")
+    }
+
+    /// Why a result of uniform risk whose sites are a table has no verdicts on hazard consistency, and where they are;
+    /// none where the study has no table of sites.
+    pub fn without_verdicts(&self) -> Option<ResultError> {
+        let study = self.stored_study().ok().filter(|study| study.site_table.is_some())?;
+        let verdicts = match study.consistency.repair {
+            Repair::Weights => {
+                let table = beside(&self.path, SITE_COEFFICIENTS);
+                format!("their verdicts are the column `verdict` of {}", table.display())
+            }
+            Repair::None => "its column `verdict` needs consistency.repair = \"weights\"".to_owned(),
+        };
+        Some(self.fail(format!("its sites are a table: {verdicts}")))
     }
 
     /// The spectra and coefficients of a result of uniform risk; of the risks that it was asked for, if it was

@@ -195,7 +195,7 @@ fn print_sizes(out: &mut impl Write, report: &BootstrapReport, shown: &Displacem
     let (site_name, at) = (&widest.site, widest.strength);
     writeln!(
         out,
-        "\nWidest of these bands: {site_name}, strength {at}, {} m; its limits by the number of records",
+        "\nWidest for its ordinate: {site_name}, strength {at}, {} m; its limits by the number of records",
         two_digits(widest.u_m)
     )?;
     for (size, count) in report.sizes.iter().enumerate() {

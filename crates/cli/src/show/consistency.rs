@@ -71,32 +71,40 @@ fn decisive(row: &ConsistencyRow) -> Option<f64> {
 /// How far each set of scaled records is from the site's hazard of the other measure.
 fn print_table(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {
     let is_repaired = report.rows.iter().any(|row| row.repair.is_some());
-    let repair = |row: &ConsistencyRow| match row.repair.as_ref() {
-        Some(RepairRow { failed: None, least_effective: Some(least), .. }) => {
-            format!("{least:.0} of {}", report.records)
-        }
-        Some(_) => "none".to_owned(),
-        None => "-".to_owned(),
+    let before = |row: &ConsistencyRow| {
+        let at_one_rate = decisive(row).filter(|_| !is_repaired);
+        let at_one_rate = at_one_rate.map_or_else(String::new, |most| format!(" (factor {most:.2} at the worst rate)"));
+        format!("{} {}{at_one_rate}", row.shows, number(row.bias, 2))
+    };
+    let repair = |row: &ConsistencyRow| -> Option<(String, &str, String)> {
+        let RepairRow { failed: None, bias, max, least_effective: Some(effective), least_effective_of, .. } =
+            row.repair.as_ref()?
+        else {
+            return None;
+        };
+        let verdict = Verdict::from_bias((*bias)?, (*max)?).key();
+        let of = least_effective_of.unwrap_or(report.records);
+        Some((format!("{} {}", row.shows, number(*bias, 2)), verdict, format!("{effective:.0} of {of}")))
     };
     let table = Table::from_rows(&report.rows)
         .left("site", |row| &row.site)
         .left("scaled to", |row| row.scaled_to)
-        .right(if is_repaired { "mean ratio, unweighted" } else { "times site's level, mean" }, |row| {
-            let at_one_rate = decisive(row).filter(|_| !is_repaired);
-            let at_one_rate =
-                at_one_rate.map_or_else(String::new, |most| format!(" (factor {most:.2} at the worst rate)"));
-            format!("{} {}{at_one_rate}", row.shows, number(row.bias, 2))
-        })
+        .right("times site's level, mean", before)
         .right("verdict", |row| row.verdict.unwrap_or("-"))
-        .when(is_repaired, |table| table.right("effective records", repair));
+        .when(is_repaired, |table| {
+            table
+                .bar("repaired", |row| repair(row).map_or_else(|| "none".to_owned(), |(mean, ..)| mean))
+                .right("verdict", |row| repair(row).map_or("-", |(_, verdict, _)| verdict))
+                .right("effective records", |row| repair(row).map_or_else(|| "-".to_owned(), |(.., records)| records))
+        });
     writeln!(out, "{table}")?;
-    if is_repaired {
-        return Ok(());
-    }
-    let limits = Verdict::ALL.iter().filter_map(|verdict| Some((verdict, verdict.limits()?.0)));
-    let limits: Vec<String> =
-        limits.map(|(verdict, [least, most])| format!("{verdict}: {least} to {most} times")).collect();
-    Ok(writeln!(out, "{}", limits.join("; "))?)
+    let limits = Verdict::ALL.iter().filter_map(|verdict| Some((verdict, verdict.limits()?)));
+    let limits: Vec<String> = limits
+        .map(|(verdict, ([least, most], largest))| {
+            format!("{verdict}: {least} to {most} times, and at each rate within a factor of {:.2}", largest.exp())
+        })
+        .collect();
+    Ok(writeln!(out, "{}", limits.join("\n"))?)
 }
 
 fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use uplift::efficiency::{EfficiencyReport, EfficiencyRow, Miss, Trend};
-use uplift::text::{Table, nearest, rounded};
+use uplift::text::{Table, nearest};
 use uplift_motion::IntensityMeasure;
 
 use super::alarms::print_synthetic;
@@ -114,42 +114,41 @@ impl Shown<'_> {
     }
 
     fn print_reading(&self, out: &mut impl Write) -> Result<(), CommandError> {
-        let own: Vec<&[EfficiencyRow]> = self.measures.iter().filter(|rows| !rows[0].is_told()).copied().collect();
-        if let (2.., Some((name, measure, others))) = (own.len(), self.winner(&own, |row| row.dispersion_level)) {
+        const DISPLACEMENT: fn(&EfficiencyRow) -> f64 = |row| row.dispersion_level;
+        const INITIATION: fn(&EfficiencyRow) -> f64 = |row| row.dispersion_initiation;
+        let told = self.rows().find(|row| row.is_told());
+        let own = self.by_scatter(DISPLACEMENT, |rows| !rows[0].is_told());
+        if let [(best, _), others @ ..] = &own[..]
+            && !others.is_empty()
+        {
             let result = typed_path(&self.report.stored.path);
-            match own.iter().find_map(|rows| rows[0].misses.as_ref().filter(|_| rows[0].im == name)) {
-                None => writeln!(out, "Use {name}{others}: uplift spectrum {result} --measure {measure}")?,
+            let names: Vec<&str> = others.iter().map(|(row, _)| row.im).collect();
+            let scatter: Vec<String> = own.iter().map(|(_, mean)| number(*mean, 2)).collect();
+            write!(out, "{} scatters less than {} ({})", best.im, names.join(" and "), scatter.join(", "))?;
+            let measure = best.im.parse().map(IntensityMeasure::key).unwrap_or_default();
+            let remedy = match &best.misses {
+                None => format!("Use: uplift spectrum {result} --measure {measure}"),
                 Some(Miss { other, site, times, is_tried, is_repaired, .. }) => {
-                    writeln!(
-                        out,
-                        "{name} scatters least, but its records miss the site's hazard: {times} times the {other} of \
-                         {site}"
-                    )?;
-                    if *is_repaired {
-                        writeln!(out, "Use: uplift spectrum {result} --repaired --measure {measure}")?;
-                    } else if *is_tried {
-                        writeln!(out, "See why: uplift consistency {result} --details")?;
-                    } else {
-                        writeln!(out, "Repair: uplift consistency {result} --repair")?;
+                    write!(out, ", but its records miss the site's hazard: {times} times the {other} of {site}")?;
+                    match (is_repaired, is_tried) {
+                        (true, _) => format!("Use: uplift spectrum {result} --repaired --measure {measure}"),
+                        (false, true) => format!("See why: uplift consistency {result} --details"),
+                        (false, false) => format!("Repair: uplift consistency {result} --repair"),
                     }
                 }
-            }
+            };
+            writeln!(out, "\n{remedy}")?;
         }
-        if let Some(told) = self.rows().find(|row| row.is_told()) {
+        if let Some(told) = told {
             writeln!(out, "+ has no hazard curve in this study: from the runs scaled to {}", told.scaled_to)?;
         }
-        for (what, of) in [
-            ("the displacement", (|row| row.dispersion_level) as fn(&EfficiencyRow) -> f64),
-            ("initiation", |row| row.dispersion_initiation),
-        ] {
-            let best = self.winner(&self.measures, of).map(|(name, _, others)| name + &others);
-            writeln!(out, "Best for {what}: {}", best.as_deref().unwrap_or("these stripes do not show it"))?;
-        }
-        let mean = |rows: &[EfficiencyRow], of: fn(&EfficiencyRow) -> f64| {
-            let known: Vec<f64> =
-                self.strengths.iter().map(|&at| of(&rows[at])).filter(|value| value.is_finite()).collect();
-            number(known.iter().sum::<f64>() / known.len() as f64, 2)
-        };
+        let least = [("displacement", DISPLACEMENT), ("initiation", INITIATION)].map(|(what, of)| {
+            match self.by_scatter(of, |_| true).first() {
+                Some((row, mean)) => format!("{what} {} ({})", label(row), number(*mean, 2)),
+                None => format!("{what} not known from these stripes"),
+            }
+        });
+        writeln!(out, "Least scatter of all {}: {}", self.measures.len(), least.join(", "))?;
         let insufficient = |rows: &[EfficiencyRow]| {
             let is_trend = |&&at: &&usize, name: &str| {
                 rows[at].trends.get(name).and_then(|of| of.p_value).is_some_and(|p| p < SIGNIFICANT)
@@ -160,8 +159,8 @@ impl Shown<'_> {
         };
         let table = Table::from_rows(&self.measures)
             .left("measure", |rows| label(&rows[0]))
-            .right("scatter, displacement", |rows| mean(rows, |row| row.dispersion_level))
-            .right("scatter, initiation", |rows| mean(rows, |row| row.dispersion_initiation))
+            .right("scatter, displacement", |rows| number(self.mean(rows, DISPLACEMENT), 2))
+            .right("scatter, initiation", |rows| number(self.mean(rows, INITIATION), 2))
             .right("trend with", |rows| insufficient(rows));
         writeln!(out, "\n{table}")?;
         if let Some(first) = self.report.stored.measures.first() {
@@ -173,27 +172,24 @@ impl Shown<'_> {
         Ok(())
     }
 
-    /// Which of `measures` scatters least at most of the strengths shown, its key, and the others that do at some.
-    fn winner(&self, measures: &[&[EfficiencyRow]], of: fn(&EfficiencyRow) -> f64) -> Option<(String, String, String)> {
-        let best = |&index: &usize| {
-            let known = measures.iter().filter(|rows| of(&rows[index]).is_finite());
-            known.min_by(|a, b| of(&a[index]).total_cmp(&of(&b[index]))).map(|rows| &rows[index])
-        };
-        let winners: Vec<&EfficiencyRow> = self.strengths.iter().filter_map(best).collect();
-        let wins = |row: &EfficiencyRow| winners.iter().filter(|of| of.im == row.im).count();
-        // of as many wins the first
-        let first = winners.iter().rev().max_by_key(|row| wins(row))?;
-        let others: Vec<String> = winners
-            .chunk_by(|a, b| a.im == b.im)
-            .filter(|of| of[0].im != first.im)
-            .map(|of| {
-                let strengths: Vec<String> = of.iter().map(|row| rounded(row.strength, 3).to_string()).collect();
-                format!("{} at strength {}", label(of[0]), strengths.join(", "))
-            })
-            .collect();
-        let key = first.im.parse().map(IntensityMeasure::key).unwrap_or_default();
-        let others = if others.is_empty() { String::new() } else { format!(" ({})", others.join("; ")) };
-        Some((label(first), key.to_owned(), others))
+    /// The mean of a scatter at the strengths shown; NaN where it is known at none.
+    fn mean(&self, rows: &[EfficiencyRow], of: fn(&EfficiencyRow) -> f64) -> f64 {
+        let known: Vec<f64> =
+            self.strengths.iter().map(|&at| of(&rows[at])).filter(|value| value.is_finite()).collect();
+        known.iter().sum::<f64>() / known.len() as f64
+    }
+
+    /// The measures that are `wanted` and whose mean scatter is known, the least first.
+    fn by_scatter(
+        &self,
+        of: fn(&EfficiencyRow) -> f64,
+        wanted: impl Fn(&[EfficiencyRow]) -> bool,
+    ) -> Vec<(&EfficiencyRow, f64)> {
+        let wanted = self.measures.iter().filter(|rows| wanted(rows));
+        let mut found: Vec<(&EfficiencyRow, f64)> = wanted.map(|rows| (&rows[0], self.mean(rows, of))).collect();
+        found.retain(|(_, mean)| mean.is_finite());
+        found.sort_by(|(_, a), (_, b)| a.total_cmp(b));
+        found
     }
 }
 

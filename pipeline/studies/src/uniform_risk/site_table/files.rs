@@ -8,7 +8,7 @@ use uplift_atomic_file::{AtomicFile, io_error};
 use uplift_inputs::SiteList;
 use uplift_job::JobError;
 use uplift_job::checksum::checksum_of_file;
-use uplift_job::outputs::{SITE_SPECTRA, beside};
+use uplift_job::outputs::{SITE_COEFFICIENTS, SITE_SPECTRA, beside};
 use uplift_job::table::write_metadata;
 use uplift_labelled::LabelledReader;
 use uplift_result::layout::attribute::sites as attribute;
@@ -23,7 +23,7 @@ use crate::error::StudiesError;
 const MAP: usize = 2;
 /// The tables beside the result file `result`: spectra, coefficients, and both as a map.
 pub fn site_table_paths(result: &Path) -> [PathBuf; 3] {
-    [SITE_SPECTRA, "sites.coefficients.csv", "sites.geojson"].map(|ending| beside(result, ending))
+    [SITE_SPECTRA, SITE_COEFFICIENTS, "sites.geojson"].map(|ending| beside(result, ending))
 }
 
 /// The files of many sites while they are being written; those not finished are removed.
