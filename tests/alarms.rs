@@ -90,6 +90,12 @@ fn every_face_says_the_same() {
     assert_eq!(export["alarms"], run["alarms"]);
     let again = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok().stdout;
     let shown = study.uplift(&["table", "r.h5"]).ok().stdout;
+    // strengths with the same digits
+    let ranges = shown.lines().filter_map(|line| line.split_once(" to "));
+    let words = ranges.map(|(from, to)| [from.split_whitespace().last(), to.split_whitespace().next()]);
+    let strengths: Vec<&str> = words.flatten().flatten().filter(|word| word.parse::<f64>().is_ok()).collect();
+    assert!(!strengths.is_empty(), "{shown}");
+    assert!(strengths.iter().all(|word| word.split_once('.').is_some_and(|(_, digits)| digits.len() == 2)), "{shown}");
     // a summary has the worst, three at most and a line each, and says how to see the others
     for (face, found, others) in [(again, &run, "uplift warnings r.h5"), (shown, &table, "--details")] {
         let found = found["alarms"].as_array().unwrap();
@@ -528,6 +534,15 @@ fn numbers_in_other_units_are_accepted_and_reported() {
         assert!(said.contains(&format!("  mistake? study: {words}")), "{words}:\n{said}");
         assert!(said.starts_with("The study can be run, subject to the mistake? below: "), "{said}");
     }
+    // cautions and notes are not what a quiet terminal is for
+    let loud = study.uplift(&["check", "study.toml"]).ok().stdout;
+    let quiet = study.uplift(&["check", "study.toml", "-q"]).ok().stdout;
+    assert!(loud.contains("\n  Synthetic records: ") && loud.contains("\nNote "), "{loud}");
+    let (answer, warnings) = quiet.split_once("\nWarnings\n").unwrap();
+    assert!(answer.starts_with("The study can be run") && answer.contains("\nResult "), "{quiet}");
+    assert!(warnings.lines().all(|line| line.starts_with("  mistake? ")), "{quiet}");
+    let help = study.uplift(&["warnings", "--help"]).ok().stdout;
+    assert!(help.contains("spectra") && help.contains("uplift consistency RESULT --details"), "{help}");
     let run =
         json(&study, &["run", "study.toml", "-o", "r.h5", "--json", "--set", "strengths.values=[0.2, 5, 10, 40]"]);
     let first = &run["alarms"][0];

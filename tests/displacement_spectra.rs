@@ -179,7 +179,8 @@ fn sets_are_made_by_tags_and_records_left_out() {
     }
 
     let run = study.uplift(&["run", "study.toml", "-o", "r.h5"]).ok();
-    for words in ["r.h5", "r.displacements.csv", "r.design.csv", "uplift table r.h5"] {
+    let heading = "Displacement spectra, median of the motions of each set, ";
+    for words in ["r.h5", "r.displacements.csv", "r.design.csv", "uplift table r.h5", heading] {
         assert!(run.stdout.contains(words), "{words}:\n{}", run.stdout);
     }
     let reader = read(&study, "r.h5");

@@ -479,7 +479,7 @@ fn slices_that_do_not_make_the_table_are_refused() {
     let gone = gone.fails(4, &["slice-3-of-3.sites.h5: cannot open the file"]).stderr;
     assert_eq!(gone.matches("slice-3-of-3.sites.h5").count(), 1, "{gone}");
     study.uplift(&["run", "study.toml", "--sites", "8/8"]).fails(4, &["has 7 sites: at most 7 slices"]);
-    study.uplift(&["status", "whole.sites.h5"]).fails(4, &["the sites of a result as arrays"]);
+    study.uplift(&["status", "whole.sites.h5"]).fails(4, &["h5: these are the sites of a result: give a result"]);
     let plain = SmallStudy::new();
     plain.uplift(&["run", "study.toml", "--sites", "1/4"]).fails(3, &["the study has no table of sites"]);
     plain.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();

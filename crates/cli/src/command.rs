@@ -98,7 +98,9 @@ enum Command {
     Influence(influence::InfluenceArguments),
     /// Rank intensity measures
     Measures(measures::MeasuresArguments),
-    /// List every warning about a result
+    /// List the warnings about the spectra of a result
+    ///
+    /// Notes on the repair of its records: `uplift consistency RESULT --details`.
     Warnings(warnings::WarningsArguments),
     /// Check a structure against a spectrum
     Design(design::DesignArguments),

@@ -51,12 +51,8 @@ impl StoredResult {
         let program = root::PROGRAM.read(&reader, &[]).unwrap_or_default();
         if program != "uplift" {
             let is_sites = root::KIND.read(&reader, &[]).is_ok_and(|kind| kind == SITES_KIND);
-            let what = if is_sites { "the sites of a result as arrays" } else { "an HDF5 file" };
-            return Err(JobError::input(format!(
-                "{}: is {what}, but not a result of uplift: give the file that `uplift run` wrote",
-                path.display()
-            ))
-            .into());
+            let what = if is_sites { "these are the sites of a result" } else { "this is a file of another program" };
+            return Err(JobError::input(format!("{}: {what}: give a result of `uplift run`", path.display())).into());
         }
         let layout = root::LAYOUT.read(&reader, &[])?;
         if layout != LAYOUT {

@@ -133,12 +133,17 @@ pub(super) fn warning(alarm: &Alarm, result: Option<&Path>) -> String {
 }
 
 fn warnings(alarms: &[Alarm], result: Option<&Path>, terminal: &Terminal) -> Vec<String> {
-    let is_told = |alarm: &&Alarm| !terminal.is_quiet() || alarm.severity == Severity::Mistake;
     let also = |alarm: &Alarm| {
         let is_shown = terminal.shows_details() && !alarm.also.is_empty();
         if is_shown { format!("\n    Also: {}", alarm.also.join("; ")) } else { String::new() }
     };
-    alarms.iter().filter(is_told).map(|alarm| warning(alarm, result) + &also(alarm)).collect()
+    told(alarms, terminal).map(|alarm| warning(alarm, result) + &also(alarm)).collect()
+}
+
+/// Those that this terminal gets: a quiet one no others than probable mistakes.
+pub(super) fn told<'a>(alarms: &'a [Alarm], terminal: &Terminal) -> impl Iterator<Item = &'a Alarm> {
+    let is_quiet = terminal.is_quiet();
+    alarms.iter().filter(move |alarm| !is_quiet || alarm.severity == Severity::Mistake)
 }
 
 /// What to type, with the name of the `result`, where it is known.

@@ -10,6 +10,9 @@ use uplift_study::Structures;
 use super::ROUNDING_DECIDES;
 use crate::error::CommandError;
 
+/// The percentile of the median.
+const MEDIAN: f64 = 50.0;
+
 pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<(), CommandError> {
     let abscissa = report.structures.abscissa();
     let shown = printed(abscissa);
@@ -18,11 +21,14 @@ pub(super) fn print_spectra(out: &mut impl Write, report: &RunReport) -> Result<
         Structures::Oscillators(family) => (family.capacity_m.len() - 1, ["strength", "smallest u_up, largest u_cap"]),
         Structures::Blocks(family) => (family.height_m.len() - 1, ["tan(alpha)", "largest block"]),
     };
-    let middle = nearest(&report.percentiles, &[50.0])[0];
+    let middle = nearest(&report.percentiles, &[MEDIAN])[0];
+    let fractile = match report.percentiles[middle] {
+        MEDIAN => "median".to_owned(),
+        percentile => format!("{percentile} % fractile"),
+    };
     writeln!(
         out,
-        "\nDisplacement spectra, {} % of each set, {which}: displacement in m{}",
-        report.percentiles[middle],
+        "\nDisplacement spectra, {fractile} of the motions of each set, {which}: displacement in m{}",
         if report.head.synthetic { " (synthetic records)" } else { "" }
     )?;
     let table = Table::from_rows(&report.spectra)

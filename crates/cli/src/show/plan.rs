@@ -8,13 +8,14 @@ use uplift::text::{bytes, share, thousands};
 use uplift::uniform_risk::LevelCheck;
 use uplift_study::AnyStudy;
 
-use super::alarms::{is_doubted, print_lines, warning};
+use super::alarms::{is_doubted, print_lines, told, warning};
 use super::consistency::consistency_lines;
 use super::shown_path;
 use crate::error::CommandError;
 use crate::terminal::{Terminal, output};
 
-/// What a study costs, what to see first, and whether it can be run; in detail the levels and hazard behind it.
+/// What a study costs, what to see first, and whether it can be run; in detail the levels and hazard behind it. A quiet
+/// terminal gets the verdict, the cost and probable mistakes.
 pub(crate) fn print_plan(plan: &Plan, terminal: &Terminal) -> Result<(), CommandError> {
     let mut out = output();
     let head = plan.head();
@@ -34,8 +35,13 @@ pub(crate) fn print_plan(plan: &Plan, terminal: &Terminal) -> Result<(), Command
     }
     // a warning of a run may say "(uplift check)", which is this command
     let own = |alarm| warning(alarm, None).replace("(uplift check)", "as proposed");
-    let warnings: Vec<_> = head.alarms.iter().map(own).collect();
+    let warnings: Vec<_> = told(&head.alarms, terminal).map(own).collect();
     print_lines(&mut out, &warnings, terminal.shows_details() || terminal.is_quiet())?;
+    if terminal.is_quiet() {
+        // the verdict refers to it
+        let replaced = head.notes.last().filter(|_| head.would_replace);
+        return Ok(replaced.map_or(Ok(()), |note| writeln!(out, "Note      {note}"))?);
+    }
     if let Plan::UniformRisk(plan) = plan {
         for proposal in plan.levels.iter().filter_map(|check| check.proposal.as_ref()) {
             let (section, key) = proposal.line.split_once('.').unwrap_or(("", &proposal.line));

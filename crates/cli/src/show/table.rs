@@ -9,7 +9,7 @@ use std::path::Path;
 use uplift::table::{
     COMPARED_ABOVE, COMPARED_FROM_M, CoefficientRow, CoefficientTable, ReferenceFit, TableReport, TableRows,
 };
-use uplift::text::{Table, kind_of_risks, risk_name, rounded, spectrum_words};
+use uplift::text::{Table, kind_of_risks, risk_name, spectrum_words};
 
 use super::alarms::print_warnings;
 use super::shake_table;
@@ -43,7 +43,7 @@ fn print_coefficients(out: &mut impl Write, report: &CoefficientTable) -> Result
     };
     let ratio = |row: &CoefficientRow| row.reference.as_ref().and(row.median_ratio).map(|ratio| format!("{ratio:.2}"));
     let within = |row: &CoefficientRow| match row.reach.and_then(|reach| reach.within_ten_percent) {
-        Some((from, to)) => format!("{} to {}", rounded(from, 4), rounded(to, 4)),
+        Some((from, to)) => format!("{from:.2} to {to:.2}"),
         None => "-".to_owned(),
     };
     let table = Table::from_rows(&report.rows)
