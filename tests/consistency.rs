@@ -132,12 +132,8 @@ fn a_verdict_can_be_required() {
     assert_eq!(lines.next(), Some("Repair: uplift consistency r.h5 --repair"), "{said}");
     assert!(said.contains("times site's level, mean"), "{said}");
     // what decides: the mean, and the worst rate
-    for legend in [
-        "\nconsistent: 0.9 to 1.1 times, and at each rate within a factor of 1.16\n",
-        "\noff: 0.75 to 1.33 times, and at each rate within a factor of 1.49\n",
-    ] {
-        assert!(said.contains(legend), "{legend}{said}");
-    }
+    let legend = "\nconsistent: 0.9 to 1.1, factor 1.16 at worst; off: 0.75 to 1.33, factor 1.49 at worst\n";
+    assert!(said.contains(legend), "{said}");
     // a mean that is right is not all that a verdict rests on
     let said = study.uplift(&["check", "study.toml", "--details"]).ok().stdout;
     let asked = json(&study.uplift(&["consistency", "r.h5", "--json", "-q"]).ok());
@@ -174,12 +170,12 @@ fn a_repair_is_seen_to_have_worked() {
         let number = |key: &str| repair[key].as_f64().unwrap();
         let after = if repair["failed"].is_null() {
             let verdict = Verdict::from_bias(number("bias"), number("max"));
-            let records = format!("{:.0} of {}", number("least_effective"), repair["least_effective_of"]);
-            format!("| {} {:.2} {verdict} {records}", text("shows"), number("bias"))
+            let records = format!("{:.0}/{}", number("least_effective"), repair["least_effective_of"]);
+            format!(" {:.2} {verdict} {records}", number("bias"))
         } else {
-            "| none - -".to_owned()
+            String::new()
         };
-        let (begin, end) = (format!("{} {} ", text("site"), text("scaled_to")), format!("{} {after}", text("verdict")));
+        let (begin, end) = (format!("{} {} ", text("site"), text("scaled_to")), format!("{}{after}", text("verdict")));
         assert!(shown.iter().any(|line| line.starts_with(&begin) && line.ends_with(&end)), "{begin}{end}: {said}");
     }
 }

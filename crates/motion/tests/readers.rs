@@ -112,6 +112,9 @@ fn the_reader_is_chosen_by_content_then_by_name() {
     let error = read_auto(b"1\n2\n", "RECORD.AT2", &UNIT_GRAVITY).unwrap_err();
     assert!(matches!(error, MotionError::NoPointCount { .. }), "{error}");
     let error = read_auto(b"1\n2\n", "record.txt", &UNIT_GRAVITY).unwrap_err();
+    assert!(matches!(error, MotionError::MissingUnitAndTimeStep { .. }), "{error}");
+    let options = ReadOptions { unit: Some(AccelerationUnit::G), ..UNIT_GRAVITY };
+    let error = read_auto(b"1\n2\n", "record.txt", &options).unwrap_err();
     assert!(matches!(error, MotionError::MissingTimeStep { .. }), "{error}");
     let options = ReadOptions { gravity_m_s2: 0.0, ..UNIT_GRAVITY };
     let error = read_auto(text.as_bytes(), "record.txt", &options).unwrap_err();

@@ -84,27 +84,30 @@ fn print_table(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), C
         };
         let verdict = Verdict::from_bias((*bias)?, (*max)?).key();
         let of = least_effective_of.unwrap_or(report.records);
-        Some((format!("{} {}", row.shows, number(*bias, 2)), verdict, format!("{effective:.0} of {of}")))
+        Some((number(*bias, 2), verdict, format!("{effective:.0}/{of}")))
     };
     let table = Table::from_rows(&report.rows)
         .left("site", |row| &row.site)
         .left("scaled to", |row| row.scaled_to)
-        .right("times site's level, mean", before)
+        .right(if is_repaired { "mean ratio" } else { "times site's level, mean" }, before)
         .right("verdict", |row| row.verdict.unwrap_or("-"))
         .when(is_repaired, |table| {
             table
-                .bar("repaired", |row| repair(row).map_or_else(|| "none".to_owned(), |(mean, ..)| mean))
-                .right("verdict", |row| repair(row).map_or("-", |(_, verdict, _)| verdict))
-                .right("effective records", |row| repair(row).map_or_else(|| "-".to_owned(), |(.., records)| records))
+                .right("repaired", |row| repair(row).map_or_else(String::new, |(mean, ..)| mean))
+                .right("verdict", |row| repair(row).map_or("", |(_, verdict, _)| verdict))
+                .right("effective records", |row| repair(row).map_or_else(String::new, |(.., records)| records))
         });
     writeln!(out, "{table}")?;
+    if is_repaired {
+        return Ok(());
+    }
     let limits = Verdict::ALL.iter().filter_map(|verdict| Some((verdict, verdict.limits()?)));
     let limits: Vec<String> = limits
         .map(|(verdict, ([least, most], largest))| {
-            format!("{verdict}: {least} to {most} times, and at each rate within a factor of {:.2}", largest.exp())
+            format!("{verdict}: {least} to {most}, factor {:.2} at worst", largest.exp())
         })
         .collect();
-    Ok(writeln!(out, "{}", limits.join("\n"))?)
+    Ok(writeln!(out, "{}", limits.join("; "))?)
 }
 
 fn print_details(out: &mut impl Write, report: &ConsistencyReport) -> Result<(), CommandError> {

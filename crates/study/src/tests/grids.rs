@@ -170,7 +170,9 @@ fn default_levels_cut_to_a_curve() {
     // what is suggested is a grid that a study takes
     let study = load(&line).unwrap();
     let [plan] = &study.measures[..] else { panic!("one measure") };
-    assert_eq!(Some(plan), MeasurePlan::default_within(IntensityMeasure::Pga, 0.00233, 1.997).as_ref());
+    let cut = MeasurePlan::default_within(IntensityMeasure::Pga, 0.00233, 1.997).unwrap();
+    // and then they are the study's own
+    assert_eq!((plan.measure, &plan.levels, plan.is_cut), (cut.measure, &cut.levels, !cut.is_cut));
     assert!(!plan.is_default() && load("[pga]\n").unwrap().measures[0].is_default());
 }
 
