@@ -183,7 +183,7 @@ mod tests {
             assert!(sentences[0].starts_with("the weights leave 12.3 effective records at the level 2.5 cm/s"));
             assert_eq!(sentences[1], "record RSN40 has 30 % of the weight at the level 2.5 cm/s");
             assert_eq!(sentences[2], "the earthquake event 7 has 60 % of the weight at the level 2.5 cm/s");
-            assert!(sentences[3].starts_with("ln(PGA/PGV) scatters by only 0.31 at the level of 10 % in 50 years"));
+            assert!(sentences[3].starts_with("ln(PGA/PGV) scatters by only 0.310 at the level of 10 % in 50 years"));
             assert!(Warning::LowerTail.sentence(words).ends_with("add levels of PGV below 1 cm/s"));
         });
     }
