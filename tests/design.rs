@@ -630,7 +630,7 @@ fn a_design_sheet_says_what_the_design_says() {
     // how sure that is, in words and drawn
     assert!(lead.contains("m (90 % band ") && lead.contains(" 90 % band: "), "{lead}");
     let drawn = rest.split_once("aria-label=\"Values (dots) with their 90 % confidence bands (bars), m\"").unwrap().1;
-    assert!(drawn.contains(">demand on the structure, Here, PGV: "), "{drawn}");
+    assert!(drawn.contains(">demand on its oscillator, Here, PGV: "), "{drawn}");
     // the block to scale, with its dimensions
     let drawing = rest.split_once("<svg").unwrap().1.split_once("</svg>").unwrap().0;
     assert!(drawing.contains(">0.8 m</text>") && drawing.contains(">4 m</text>"), "{drawing}");

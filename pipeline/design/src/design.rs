@@ -254,7 +254,7 @@ fn own_risks(
     };
     let ExactDemand { lower_tail_share, upper_tail_share, .. } = *exact;
     let demand = EventRisk { lower_tail_share, upper_tail_share, at_most_per_year: None, ..exact.overturning };
-    let mut risks = vec![own("demand on the structure", demand), own("overturning", exact.overturning)];
+    let mut risks = vec![own("demand on its oscillator", demand), own("overturning", exact.overturning)];
     risks.extend(exact.beyond_capacity.map(|risk| own("exceeding the capacity", risk)));
     risks
 }

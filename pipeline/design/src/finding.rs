@@ -163,7 +163,7 @@ fn frame_rows(of: &FrameModel, limit: Option<FrameLimit>, at: [&str; 2]) -> Vec<
     rows
 }
 
-/// The demand on the structure itself, and what is left of its capacity.
+/// The demand on the structure's own oscillator, and what is left of its capacity.
 fn exact_demands(exact: &ExactDemand, [site, im]: [&str; 2]) -> Vec<FindingRow> {
     let row = |what: &str, demand_m: f64| FindingRow::new(what, demand_m, "m").at(site, im);
     let own_m = exact.zero_stiffness_demand_m;
@@ -171,10 +171,10 @@ fn exact_demands(exact: &ExactDemand, [site, im]: [&str; 2]) -> Vec<FindingRow> 
     if own_m.to_bits() != exact.zero_stiffness_demand_of_spectrum_m.to_bits() {
         rows.push(row("zero stiffness, exact, uplift and impacts of the structure", own_m));
     }
-    let demand_m = row("demand on the structure", exact.demand_m);
+    let demand_m = row("demand on its oscillator", exact.demand_m);
     rows.extend(banded(&demand_m, exact.bands.map(|bands| bands.demand_m)));
     if let Some(left_m) = exact.capacity_less_demand_m {
-        let left_m = row("capacity less demand on the structure", left_m);
+        let left_m = row("capacity less demand on its oscillator", left_m);
         rows.extend(banded(&left_m, exact.bands.and_then(|bands| bands.capacity_less_demand_m)));
     }
     rows

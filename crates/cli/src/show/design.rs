@@ -183,7 +183,7 @@ fn print_demands(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
             let what = "zero stiffness, exact, uplift and impacts of the structure".to_owned();
             row(what, own_m, rounding.map(|of| &of.zero_stiffness_demand_m));
         }
-        row("the structure itself, exact".to_owned(), exact.demand_m, rounding.map(|of| &of.demand_m));
+        row("the structure's oscillator, exact".to_owned(), exact.demand_m, rounding.map(|of| &of.demand_m));
     }
     if rows.is_empty() {
         writeln!(out, "\nThere is no demand to show.")?;
@@ -309,7 +309,7 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
     }
     row("overturning".to_owned(), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
     let in_years = format!("in {} years", report.years);
-    let header = ["the structure itself", "per year", &in_years, "return period, years"];
+    let header = ["the structure's oscillator", "per year", &in_years, "return period, years"];
     writeln!(out, "\n{}", Table::new(header, rows))?;
     if let Some(bands) = &exact.bands {
         print_bands(out, exact, bands)?;
@@ -396,7 +396,7 @@ fn print_rounding(out: &mut impl Write, rules: &[RuleOutcome], rounding: &Demand
         Some(rounding.zero_stiffness_demand_m),
         metres_or_overturns,
     );
-    tell("the structure itself, m", Some(rounding.demand_m), metres_or_overturns);
+    tell("the structure's oscillator, m", Some(rounding.demand_m), metres_or_overturns);
     for outcome in rules {
         let rule = outcome.rule.words();
         let of_spectrum = outcome.from_spectrum.as_ref().map(|check| rounding.error_of(check.demand_m));

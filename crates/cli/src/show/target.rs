@@ -28,19 +28,19 @@ pub(crate) fn print_target(report: &TargetReport, terminal: &Terminal) -> Result
 
 /// The safe value, then the best estimate with its band, and what they are for.
 fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
-    let TargetReport { event, site, quantity, target_per_year, value, .. } = report;
+    let TargetReport { event, site, target_per_year, value, .. } = report;
     let im = text::spectrum_words(report.im, report.repaired);
-    // values that were tried have few digits: printed whole, they can be tried again
+    let quantity = report.quantity.replace('-', " ");
     let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
     let safe = limit(report.safe_value, report);
     let band = report.bands.last().map_or_else(String::new, |band| {
-        let upper = if report.safe_value.is_finite() { report.safe_value.to_string() } else { "beyond".to_owned() };
+        let upper = if report.safe_value.is_finite() { whole(report.safe_value) } else { "beyond".to_owned() };
         // where the range begins it is no limit
         let is_open = report.tried.first().is_some_and(|least| band.value[0] <= least.value);
         let below = if is_open { "from below " } else { "" };
         format!(" (90 % band {below}{} to {upper}, by {})", short(band.value[0]), band.of)
     });
-    let best = format!("best estimate {}{band}", unit(value.to_string()));
+    let best = format!("best estimate {}{band}", with_unit(*value, report));
     let is_alone = report.own.as_ref().is_some_and(|own| own.passes_limit_above(*target_per_year));
     let against = if is_alone { " against overturning alone" } else { "" };
     let what = format!("{}safe {quantity}{against}", doubt(&report.alarms));
@@ -65,13 +65,13 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
             let needs = if own.safe_value.is_finite() {
                 format!("needs {}", limit(own.safe_value, report))
             } else {
-                format!("misses the target up to {}", unit(own.missed_at.unwrap_or(own.value).to_string()))
+                format!("misses the target up to {}", with_unit(own.missed_at.unwrap_or(own.value), report))
             };
             writeln!(
                 out,
                 "{what}: the {} {needs}, its oscillator {safe}; at {} {}",
                 noun(own.decisive().model, report.structure.kind),
-                unit(own.value.to_string()),
+                with_unit(own.value, report),
                 how_often(report, own)
             )?;
         }
@@ -83,15 +83,15 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     if let Some(own) = &report.own {
         print_limit(out, report, own)?;
     }
-    let years = 1.0 / target_per_year;
-    writeln!(out, "Target    {event} at most {} per year (once in {years:.0} years)", rate(*target_per_year))?;
+    let years = rounded(1.0 / target_per_year, 3);
+    writeln!(out, "Target    {event} at most {} per year (once in {years} years)", rate(*target_per_year))?;
     let risk = risk_line(report);
     writeln!(out, "{risk}")?;
     // as printed
     let [told, allowed] =
         [report.safe_bands.map_or(0.0, |bands| bands.fullest()[1]), *target_per_year].map(|of| rounded(of, 2));
     if told > allowed {
-        writeln!(out, "          limits of single values scatter")?;
+        writeln!(out, "          the band is of this value alone")?;
     }
     print_other_measures(out, report)?;
     if let Some(misses) = &report.unrepaired {
@@ -111,7 +111,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         writeln!(out, "Itself    not analysed: {reason}")?;
     }
     if report.least_met < report.missed_at {
-        let [met, missed] = [report.least_met, report.missed_at].map(|value| unit(value.to_string()));
+        let [met, missed] = [report.least_met, report.missed_at].map(|value| with_unit(value, report));
         writeln!(
             out,
             "Scatter   the rate does not fall steadily: {met} meets the target, {missed} misses it; from the best \
@@ -121,7 +121,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let needed = report.own.as_ref().map_or(report.safe_value, |own| own.safe_value);
     let own = report.own_value.map_or_else(String::new, |own| {
         let lengths = format!("; multiply all lengths by {}", short(needed / own));
-        let lengths = if *quantity == "size" && needed.is_finite() { &lengths } else { "" };
+        let lengths = if report.quantity == "size" && needed.is_finite() { &lengths } else { "" };
         format!("; the structure's {quantity} is {}{lengths}", unit(short(own)))
     });
     let own_levels = report.own.iter().map(|own| (own.levels.len(), own.levels_of_study, report.im));
@@ -134,8 +134,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
 /// What the other measures of the result say of the safe value.
 fn print_other_measures(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
     let value = if report.safe_value.is_finite() { report.safe_value } else { report.value };
-    let at = format!("{value} {}", report.quantity_unit);
-    let at = at.trim_end();
+    let at = with_unit(value, report);
     let whose = if report.own.is_some() || report.by_proxy { "its oscillator by" } else { "by" };
     for other in &report.by_other_measures {
         let [per_year, ..] = risk_cells(&other.risk);
@@ -165,13 +164,13 @@ fn how_often(report: &TargetReport, own: &TargetOwn) -> String {
 
 /// The rates of the structure itself at the value of its oscillator, with a verdict by each model.
 fn own_table(report: &TargetReport, own: &TargetOwn) -> String {
-    let value = format!("{} {}", own.value, report.quantity_unit);
+    let value = with_unit(own.value, report);
     let table = Table::from_rows(&own.models)
         .left("model", |own| match own.model {
             BLOCK => format!("block, restitution {:.3}", own.restitution),
             of_frame => of_frame.to_owned(),
         })
-        .right(format!("per year at {}", value.trim_end()), |own| {
+        .right(format!("per year at {}", value), |own| {
             risk_cells(&own.risk)[0].clone() + &own.bands.map_or_else(String::new, in_brackets)
         })
         .right("travel at the target rate, m", |own| {
@@ -191,7 +190,7 @@ fn risk_line(report: &TargetReport) -> String {
     // the first line has the best estimate but where the structure itself needs more
     let [whose, best] = match &report.own {
         Some(own) if !own.decisive().is_safe => {
-            ["oscillator: ".to_owned(), format!(" {} {}", report.value, report.quantity_unit).trim_end().to_owned()]
+            ["oscillator: ".to_owned(), format!(" {}", with_unit(report.value, report))]
         }
         _ => [String::new(), String::new()],
     };
@@ -212,10 +211,10 @@ fn in_brackets(bands: Bands) -> String {
 fn print_limit(out: &mut impl Write, report: &TargetReport, own: &TargetOwn) -> Result<(), CommandError> {
     let (Some(limit), Some(beyond)) = (&own.limit, &own.beyond_limit) else { return Ok(()) };
     let [per_year, ..] = risk_cells(&beyond.risk);
-    let at = format!("{} {}", own.limit_at, report.quantity_unit);
+    let at = with_unit(own.limit_at, report);
     let is_more = own.passes_limit_above(report.target_per_year);
     let more = if is_more { ", more often than the target. Search for the limit:" } else { "" };
-    let (limit_in_words, at) = (limit.in_words(), at.trim_end());
+    let limit_in_words = limit.in_words();
     writeln!(
         out,
         "Limit     the wobbling frame passes its limit, {limit_in_words}, {per_year} per year at {at}{more}"
@@ -241,16 +240,15 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
     writeln!(out, "records    {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;
     let TargetReport { event, site, quantity, target_per_year, value, .. } = report;
     let im = text::spectrum_words(report.im, report.repaired);
-    let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
     writeln!(
         out,
-        "target     {event} at most {} per year at {site} by {im}: once in {:.0} years",
+        "target     {event} at most {} per year at {site} by {im}: once in {} years",
         rate(*target_per_year),
-        1.0 / target_per_year
+        rounded(1.0 / target_per_year, 3)
     )?;
     print_notes(out, &report.notes)?;
-    let missed = unit(report.missed_at.to_string());
-    writeln!(out, "\nSmallest {quantity} that meets the target: {}; {missed} misses it", unit(value.to_string()))?;
+    let missed = with_unit(report.missed_at, report);
+    writeln!(out, "\nSmallest {quantity} that meets the target: {}; {missed} misses it", with_unit(*value, report))?;
     let [per_year, probability, return_period] = risk_cells(&report.risk);
     writeln!(
         out,
@@ -308,11 +306,17 @@ fn print_band(out: &mut impl Write, report: &TargetReport, band: &TargetBand) ->
 
 /// A limit of the value with its unit.
 fn limit(value: f64, report: &TargetReport) -> String {
-    if value.is_finite() {
-        format!("{value} {}", report.quantity_unit).trim_end().to_owned()
-    } else {
-        "beyond the range".to_owned()
-    }
+    if value.is_finite() { with_unit(value, report) } else { "beyond the range".to_owned() }
+}
+
+/// A value that was tried, with its unit.
+fn with_unit(value: f64, report: &TargetReport) -> String {
+    format!("{} {}", whole(value), report.quantity_unit).trim_end().to_owned()
+}
+
+/// A value that was tried, which has few digits: with all of them it can be tried again.
+fn whole(value: f64) -> String {
+    if value.abs() < 1e5 { value.to_string() } else { format!("{value:e}") }
 }
 
 fn print_crossings(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {

@@ -119,6 +119,7 @@ fn print_proxy(out: &mut impl Write, report: &DesignReport, demand_m: f64) -> Re
     let how_far = match report.frame_over_proxy() {
         Some(ratio) => Some(format!("frame moves {ratio:.1} times as far")),
         None if demand_m.is_infinite() => None,
+        None if demand_m == 0.0 => Some("the frame does not uplift".to_owned()),
         None => Some("the oscillator has no demand to compare with".to_owned()),
     };
     let second: Vec<String> = of_proxy.into_iter().chain(how_far).collect();
