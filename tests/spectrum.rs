@@ -55,6 +55,11 @@ fn an_answer_is_a_line_with_its_number_first() {
             assert!((shown - exact).abs() <= 0.05 * exact.max(1e-4), "{line}: {exact}");
         }
     }
+    // what does not uplift says so, below the answer
+    let elastic = "\nBelow 0.0005 m the structure does not uplift: no design values\n";
+    let weak = ["--strength", "0.8", "--site", "here", "--poe", "50%"];
+    let is_elastic = numbers(&json(&study, &weak)).iter().all(|[u_m, ..]| 0.0 < *u_m && *u_m < 0.0005);
+    assert!(is_elastic && ask(&study, &weak).ok().stdout.contains(elastic) && !said.contains(elastic), "{said}");
     // one of a site, by a probability; warnings follow, and quietly there are none
     let one = ["--strength", "0.13", "--site", "there", "--poe", "10%"];
     let said = ask(&study, &one).ok().stdout;

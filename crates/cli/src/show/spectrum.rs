@@ -53,6 +53,15 @@ fn print_answers(out: &mut impl Write, report: &DisplacementReport) -> Result<()
             writeln!(out, "  with its weighted hazard curves: {} band {lower} to {upper} m", per_cent(CONFIDENCE))?;
         }
     }
+    print_elastic(out, report)
+}
+
+/// What displacements mean at which the structure does not rock yet; nothing where there are none.
+fn print_elastic(out: &mut impl Write, report: &DisplacementReport) -> Result<(), CommandError> {
+    let uplift_m = report.oscillator.uplift_displacement_m;
+    if report.displacements.iter().any(|own| 0.0 < own.u_m && own.u_m < uplift_m) {
+        writeln!(out, "Below {uplift_m} m the structure does not uplift: no design values")?;
+    }
     Ok(())
 }
 
@@ -96,7 +105,8 @@ pub(super) fn print_displacements(out: &mut impl Write, report: &DisplacementRep
                 cell_with_band(own.u_m, if again { own.band_with_hazard_m } else { own.band_m })
             })
         });
-    Ok(writeln!(out, "{table}")?)
+    writeln!(out, "{table}")?;
+    print_elastic(out, report)
 }
 
 /// The displacements as CSV, with all their digits; the warnings where they are in nobody's way.
