@@ -138,7 +138,7 @@ fn a_block_is_judged_itself() {
     assert!(missed < needed && needed <= 1.03 * missed, "{own}");
     let shown = study.uplift(&ask).ok().stdout;
     let first = if own["models"][0]["is_safe"] == true {
-        format!("Safe width: the block needs {needed} m, its oscillator {safe} m; best estimate ")
+        format!("Safe width: the block needs {needed} m (at most ")
     } else {
         format!("Safe width: the block needs {needed} m, its oscillator {safe} m; at {safe} m the block's rate")
     };

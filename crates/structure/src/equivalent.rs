@@ -278,10 +278,10 @@ impl EquivalentSystem {
         self.conditions.uplift_displacement_m / self.participation
     }
 
-    /// Whether a spectrum of oscillators that uplift at `uplift_displacement_m` \[m\] is of such ones: within 10 %,
-    /// where demands differ by a few per cent at most (docs/design-rules.md has them for 2 mm in place of 0.5 mm).
+    /// Whether a spectrum of oscillators that uplift at `uplift_displacement_m` \[m\] is of such ones: within 5 %,
+    /// by which demands change by no more in the median (docs/design-rules.md has them for 2 mm in place of 0.5 mm).
     pub fn is_of_uplift_displacement(&self, uplift_displacement_m: f64) -> bool {
-        (self.spectral_uplift_displacement_m() / uplift_displacement_m - 1.0).abs() <= 0.1
+        (self.spectral_uplift_displacement_m() / uplift_displacement_m - 1.0).abs() <= 0.05
     }
 
     /// Demand `u_dem,ZS` on the structure's own displacement, m: `Γ` times the ordinate (m) that a spectrum has at

@@ -124,7 +124,9 @@ impl Shown<'_> {
             let result = typed_path(&self.report.stored.path);
             let names: Vec<&str> = others.iter().map(|(row, _)| row.im).collect();
             let scatter: Vec<String> = own.iter().map(|(_, mean)| number(*mean, 2)).collect();
-            write!(out, "{} scatters less than {} ({})", best.im, names.join(" and "), scatter.join(", "))?;
+            let less = self.strengths_of_less_scatter(best, names[0], DISPLACEMENT);
+            let less = if less.is_empty() { String::new() } else { format!("; not at strength {}", less.join(", ")) };
+            write!(out, "{} scatters less than {} ({}{less})", best.im, names.join(" and "), scatter.join(", "))?;
             let measure = best.im.parse().map(IntensityMeasure::key).unwrap_or_default();
             let remedy = match &best.misses {
                 None => format!("Use: uplift spectrum {result} --measure {measure}"),
@@ -177,6 +179,19 @@ impl Shown<'_> {
         let known: Vec<f64> =
             self.strengths.iter().map(|&at| of(&rows[at])).filter(|value| value.is_finite()).collect();
         known.iter().sum::<f64>() / known.len() as f64
+    }
+
+    /// The strengths shown at which the measure called `other` scatters less than the `best`.
+    fn strengths_of_less_scatter(
+        &self,
+        best: &EfficiencyRow,
+        other: &str,
+        of: fn(&EfficiencyRow) -> f64,
+    ) -> Vec<String> {
+        let rows = |im: &str| self.measures.iter().find(|rows| rows[0].im == im && !rows[0].is_told());
+        let (Some(best), Some(other)) = (rows(best.im), rows(other)) else { return Vec::new() };
+        let less = self.strengths.iter().filter(|&&at| of(&other[at]) < of(&best[at]));
+        less.map(|&at| self.report.stored.strengths[at].to_string()).collect()
     }
 
     /// The measures that are `wanted` and whose mean scatter is known, the least first.

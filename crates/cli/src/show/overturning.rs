@@ -156,22 +156,31 @@ fn print_headline(
     Ok(())
 }
 
-/// How often the structure overturns by the first measure, at the site where it does most often.
+/// How often the structure itself overturns by the first measure, at the site where it does most often, and by the
+/// others there.
 fn print_rate(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
-    let name = &report.structure.name;
-    let first = report.overturning.first().map(|found| found.im);
-    // the structure itself comes after its oscillator
-    let Some(found) = report.overturning.iter().rfind(|found| Some(found.im) == first) else { return Ok(()) };
-    let Some(worst) = found.sites.iter().max_by(|a, b| a.risk.per_year.total_cmp(&b.risk.per_year)) else {
+    // a frame that wobbles, or what comes after its oscillator
+    let decides = |of: &&[CollapseReport]| of.iter().find(|found| found.model == WOBBLING).or(of.last()).cloned();
+    let models = report.models.len().max(1);
+    let by_measure: Vec<CollapseReport> = report.overturning.chunks(models).filter_map(|of| decides(&of)).collect();
+    let Some((found, others)) = by_measure.split_first() else { return Ok(()) };
+    let rates = found.sites.iter().enumerate();
+    let Some((at, worst)) = rates.max_by(|(_, a), (_, b)| a.risk.per_year.total_cmp(&b.risk.per_year)) else {
         return Ok(());
     };
     let [per_year, ..] = risk_cells(&worst.risk);
-    let band =
-        worst.bands.map_or_else(String::new, |own| format!(" (90 % band {}{})", limits(own.quoted()), own.by_whom()));
+    let others = others.iter().map(|of| format!("; {} by {}", risk_cells(&of.sites[at].risk)[0], of.im));
+    let (name, model) = (&report.structure.name, noun(found.model, report.structure.kind));
     let most =
         if found.sites.len() > 1 { format!(", the most of {} sites,", found.sites.len()) } else { String::new() };
-    let (model, site, im) = (noun(found.model, report.structure.kind), &worst.site, found.im);
-    Ok(writeln!(out, "{name}: the {model} overturns {per_year} per year{band} at {site}{most} by {im}")?)
+    writeln!(
+        out,
+        "{name}: the {model} overturns {per_year} per year at {}{most} by {}{}; annual rates (90 % band)",
+        worst.site,
+        found.im,
+        others.collect::<String>()
+    )?;
+    Ok(())
 }
 
 /// `4.5 to 5.1`, over sites and measures; none without ratios, and where one of two events is never seen.

@@ -35,10 +35,13 @@ pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
     }
     if let Some(SweepStatus { folder, variants, is_certain, unfinished }) = &report.sweep {
         let folder = shown_path(folder).display();
-        let (what, of, command) =
-            if *is_certain { ("sweep", "variant", "`uplift sweep`") } else { ("sweep or run", "result", "command") };
-        let finished = counted(*variants, of);
-        writeln!(out, "{folder}: unfinished {what}, {finished} finished; the same {command} resumes it")?;
+        if *is_certain {
+            let finished = counted(*variants, "variant");
+            writeln!(out, "{folder}: unfinished sweep, {finished} finished; the same `uplift sweep` resumes it")?;
+        } else {
+            // results beside it need not be its own
+            writeln!(out, "{folder}: unfinished sweep or run; the same command resumes it")?;
+        }
         for unfinished in unfinished {
             print_unfinished(&mut out, unfinished)?;
         }

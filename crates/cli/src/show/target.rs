@@ -49,9 +49,10 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
         Some(own) if own.decisive().is_safe && own.safe_value < own.value => {
             writeln!(
                 out,
-                "{what}: the {} needs {}, its oscillator {safe}; {best} of the oscillator",
+                "{what}: the {} needs {} (at most {} per year), its oscillator {safe}; {best} of the oscillator",
                 noun(own.decisive().model, report.structure.kind),
-                limit(own.safe_value, report)
+                limit(own.safe_value, report),
+                rate(own.upper_per_year_where_safe())
             )?;
         }
         Some(own) if own.decisive().is_safe => {
@@ -91,7 +92,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let [told, allowed] =
         [report.safe_bands.map_or(0.0, |bands| bands.fullest()[1]), *target_per_year].map(|of| rounded(of, 2));
     if told > allowed {
-        writeln!(out, "          the band is of this value alone")?;
+        writeln!(out, "          one value's band; the safe value follows from all")?;
     }
     print_other_measures(out, report)?;
     if let Some(misses) = &report.unrepaired {
@@ -118,7 +119,9 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
              estimate on every trial meets it"
         )?;
     }
-    let needed = report.own.as_ref().map_or(report.safe_value, |own| own.safe_value);
+    // where both models have a value, the larger
+    let larger = |of: f64| if report.safe_value.is_finite() { of.max(report.safe_value) } else { of };
+    let needed = report.own.as_ref().map_or(report.safe_value, |own| larger(own.safe_value));
     let own = report.own_value.map_or_else(String::new, |own| {
         let lengths = format!("; multiply all lengths by {}", short(needed / own));
         let lengths = if report.quantity == "size" && needed.is_finite() { &lengths } else { "" };
@@ -170,7 +173,7 @@ fn own_table(report: &TargetReport, own: &TargetOwn) -> String {
             BLOCK => format!("block, restitution {:.3}", own.restitution),
             of_frame => of_frame.to_owned(),
         })
-        .right(format!("per year at {}", value), |own| {
+        .right(format!("per year at {value}"), |own| {
             risk_cells(&own.risk)[0].clone() + &own.bands.map_or_else(String::new, in_brackets)
         })
         .right("travel at the target rate, m", |own| {
@@ -196,7 +199,7 @@ fn risk_line(report: &TargetReport) -> String {
     };
     let at_safe = report.safe_risk.map_or_else(String::new, |risk| {
         let band = report.safe_bands.map_or_else(String::new, in_brackets);
-        format!(", {}{band} at the safe value", risk_cells(&risk)[0])
+        format!(", {}{band} at {}", risk_cells(&risk)[0], with_unit(report.safe_value, report))
     });
     format!("Risk      {whose}{per_year} per year at the best estimate{best}{at_safe}")
 }

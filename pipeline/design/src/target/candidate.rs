@@ -12,8 +12,8 @@ use crate::risk::{OVERTURNING_M, capacity_m};
 pub(super) struct Candidate {
     /// As described, with the value.
     pub(super) system: EquivalentSystem,
-    /// The first of its capacity and the yield and failure of its tendons, in its own displacement, m.
-    pub(super) limit_m: Option<f64>,
+    /// The first of the yield and failure of its tendons, in its own displacement, m.
+    pub(super) tendon_limit_m: Option<f64>,
     /// The oscillators that shake: one where all is known; else one a branch, or those of each record, one record after
     /// the other.
     pub(super) systems: Vec<System>,
@@ -59,7 +59,10 @@ impl Candidate {
         match event {
             TargetEvent::Beyond(displacement_m) => of_oscillator(displacement_m),
             TargetEvent::BeyondCapacity(factor) => capacity_m(oscillator).map_or(OVERTURNING_M, |own_m| own_m / factor),
-            TargetEvent::BeyondLimit => self.limit_m.map_or(OVERTURNING_M, of_oscillator),
+            TargetEvent::BeyondLimit => {
+                let limits_m = capacity_m(oscillator).into_iter().chain(self.tendon_limit_m.map(of_oscillator));
+                limits_m.min_by(f64::total_cmp).unwrap_or(OVERTURNING_M)
+            }
             TargetEvent::Overturning => OVERTURNING_M,
         }
     }

@@ -130,6 +130,12 @@ impl TargetOwn {
         &self.models[0]
     }
 
+    /// The upper limit of its rate at the least safe value, 1/yr; 0 where there is none.
+    pub fn upper_per_year_where_safe(&self) -> f64 {
+        let at_safe = self.tried.iter().find(|tried| tried.value.total_cmp(&self.safe_value).is_eq());
+        at_safe.map_or(0.0, |tried| tried.upper_per_year)
+    }
+
     /// Risks of it that may come from outside the levels.
     pub(super) fn own_risks(&self, event: &str, place: Place<'_>, counts: (usize, usize)) -> Vec<OwnRisk> {
         let of = |own: &TargetModel| {
@@ -307,7 +313,7 @@ impl Judge<'_> {
         models: &[(System, &'static str)],
     ) -> Result<Option<(TargetModel, u64)>, DesignError> {
         let Some((block @ System::Block(_), _)) = models.last() else { return Ok(None) };
-        let (pool, analyses) = trials.rock(block)?;
+        let (pool, analyses) = trials.pooled_peaks(block)?;
         let (weights, (hazard, scatter)) = (trials.weights, self.of_records);
         let asked = (OVERTURNING_M, self.years);
         let LimitRisk { risk, bands } = LimitRisk::new(&pool, (hazard, weights.repaired()), scatter, asked)?;

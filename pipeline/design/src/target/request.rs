@@ -57,7 +57,7 @@ impl TargetEvent {
             Self::Overturning => "overturning".to_owned(),
             Self::BeyondCapacity(1.0) => "exceeding the capacity".to_owned(),
             Self::BeyondCapacity(safety_factor) => format!("exceeding the capacity divided by {safety_factor}"),
-            Self::BeyondLimit => "passing the first of capacity, tendon yield and failure".to_owned(),
+            Self::BeyondLimit => "passing its limit".to_owned(),
             Self::Beyond(displacement_m) => format!("exceeding {displacement_m} m"),
         }
     }

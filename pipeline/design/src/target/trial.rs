@@ -141,7 +141,7 @@ impl<'a> Trials<'a> {
     }
 
     /// The peaks of a `system` at all levels, m, and how many analyses they took.
-    pub(super) fn rock(&mut self, system: &System) -> Result<(PooledDemand, u64), DesignError> {
+    pub(super) fn pooled_peaks(&mut self, system: &System) -> Result<(PooledDemand, u64), DesignError> {
         let (measure, levels) = (self.measure.measure(), &self.measure.plan.levels);
         let plan = plan_levels(&self.study, (measure, levels), &self.records.set, std::slice::from_ref(system))?;
         let (label, analyses) = (format!("{}, {}", measure.label(), system.kind()), plan.analyses());
@@ -159,7 +159,7 @@ impl<'a> Trials<'a> {
         }
         let candidate = self.candidate(value)?;
         let [oscillator] = &candidate.systems[..] else { return Ok(None) };
-        let (pool, _) = self.rock(oscillator)?;
+        let (pool, _) = self.pooled_peaks(oscillator)?;
         let threshold_m = candidate.threshold_m(self.options.event(), oscillator);
         rate_bands(&pool, (self.hazard, self.weights.repaired()), self.scatter, threshold_m)
     }
@@ -236,9 +236,8 @@ impl<'a> Trials<'a> {
         // without another columns stay as they are
         let varied = self.structure.varied(quantity, value).map_err(refused)?;
         let columns = varied.as_ref().unwrap_or(self.structure).columns.as_ref();
-        let of_tendons = columns.and_then(FrameLimit::from_tendons).map(|limit| limit.displacement_m);
-        let limit_m = system.capacity_m().into_iter().chain(of_tendons).min_by(f64::total_cmp);
-        Ok(Candidate { system, limit_m, systems })
+        let tendon_limit_m = columns.and_then(FrameLimit::from_tendons).map(|limit| limit.displacement_m);
+        Ok(Candidate { system, tendon_limit_m, systems })
     }
 
     /// What the `peaks` of the candidate at `place` among others say.

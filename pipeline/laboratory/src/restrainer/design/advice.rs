@@ -51,8 +51,13 @@ pub(super) fn advice(
             100.0 * near.miss,
             refusals.join("; ")
         ),
+        // a capacity rises with the stiffness
+        None if matches!(target, Target::Capacity { .. }) => {
+            "no stack of these discs comes near it: use larger discs, or more of them side by side (--parallel)"
+                .to_owned()
+        }
         None if limits.most_series < MOST_SERIES => format!(
-            "{} of these discs in series are still too stiff: use softer discs, or allow up to {MOST_SERIES} by \
+            "with at most {} in series these discs are too stiff: use softer discs, or allow up to {MOST_SERIES} by \
              --springs",
             counted(limits.most_series as usize, "packet")
         ),
@@ -71,8 +76,8 @@ fn beyond_tendon(columns: &RestrainedColumns, target: Target, limits: &Limits) -
             let most_m = alone.capacity().map_or(f64::INFINITY, |capacity| capacity.displacement_m);
             return Ok((most_m < capacity_m).then(|| {
                 format!(
-                    "the tendon alone gives {most_m:.2} m, so no stack can give {capacity_m} m: use a stiffer tendon \
-                     or wider columns"
+                    "the tendon alone gives {most_m:.4} m, so no stack can give {capacity_m:.4} m: use a stiffer \
+                     tendon or wider columns"
                 )
             }));
         }
