@@ -31,7 +31,6 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let TargetReport { event, site, target_per_year, value, .. } = report;
     let im = text::spectrum_words(report.im, report.repaired);
     let quantity = report.quantity.replace('-', " ");
-    let unit = |text: String| format!("{text} {}", report.quantity_unit).trim_end().to_owned();
     let safe = limit(report.safe_value, report);
     let band = report.bands.last().map_or_else(String::new, |band| {
         let upper = if report.safe_value.is_finite() { whole(report.safe_value) } else { "beyond".to_owned() };
@@ -119,14 +118,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
              estimate on every trial meets it"
         )?;
     }
-    // where both models have a value, the larger
-    let larger = |of: f64| if report.safe_value.is_finite() { of.max(report.safe_value) } else { of };
-    let needed = report.own.as_ref().map_or(report.safe_value, |own| larger(own.safe_value));
-    let own = report.own_value.map_or_else(String::new, |own| {
-        let lengths = format!("; multiply all lengths by {}", short(needed / own));
-        let lengths = if report.quantity == "size" && needed.is_finite() { &lengths } else { "" };
-        format!("; the structure's {quantity} is {}{lengths}", unit(short(own)))
-    });
+    let own = own_value(report);
     let own_levels = report.own.iter().map(|own| (own.levels.len(), own.levels_of_study, report.im));
     let wobbles = report.own.as_ref().is_some_and(|own| own.models.len() > 1);
     let records = record_set(&report.source.record_set, wobbles);
@@ -185,6 +177,18 @@ fn own_table(report: &TargetReport, own: &TargetOwn) -> String {
             (false, false) => "MISSED",
         });
     format!("{table}\n")
+}
+
+/// The value in the structure file, and by how much its lengths change where these are varied.
+fn own_value(report: &TargetReport) -> String {
+    let Some(own) = report.own_value else { return String::new() };
+    // where both models have a value, the larger
+    let larger = |of: f64| if report.safe_value.is_finite() { of.max(report.safe_value) } else { of };
+    let needed = report.own.as_ref().map_or(report.safe_value, |own| larger(own.safe_value));
+    let is_told = report.quantity == "size" && needed.is_finite();
+    let lengths = if is_told { format!("; multiply all lengths by {}", short(needed / own)) } else { String::new() };
+    let value = format!("{} {}", short(own), report.quantity_unit);
+    format!("; the structure's {} is {}{lengths}", report.quantity.replace('-', " "), value.trim_end())
 }
 
 /// The rates at the best estimate and at the safe value, that with the band of the runs at it alone.
