@@ -160,16 +160,15 @@ fn print_headline(
 /// others there.
 fn print_rate(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
     // a frame that wobbles, or what comes after its oscillator
-    let decides = |of: &&[CollapseReport]| of.iter().find(|found| found.model == WOBBLING).or(of.last()).cloned();
-    let models = report.models.len().max(1);
-    let by_measure: Vec<CollapseReport> = report.overturning.chunks(models).filter_map(|of| decides(&of)).collect();
-    let Some((found, others)) = by_measure.split_first() else { return Ok(()) };
+    let of_measures = report.overturning.chunks(report.models.len().max(1));
+    let mut by_measure = of_measures.filter_map(|of| of.iter().find(|found| found.model == WOBBLING).or(of.last()));
+    let Some(found) = by_measure.next() else { return Ok(()) };
     let rates = found.sites.iter().enumerate();
     let Some((at, worst)) = rates.max_by(|(_, a), (_, b)| a.risk.per_year.total_cmp(&b.risk.per_year)) else {
         return Ok(());
     };
     let [per_year, ..] = risk_cells(&worst.risk);
-    let others = others.iter().map(|of| format!("; {} by {}", risk_cells(&of.sites[at].risk)[0], of.im));
+    let others = by_measure.map(|of| format!("; {} by {}", risk_cells(&of.sites[at].risk)[0], of.im));
     let (name, model) = (&report.structure.name, noun(found.model, report.structure.kind));
     let most =
         if found.sites.len() > 1 { format!(", the most of {} sites,", found.sites.len()) } else { String::new() };
