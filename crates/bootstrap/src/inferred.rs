@@ -162,7 +162,7 @@ pub fn inferred_weighted_rate(
     let (records, per_year) = (weights.record_count(), weights.stripes().per_year());
     check_count("records of the units", units.iter().map(Vec::len).sum(), records)?;
     check_count("runs", happens.len(), records * per_year.len())?;
-    let mut rates = SharedRates::new(units, weights.shares()).with_effective_units();
+    let mut rates = SharedRates::of_weights(units, weights);
     let run = |(run, share): (usize, &f64)| {
         let (record, level) = (run / per_year.len(), run % per_year.len());
         (record, level, share * per_year[level])

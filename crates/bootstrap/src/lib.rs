@@ -25,6 +25,7 @@
 //! (1993), chapters 13 and 14; global rank envelopes: M. Myllymäki et al., J. R. Stat. Soc. B 79 (2017).
 
 mod accuracy;
+mod calibration;
 mod error;
 mod falling;
 mod inferred;

@@ -57,7 +57,7 @@ impl Rates {
             SiteWeights::Alike(_) => OfUnits::from_demand(demand, units),
             SiteWeights::Repaired(weights) => {
                 check_count("records with shares", weights.record_count(), records)?;
-                OfUnits::Shared(SharedRates::new(units, weights.shares()).with_effective_units())
+                OfUnits::Shared(SharedRates::of_weights(units, weights))
             }
         };
         Ok(Self { of_units, per_year: weights.stripes().per_year() })

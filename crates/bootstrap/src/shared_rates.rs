@@ -1,8 +1,10 @@
 //! The rates that records, or earthquakes, bring where they do not count alike.
 
 use uplift_instructions::{Instructions, Vectors, Work};
+use uplift_risk::RunWeights;
 
 use crate::SkewedMean;
+use crate::calibration::Calibration;
 use crate::skewed_mean::{adjustment, sums};
 use crate::unit_rates::unit_of;
 
@@ -14,10 +16,10 @@ use crate::unit_rates::unit_of;
 /// ratio. Linearised, one of U units deviates by U Σ w Σ p (1(u > c) − F), over the levels and the records of the unit.
 /// Shares that are all alike give the deviations of [`inferred_mean`](crate::inferred_mean).
 ///
-/// With [`with_effective_units`](Self::with_effective_units) the scatter counts as known from as many units as carry λ
-/// alike ([`SkewedMean::carried_by`]). A unit that has more of a level than others hides its own deviation, since F
-/// follows it. With [`with_leverage`](Self::with_leverage) it deviates by (1 − 1/U)/(1 − h) of that, h its share: what
-/// λ becomes without it (the jackknife of clusters).
+/// [Of weights](Self::of_weights) the scatter counts as known from as many units as carry λ alike
+/// ([`SkewedMean::carried_by`]), and is at most what these leave of it ([`Calibration`]). A unit that has more of a
+/// level than others hides its own deviation, since F follows it. With [`with_leverage`](Self::with_leverage) it
+/// deviates by (1 − 1/U)/(1 − h) of that, h its share: what λ becomes without it (the jackknife of clusters).
 ///
 /// # Source
 /// J. G. `MacKinnon`, M. Ø. Nielsen, M. D. Webb, J. Appl. Econometrics 38 (2023), 671–694: the jackknife where clusters
@@ -47,6 +49,8 @@ pub(crate) struct SharedRates {
     powers: [f64; POWERS],
     /// That of the skewness.
     adjustment: f64,
+    /// What weights hold; none where they hold nothing.
+    calibration: Option<Calibration>,
     instructions: Instructions,
 }
 
@@ -77,14 +81,17 @@ impl SharedRates {
             deviations: vec![0.0; row],
             powers: [0.0; POWERS],
             adjustment: adjustment(units.len()),
+            calibration: None,
             instructions: Instructions::chosen(),
         }
     }
 
-    /// The same, with the scatter known from fewer units than there are.
-    pub(crate) fn with_effective_units(mut self) -> Self {
-        self.is_carried = true;
-        self
+    /// Of the records of each unit, `[unit]`, by the weights of a repair: the scatter is known from fewer units than
+    /// there are, and is what the repair leaves of it.
+    pub(crate) fn of_weights(units: &[Vec<usize>], weights: &RunWeights) -> Self {
+        let rates = Self::new(units, weights.shares());
+        let calibration = Calibration::new(units, weights.calibration(), rates.deviations.len());
+        Self { is_carried: true, calibration, ..rates }
     }
 
     /// The same of units of which one may have a level nearly alone.
@@ -93,7 +100,8 @@ impl SharedRates {
         // of a level that a unit has alone nothing is known without it: its ratio is its own
         let of = |&share: &f64| if share < 1.0 - 1e-9 { alike / (1.0 - share) } else { 1.0 };
         self.leverage = self.of_units.iter().map(of).collect();
-        self.with_effective_units()
+        self.is_carried = true;
+        self
     }
 
     /// To how many units that count alike they amount: one over the mean of Σ p² over the levels, p being the share of
@@ -143,7 +151,10 @@ impl SharedRates {
         let [second, third, fourth, carried @ ..] = self.powers;
         let moments = [second, third, fourth].map(|sum| sum / self.units as f64);
         let mean = SkewedMean::with_adjustment(self.per_year, moments, (self.units, self.adjustment));
-        if self.is_carried { mean.carried_by(carried) } else { mean }
+        let mean = if self.is_carried { mean.carried_by(carried) } else { mean };
+        let Some(calibration) = &self.calibration else { return mean };
+        let left = calibration.variance_left(self.instructions, (&self.deviations, second));
+        SkewedMean { deviation: mean.deviation * left.sqrt(), ..mean }
     }
 }
 

@@ -64,7 +64,8 @@ impl ScaledAnalysis<'_> {
         }
         let mut shares = self.own_shares();
         solver.shares(&once, &fit.exponents, &mut scratch, &mut shares)?;
-        let weights = RunWeights::new(self.stripes(), &shares)?;
+        let calibration = solver.calibration(&once, &fit.exponents, &mut scratch, &shares)?;
+        let weights = RunWeights::new(self.stripes(), &shares)?.with_calibration(calibration)?;
         let diagnosis = self.diagnose(Some(&weights), options.scale_factor_limits)?;
         if let Some(least) = diagnosis.least_effective
             && least.records < TOO_FEW

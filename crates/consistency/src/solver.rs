@@ -10,6 +10,8 @@
 //! the runs above a level are the first ones. The order is the same at all stripes but where these have records of
 //! their own, which count by `m_j` times their share there.
 
+mod calibration;
+
 use uplift_risk::RiskError;
 
 use crate::exponent::{Exponents, KNOTS, Knots};

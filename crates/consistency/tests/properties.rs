@@ -175,6 +175,46 @@ proptest! {
     }
 
     #[test]
+    fn the_calibration_is_what_a_record_drawn_once_more_moves((scales, ln_ratios) in sets(), record in 0..25_usize) {
+        let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.3));
+        let set = set(&scales, &ln_ratios);
+        let analysis = analysis(&set, &x, &y);
+        let (solver, mut scratch) = (Solver::new(&analysis, 0.05).unwrap(), Scratch::default());
+        let all = vec![1000; set.len()];
+        let (exponents, shares) = solved(&solver, &all);
+        // ln of the implied rate of the site's level at each rate of the fit
+        let mut ln_implied = |multiplicities: &[u32], exponents: &[f64; KNOTS]| {
+            let mut shares = analysis.own_shares();
+            solver.shares(multiplicities, exponents, &mut scratch, &mut shares).unwrap();
+            let weights = RunWeights::new(analysis.stripes(), &shares).unwrap();
+            let implied = analysis.implied(Some(&weights)).unwrap();
+            let ln_rate = |rate: &f64| implied.mean_annual_frequency(y.im_at_rate(*rate).unwrap()).unwrap().ln();
+            solver.rates_per_year().iter().map(ln_rate).collect::<Vec<f64>>()
+        };
+        let mut once_more = all.clone();
+        once_more[record] += 1;
+        let (before, after) = (ln_implied(&all, &exponents), ln_implied(&once_more, &exponents));
+        let mut expected = [0.0; KNOTS];
+        for (k, expected) in expected.iter_mut().enumerate() {
+            let [less, more] = [-1e-4, 1e-4].map(|step| {
+                let mut moved = exponents;
+                moved[k] += step;
+                ln_implied(&all, &moved)
+            });
+            let slopes = more.iter().zip(&less).map(|(more, less)| (more - less) / 2e-4);
+            let moved = before.iter().zip(&after).map(|(before, after)| after - before);
+            *expected = slopes.zip(moved).map(|(slope, moved)| slope * moved).sum();
+        }
+        let calibration = solver.calibration(&all, &exponents, &mut Scratch::default(), &shares).unwrap();
+        for (combination, expected) in calibration.iter().zip(expected) {
+            let largest = combination.iter().fold(0.0_f64, |largest, own| largest.max(own.abs()));
+            // a record more of a thousand, and its second order
+            prop_assert!((combination[record] - expected).abs() < 5e-3 * largest, "{} {expected}", combination[record]);
+            prop_assert!(combination.iter().sum::<f64>().abs() < 1e-9 * largest);
+        }
+    }
+
+    #[test]
     fn a_record_left_out_is_a_set_without_it((scales, ln_ratios) in sets(), record in 0..25_usize) {
         let (x, y) = (hazard("PGV", "cm/s", 1.0, 1.0), hazard("other", "1", 1.0, 1.3));
         let whole = set(&scales, &ln_ratios);

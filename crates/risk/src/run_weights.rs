@@ -27,6 +27,7 @@ pub struct RunWeights {
     /// w p in units, `[level, record]`.
     units: Vec<u64>,
     scale: UnitScale,
+    calibration: Vec<Vec<f64>>,
 }
 
 impl RunWeights {
@@ -44,7 +45,31 @@ impl RunWeights {
         let of_level =
             |(level, row): (usize, &[f64])| row.iter().map(|&share| scale.units(level, share)).collect::<Vec<_>>();
         let units = shares.chunks_exact(record_count).enumerate().flat_map(of_level).collect();
-        Ok(Self { stripes: stripes.clone(), record_count, shares: shares.to_vec(), units, scale })
+        Ok(Self {
+            stripes: stripes.clone(),
+            record_count,
+            shares: shares.to_vec(),
+            units,
+            scale,
+            calibration: Vec::new(),
+        })
+    }
+
+    /// The same weights, solved so that combinations of known rates hold, with how each record moves these: what a set
+    /// has of them scatters no more, and what goes with them scatters less (calibrated weights).
+    ///
+    /// - `calibration`: the linearised deviation of each record, in any unit, `[combination][record]`.
+    ///
+    /// # Errors
+    /// Deviations of other records.
+    ///
+    /// # Source
+    /// J.-C. Deville, C.-E. Särndal, J. Am. Stat. Assoc. 87 (1992), 376–382.
+    pub fn with_calibration(self, calibration: Vec<Vec<f64>>) -> Result<Self, RiskError> {
+        for combination in &calibration {
+            check_count("records of the calibration", combination.len(), self.record_count)?;
+        }
+        Ok(Self { calibration, ..self })
     }
 
     /// The weights where only the stripes at these `places` are analysed; the shares of their records stay.
@@ -55,7 +80,7 @@ impl RunWeights {
         let rows: Vec<&[f64]> = self.shares.chunks(self.record_count).collect();
         let shares: Vec<f64> =
             places.iter().filter_map(|&place| rows.get(place)).flat_map(|row| row.to_vec()).collect();
-        Self::new(&self.stripes.at_levels(places)?, &shares)
+        Self::new(&self.stripes.at_levels(places)?, &shares)?.with_calibration(self.calibration.clone())
     }
 
     /// Number of records.
@@ -71,6 +96,12 @@ impl RunWeights {
     /// Shares of the records, `[level, record]`.
     pub fn shares(&self) -> &[f64] {
         &self.shares
+    }
+
+    /// How each record moves the combinations of known rates that the weights hold, `[combination][record]`; empty
+    /// where they hold none.
+    pub fn calibration(&self) -> &[Vec<f64>] {
+        &self.calibration
     }
 
     /// Weights in units, `[level, record]`.

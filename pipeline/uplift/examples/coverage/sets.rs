@@ -246,6 +246,8 @@ pub fn weights_of_set(
     let drawn: Vec<usize> = written_out(multiplicities).collect();
     let mut shares = vec![0.0; levels * all];
     solver.shares(multiplicities, &fit.exponents, &mut scratch, &mut shares)?;
+    let calibration = solver.calibration(multiplicities, &fit.exponents, &mut scratch, &shares)?;
+    let calibration = calibration.iter().map(|own| drawn.iter().map(|&record| own[record]).collect()).collect();
     let shares: Vec<f64> = (0..levels)
         .flat_map(|level| drawn.iter().map(move |&record| (level * all + record, record)))
         .map(|(place, record)| shares[place] / f64::from(multiplicities[record]))
@@ -254,8 +256,10 @@ pub fn weights_of_set(
         1.0 / shares[level * drawn.len()..][..drawn.len()].iter().map(|share| share * share).sum::<f64>()
     };
     let is_enough = (0..levels).filter(|&level| analysis.is_in_range(level)).all(|at| effective(at) >= TOO_FEW);
-    let weights = (fit.is_reached() && is_enough).then(|| RunWeights::new(analysis.stripes(), &shares)).transpose()?;
-    Ok(weights.map(|weights| (weights, fit.exponents)))
+    if !(fit.is_reached() && is_enough) {
+        return Ok(None);
+    }
+    Ok(Some((RunWeights::new(analysis.stripes(), &shares)?.with_calibration(calibration)?, fit.exponents)))
 }
 
 /// The band of a cell, but for a truth of 0.
