@@ -123,6 +123,7 @@ fn an_interrupted_run_reports_its_progress_and_resumes() {
     let progress = said.split_once("interrupted: ").unwrap().1.split_once(" are in the checkpoint").unwrap().0;
     study.uplift(&["spectrum", "results/study.h5"]).fails(4, &["its run was interrupted: repeat it to resume it"]);
 
+    let rows = std::fs::read(&checkpoint).unwrap();
     for input in ["results/study.h5", "study.toml"] {
         let status = study.uplift(&["status", input]).ok().stdout;
         assert!(status.contains(&format!("checkpoint of an unfinished run, {progress} (")), "{status}\n{said}");
@@ -135,6 +136,56 @@ fn an_interrupted_run_reports_its_progress_and_resumes() {
         "{status}"
     );
     study.uplift(&["status", "absent.h5"]).fails(4, &["absent.h5", "no result"]);
+    // a run that was killed when its result was in place left its checkpoint; that of another run stays
+    let other = ["run", "study.toml", "-o", "other.h5", "--set", "oscillator.restitution=0.9"];
+    study.uplift(&other).ok();
+    study.write_bytes("other.h5.part", &rows);
+    study.write_bytes("results/study.h5.part", &rows);
+    for run in [&other[..], &["run", "study.toml"]] {
+        assert!(study.uplift(run).ok().stdout.contains("done already"));
+    }
+    assert!(study.path().join("other.h5.part").exists() && !checkpoint.exists());
+}
+
+// A run that is killed when its result is in place, but not yet its tables.
+#[cfg(unix)]
+#[test]
+fn what_a_killed_run_left_undone_is_done_by_the_next() {
+    const TABLES: [&str; 4] =
+        ["r.urs.csv", "r.urs.csv-metadata.json", "r.regression.csv", "r.regression.csv-metadata.json"];
+    let study = SmallStudy::new();
+    let run = |more: &[&str]| study.uplift(&[&["run", "study.toml", "-o", "r.h5"][..], more].concat()).ok();
+    let read = |name: &str| std::fs::read(study.path().join(name)).unwrap();
+    run(&["--set", "risk.years=10"]);
+    let of_other = TABLES.map(read);
+    run(&["--force"]);
+    let (result, tables) = (read("r.h5"), TABLES.map(read));
+    assert_ne!(tables, of_other);
+    std::fs::remove_dir_all(study.path().join("r.earlier")).unwrap();
+    let finishes = || {
+        assert!(run(&[]).stdout.contains("done already"));
+        assert_eq!((read("r.h5"), TABLES.map(read)), (result.clone(), tables.clone()));
+    };
+    for gone in [&TABLES[..], &TABLES[2..], &TABLES[2..3]] {
+        for name in gone {
+            std::fs::remove_file(study.path().join(name)).unwrap();
+        }
+        finishes();
+    }
+    // before it moved the tables of an earlier result away
+    TABLES.iter().zip(&of_other).for_each(|(name, bytes)| study.write_bytes(name, bytes));
+    finishes();
+    let earlier = std::fs::read_dir(study.path().join("r.earlier")).unwrap().next().unwrap().unwrap();
+    assert_eq!(std::fs::read(earlier.path().join(TABLES[0])).unwrap(), of_other[0]);
+    // while it wrote any of its files
+    let mut machine = flate2::Crc::new();
+    machine.update(&std::fs::read("/proc/sys/kernel/hostname").unwrap());
+    let hidden = |name: &str| format!(".{name}.partial-{:08x}-0", machine.sum());
+    TABLES.iter().chain(&["r.h5"]).for_each(|name| study.write_bytes(&hidden(name), b"half"));
+    finishes();
+    let left = std::fs::read_dir(study.path()).unwrap().map(|entry| entry.unwrap().file_name());
+    let left: Vec<_> = left.filter(|name| name.to_string_lossy().starts_with('.')).collect();
+    assert!(left.is_empty(), "{left:?}");
 }
 
 #[test]
@@ -440,7 +491,7 @@ fn what_is_in_the_way_is_left_alone() {
     let made = ["records", "synthesize", "-o", "set", "--count", "2"];
     study.uplift(&made).ok();
     let set = ["--set", "records.manifest=set/manifest.csv"];
-    study.uplift(&[&["check", "study.toml"][..], &set].concat()).ok();
+    study.uplift(&[&["check", "study.toml", "--set", "output.file=of-set.h5"][..], &set].concat()).ok();
     std::fs::remove_file(study.path().join("set/SYN002_H1.AT2")).unwrap();
     study.uplift(&[&["run", "study.toml", "--force"][..], &set].concat()).fails(4, &["SYN002", "SYN002_H1.AT2"]);
 }

@@ -329,7 +329,8 @@ fn a_finished_run_is_done_already_and_keeps_what_was_added() {
     assert!(done(&[]) && run(&[]).stdout.contains("done already") && !lock.exists());
     // a table that is gone, and another title, take nothing away
     std::fs::remove_file(study.path().join("r.urs.csv")).unwrap();
-    assert!(run(&[]).stderr.contains("r.urs.csv is missing"));
+    assert!(run(&[]).stderr.contains("r.urs.csv was missing"));
+    assert!(study.path().join("r.urs.csv").exists());
     assert!(done(&["--set", "title=\"other\""]));
     assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), before);
     // what a bootstrap is asked for by default is another result, and so is a damaged one
@@ -365,8 +366,16 @@ fn every_kind_of_study_is_done_already_until_its_inputs_change() {
         let (done, first) = says_done_already(&study, &run);
         assert!(!done, "{file}");
         let bytes = std::fs::read(study.path().join("r.h5")).unwrap();
-        // the second report has the numbers of the first
-        assert_eq!(says_done_already(&study, &run), (true, first), "{file}");
+        // the second report has the numbers of the first, and writes the tables that are missing
+        assert_eq!(says_done_already(&study, &run), (true, first.clone()), "{file}");
+        let tables: Vec<&str> = first["files"].as_array().unwrap()[1..].iter().map(|it| it.as_str().unwrap()).collect();
+        let read = || tables.iter().map(|table| std::fs::read(study.path().join(table)).unwrap()).collect::<Vec<_>>();
+        let written = read();
+        for table in &tables {
+            std::fs::remove_file(study.path().join(table)).unwrap();
+        }
+        assert_eq!(says_done_already(&study, &run), (true, first.clone()), "{file}");
+        assert!(!written.is_empty() && read() == written, "{tables:?}");
         assert!(study.uplift(&run).ok().stdout.contains("done already"));
         assert_eq!(std::fs::read(study.path().join("r.h5")).unwrap(), bytes, "{file}");
         let other = [&run[..], &["--set", "records.synthetic.pairs=5"]].concat();

@@ -418,6 +418,11 @@ fn slices_joined_are_the_whole_table() {
         }
         let again = study.uplift(&[&["run", "study.toml", "--sites", "2/3"][..], &set].concat()).ok();
         assert!(again.stdout.contains("done already"), "{}", again.stdout);
+        // the numbers of the sites are in their files alone: a run that was killed before these computes them again
+        let map = study.path().join("part.slice-2-of-3.sites.geojson");
+        std::fs::remove_file(&map).unwrap();
+        let again = study.uplift(&[&["run", "study.toml", "--sites", "2/3"][..], &set].concat()).ok();
+        assert!(again.stderr.contains("resumed") && map.exists(), "{}", again.stderr);
         let slices = ["part.slice-3-of-3.h5", "part.slice-1-of-3.h5", "part.slice-2-of-3.h5"];
         let cubes = slices.map(|slice| slice.replace(".h5", ".sites.h5"));
         let paths = slices.into_iter().chain(cubes.iter().map(String::as_str));

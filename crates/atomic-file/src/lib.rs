@@ -23,4 +23,5 @@ mod read;
 pub use atomic_file::{AtomicFile, final_place, folder_of, write_whole};
 pub use error::{FileError, io_error, reason};
 pub use identity::is_still_at;
+pub use partial::clear_leftovers;
 pub use read::{open_file, read_file, require_file};

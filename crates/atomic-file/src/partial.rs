@@ -5,6 +5,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::atomic_file::final_place;
 use crate::identity::is_still_at;
 
 /// Makes a hidden file for `target`, empty and locked, and removes others that killed writers of `target` left on this
@@ -31,6 +32,19 @@ pub(crate) fn take_partial(target: &Path) -> io::Result<(PathBuf, File)> {
         }
     }
     taken.ok_or_else(|| io::Error::other("other writers have every name of a hidden file"))
+}
+
+/// Removes what killed writers of `path` left on this machine, where nobody is to write it again.
+pub fn clear_leftovers(path: &Path) {
+    let Ok(target) = final_place(path) else { return };
+    let mut is_free = false;
+    for count in 0_u32.. {
+        let was_free = std::mem::replace(&mut is_free, matches!(clear(&partial_path(&target, count)), Place::Free));
+        // whoever had the second name may have been killed after the first was free again
+        if was_free && is_free {
+            return;
+        }
+    }
 }
 
 fn partial_path(target: &Path, count: u32) -> PathBuf {
@@ -119,6 +133,19 @@ mod tests {
         let mut expected: Vec<String> = others.iter().map(|path| name(path)).chain(["site.h5".into()]).collect();
         expected.sort();
         assert_eq!(files_in(folder.path()), expected);
+    }
+
+    #[test]
+    fn leftovers_go_without_another_writer() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("site.h5");
+        write_whole(&path, b"whole").unwrap();
+        let living = AtomicFile::reserve(&path).unwrap();
+        for count in [1, 3] {
+            fs::write(partial_path(&path, count), "left").unwrap();
+        }
+        clear_leftovers(&path);
+        assert_eq!(files_in(folder.path()), [name(living.partial()), "site.h5".into()]);
     }
 
     #[test]

@@ -36,6 +36,8 @@ pub struct StoredDisplacements {
     pub abscissas: Vec<f64>,
     /// Percentiles of the peak displacements `[set, scaling, scaled_by, line, percentile, abscissa]`, m.
     pub percentile_m: Array<6>,
+    /// Shares of the motions under which the structure overturned `[set, scaling, scaled_by, line, abscissa]`.
+    pub overturned: Array<5>,
     /// What rounding does to some of them; none in older results.
     pub rounding: Option<StoredRounding>,
     /// Nonlinear time histories.
@@ -324,6 +326,10 @@ impl ResultFile {
         lengths.extend([(PERCENTILE.name, percentiles.len()), (abscissa, abscissas.len()), (BOUND.name, BOUNDS.len())]);
         let u_m = SPECTRA.read_floats("u_m", self, &names, &lengths)?;
         let percentile_m = Array::new(shape, u_m).map_err(|error| self.damaged(error))?;
+        let [of_set, to, by, line, _, of_abscissa] = shape;
+        let overturned = SPECTRA.read_floats("overturned", self, &names, &lengths)?;
+        let overturned = Array::new([of_set, to, by, line, of_abscissa], overturned);
+        let overturned = overturned.map_err(|error| self.damaged(error))?;
         let rounding = if ROUNDED_SPECTRA.is_in(self, &names) {
             let abscissas = reader.axis::<f64>(printed)?;
             lengths.push((printed, abscissas.len()));
@@ -346,6 +352,7 @@ impl ResultFile {
             structures,
             abscissas,
             percentile_m,
+            overturned,
             rounding,
             analyses: attribute::spectra::ANALYSES.read(reader, &[])?,
         })

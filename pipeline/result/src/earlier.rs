@@ -64,14 +64,7 @@ impl Earlier {
             }),
         };
         let own = name.map(|name| free_folder(&beside(result, "earlier"), &name, Path::new("")));
-        let mut earlier = Self {
-            result: result.to_owned(),
-            digest: digest.to_owned(),
-            own,
-            own_digest,
-            kept: 0,
-            folders: BTreeSet::new(),
-        };
+        let mut earlier = Self { own, own_digest, ..Self::replaced(result, digest) };
         if let Some(folder) = earlier.own.clone() {
             // a link is followed, as by the writer of the new one
             let file = result.canonicalize().unwrap_or_else(|_| result.to_owned());
@@ -80,6 +73,13 @@ impl Earlier {
             earlier.take(&file, &folder, linked)?;
         }
         Ok(earlier)
+    }
+
+    /// Of an earlier result that the one of `digest` at `result` has replaced already: its run was killed before it
+    /// moved what was made of the earlier one.
+    pub fn replaced(result: &Path, digest: &str) -> Self {
+        let (result, digest) = (result.to_owned(), digest.to_owned());
+        Self { result, digest, own: None, own_digest: None, kept: 0, folders: BTreeSet::new() }
     }
 
     /// Moves what was made of the earlier result to it, now that the new one is there, and says so. What says that it

@@ -11,6 +11,7 @@ use uplift_job::study_run::{RunHead, RunOptions};
 use uplift_labelled::LabelledWriter;
 
 use super::digest::study_digest;
+use super::file::ResultFile;
 use super::layout::LAYOUT;
 use super::layout::attribute::root;
 use crate::error::ResultError;
@@ -92,17 +93,8 @@ impl Provenance {
 
     /// One line for the head of a table; `records` says where the records come from.
     pub fn line(&self, title: &str, records: &str) -> String {
-        let title = if title.is_empty() { String::new() } else { format!("{title}; ") };
-        format!(
-            "uplift {} ({}), {}; study {}; {title}result {}; study digest {}; records: {records}",
-            uplift_job::VERSION,
-            uplift_job::COMMIT,
-            self.created,
-            self.study_file,
-            self.result,
-            self.study_digest,
-        )
-        .replace(['\n', '\r'], " ")
+        let program = [uplift_job::VERSION, uplift_job::COMMIT, &self.created];
+        line(program, (&self.study_file, title), (&self.result, &self.study_digest), records)
     }
 
     /// Writes the attributes of the root that results of every kind have: of a study with this title and acceleration
@@ -142,6 +134,33 @@ impl Provenance {
         root::PLATFORM.write(writer, &[], format!("{} {}", std::env::consts::OS, std::env::consts::ARCH))?;
         Ok(())
     }
+}
+
+impl ResultFile {
+    /// [`Provenance::line`] of the run that wrote this result.
+    ///
+    /// # Errors
+    /// A file that is damaged.
+    pub fn line(&self) -> Result<String, ResultError> {
+        let head = self.head()?;
+        let program = [&*head.version, &head.commit, &head.created];
+        let name = self.path().file_name().unwrap_or_default().to_string_lossy();
+        Ok(line(program, (&head.study_file, &head.title), (&name, &head.study_digest()), &head.record_set))
+    }
+}
+
+fn line(
+    [version, commit, created]: [&str; 3],
+    (study, title): (&str, &str),
+    (result, digest): (&str, &str),
+    records: &str,
+) -> String {
+    let title = if title.is_empty() { String::new() } else { format!("{title}; ") };
+    format!(
+        "uplift {version} ({commit}), {created}; study {study}; {title}result {result}; study digest {digest}; \
+         records: {records}"
+    )
+    .replace(['\n', '\r'], " ")
 }
 
 /// A checksum of where a study file lies; empty where there is none.

@@ -12,8 +12,7 @@ mod spectra;
 mod work;
 mod write;
 
-pub use csv::tables;
-pub(crate) use csv::write_displacement_csv;
+pub use csv::{csv_tables, tables};
 pub(crate) use design_example::carry_out_designs;
 pub use design_example::{Designs, Doubted, design_analyses, strength};
 pub use inputs::{Inputs, KeyedMotions};

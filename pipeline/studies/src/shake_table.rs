@@ -10,8 +10,7 @@ mod spectra;
 mod tests_of_table;
 mod write;
 
-pub(crate) use csv::write_shake_table_csv;
-pub use csv::{COLUMN as TESTS_COLUMN, columns, tables};
+pub use csv::{COLUMN as TESTS_COLUMN, columns, csv_tables, tables};
 pub use inputs::Inputs;
 pub use plan::{Plan, plan};
 pub use report::RunReport;

@@ -13,8 +13,7 @@ mod write;
 mod write_hazard;
 
 pub use computed::ComputedStudy;
-pub use csv::{band_columns, quoted_bands_m, spectra_table, tables};
-pub(crate) use csv::{csv_paths, write_csv};
+pub use csv::{band_columns, csv_tables, quoted_bands_m, spectra_table, tables};
 pub use earlier::{EarlierStripes, is_of_records};
 pub use levels::{LevelCheck, LevelProposal};
 pub use plan::{Plan, needs, plan};

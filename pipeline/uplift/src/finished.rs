@@ -5,19 +5,24 @@ use std::time::Instant;
 
 use serde::Serialize;
 use uplift_alarms::alarms;
+use uplift_atomic_file::clear_leftovers;
+use uplift_engine::checkpoint::checkpoint_path;
 use uplift_ida::NUMERICS;
 use uplift_inputs::{input_checksums, read_hazard, read_other_hazard, read_records, site_table_checksums};
 use uplift_job::events::{Events, Silent};
-use uplift_job::outputs::Output;
+use uplift_job::lock::ResultLock;
+use uplift_job::outputs::{Output, digest_said, metadata_path};
 use uplift_job::study_run::{RunHead, RunOptions};
 use uplift_labelled::verify as verify_file;
 use uplift_motion::IntensityMeasure;
+use uplift_result::earlier::Earlier;
 use uplift_result::{Kind, Overview, Provenance, ResultFile, what_counts};
 use uplift_studies::uniform_risk::MeasureReport;
-use uplift_studies::{displacement, shake_table, uniform_risk};
+use uplift_studies::{StudiesError, Table, displacement, shake_table, uniform_risk, write_tables};
 use uplift_study::{AnyStudy, Repair, UniformRiskStudy};
 
 use crate::error::UpliftError;
+use crate::run::check_outputs;
 
 /// What a run tells, by the kind of its study.
 #[derive(Debug, Clone, Serialize)]
@@ -77,12 +82,11 @@ pub(crate) fn finished(
     if study.title() != stored.title {
         events.note("the result keeps its earlier title; use that of the study: --again");
     }
-    let (tables, missing): (Vec<_>, Vec<_>) = tables.into_iter().partition(|table| table.is_file());
-    for table in missing {
-        events.note(&format!("{} is missing; --again writes it", table.display()));
+    if !finish_files(study, options, (&file, &tables), events)? {
+        return Ok(None);
     }
     let mut files = vec![path.to_owned()];
-    files.extend(tables);
+    files.extend(tables.into_iter().filter(|table| table.is_file()));
     let (records, seconds) = ((stored.record_set.as_str(), stored.synthetic), start.elapsed().as_secs_f64());
     let head = Provenance::new(options, stored.input_checksums).head(&stored.title, records, alarms, files, seconds);
     let head = RunHead { done_already: true, ..head };
@@ -99,6 +103,66 @@ pub(crate) fn finished(
         }
         AnyStudy::ShakeTable(_) => Some(RunReport::ShakeTable(shake_table::RunReport::read(&file, head)?)),
     })
+}
+
+/// Does what a run of `study` has left to do that was killed when its result, in `file`, was in place: writes those of
+/// its `tables` that are missing, and removes hidden files. False where only another run has their numbers.
+fn finish_files(
+    study: &AnyStudy,
+    options: &RunOptions,
+    (file, tables): (&ResultFile, &[PathBuf]),
+    events: &dyn Events,
+) -> Result<bool, UpliftError> {
+    let (path, digest) = (file.path(), file.head()?.study_digest());
+    // one of an earlier result was not moved away
+    let is_there = |table: &PathBuf| table.is_file() && digest_said(table).is_none_or(|said| said == digest);
+    let missing: Vec<&PathBuf> = tables.iter().filter(|table| !is_there(table)).collect();
+    if !missing.is_empty() {
+        let written: Vec<Table> = match study {
+            AnyStudy::UniformRisk(study) if study.sites.is_empty() => Vec::new(),
+            AnyStudy::UniformRisk(_) => uniform_risk::csv_tables(file)?,
+            AnyStudy::Displacement(study) => displacement::csv_tables(file, study)?,
+            AnyStudy::ShakeTable(_) => shake_table::csv_tables(file)?,
+        };
+        let is_site_table = |path: &PathBuf| written.iter().all(|(own, _)| own != path);
+        if matches!(study, AnyStudy::UniformRisk(_)) && missing.iter().any(|path| is_site_table(path)) {
+            return Ok(false);
+        }
+        check_outputs(study, options)?;
+        let _lock = ResultLock::acquire(path)?;
+        Earlier::replaced(path, &digest).set_aside(events)?;
+        let written = written.into_iter().filter(|(path, _)| missing.contains(&path));
+        for table in write_tables(file, written)? {
+            events.remark("tables", &format!("{} was missing: written", table.display()));
+        }
+    }
+    for table in tables {
+        clear_leftovers(table);
+        clear_leftovers(&metadata_path(table));
+    }
+    clear_leftovers(path);
+    clear_checkpoint(study, path);
+    Ok(true)
+}
+
+/// Removes the checkpoint of the run whose result is at `path`; one that may hold more stays.
+fn clear_checkpoint(study: &AnyStudy, path: &Path) {
+    let checkpoint = checkpoint_path(path);
+    let Some(_lock) = checkpoint.is_file().then(|| ResultLock::acquire(path).ok()).flatten() else { return };
+    let cleared = || -> Result<(), StudiesError> {
+        match study {
+            AnyStudy::UniformRisk(study) => {
+                uniform_risk::Inputs::read(study, &Silent)?.work(study, &[])?.clear_checkpoint(&checkpoint);
+            }
+            AnyStudy::Displacement(study) => {
+                displacement::Inputs::read(study, &Silent)?.sets(study)?.work(study)?.clear_checkpoint(&checkpoint);
+            }
+            AnyStudy::ShakeTable(_) => {}
+        }
+        Ok(())
+    };
+    // the inputs have been read before: what has happened to them meanwhile, the next run tells
+    let _ = cleared();
 }
 
 /// Whether the file at `path` holds the numbers of `study`, computed from the same inputs by the same solver.

@@ -11,7 +11,7 @@ use uplift_job::machine::{Needs, PROGRAM_BYTES};
 use uplift_job::text::thousands;
 use uplift_labelled::hexadecimal;
 
-use crate::checkpoint::{Checkpoint, FinishedRows, RowFileHead, RowKey, RowKeys};
+use crate::checkpoint::{Checkpoint, FinishedRows, RowFile, RowFileHead, RowKey, RowKeys};
 use crate::error::EngineError;
 
 /// A plan with its remark.
@@ -114,6 +114,15 @@ impl<'a> Work<'a> {
     /// A file that cannot be written, or that holds something else.
     pub fn open_checkpoint(&self, path: &Path, shard: Shard) -> Result<Checkpoint, EngineError> {
         Checkpoint::open(path, &self.head(shard), || self.keys_of(shard).collect())
+    }
+
+    /// Removes the checkpoint at `path` that a run of this work left which was killed when its result was in place. One
+    /// of other work, or that holds rows of other work too, stays.
+    pub fn clear_checkpoint(&self, path: &Path) {
+        if RowFile::read(path).is_ok_and(|found| found.is_some_and(|found| found.is_all_of(&self.head(Shard::WHOLE)))) {
+            // where it cannot be removed it is in nobody's way
+            let _ = std::fs::remove_file(path);
+        }
     }
 
     /// Carries out one shard, plan after plan: finished rows go to the checkpoint, and if the shard is the whole, each

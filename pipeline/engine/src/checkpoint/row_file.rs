@@ -131,6 +131,11 @@ impl Finding {
         (peaks * self.head.analyses_a_peak).min(self.head.analyses)
     }
 
+    /// Whether it is of the work of `head`, and holds nothing else.
+    pub(crate) fn is_all_of(&self, head: &RowFileHead) -> bool {
+        self.head.peaks_of_others == 0 && self.head.is_of(head)
+    }
+
     /// Whether all analyses are finished, and there are rows of other work too.
     pub fn is_finished_with_others(&self) -> bool {
         self.head.peaks_of_others > 0 && self.analyses() == self.head.analyses

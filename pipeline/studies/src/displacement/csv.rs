@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 use polars::prelude::Column;
 use uplift_job::Array;
 use uplift_job::outputs::{Output, OutputKind, beside};
-use uplift_job::table::{ColumnsOf, write_table};
-use uplift_result::DesignRow;
+use uplift_job::table::ColumnsOf;
 use uplift_result::layout::percentile_name;
+use uplift_result::{DesignRow, ResultFile, StoredDisplacements};
 use uplift_study::{DisplacementStudy, ScaledTo, Structures};
 
-use super::{DisplacementOutcome, printed};
+use super::printed;
+use crate::Table;
 use crate::error::StudiesError;
 
 /// The tables beside the result file `result`: spectra, and the design example.
@@ -26,24 +27,17 @@ pub fn tables(study: &DisplacementStudy, result: &Path) -> Vec<Output> {
     if study.output.csv { std::iter::once(spectra).chain(design).collect() } else { Vec::new() }
 }
 
-/// Write the tables of `outcome` and its `design` beside the result file `result`, and beside each where it comes from;
-/// the tables.
+/// The tables of the result of `study` in `file`.
 ///
 /// # Errors
-/// A file that cannot be written.
-pub(crate) fn write_displacement_csv(
-    result: &Path,
-    outcome: &DisplacementOutcome<'_>,
-    design: &[DesignRow],
-) -> Result<Vec<PathBuf>, StudiesError> {
-    let line = outcome.provenance.line(&outcome.study.title, &outcome.records.description);
-    let [spectra, designs] = displacement_csv_paths(result);
-    write_table(&spectra, &line, spectra_table(outcome))?;
-    if design.is_empty() {
-        return Ok(vec![spectra]);
+/// A file that is damaged.
+pub fn csv_tables(file: &ResultFile, study: &DisplacementStudy) -> Result<Vec<Table>, StudiesError> {
+    let [spectra, designs] = displacement_csv_paths(file.path());
+    let mut tables = vec![(spectra, spectra_table(study, &file.displacements()?))];
+    if let Some(design) = file.design()?.filter(|design| !design.rows.is_empty()) {
+        tables.push((designs, design_table(&design.rows)));
     }
-    write_table(&designs, &line, design_table(design))?;
-    Ok(vec![spectra, designs])
+    Ok(tables)
 }
 
 /// A line of a spectrum: what the structure is but for its abscissa.
@@ -56,8 +50,7 @@ fn lines(structures: &Structures) -> Vec<Vec<f64>> {
     }
 }
 
-fn spectra_table(outcome: &DisplacementOutcome<'_>) -> Vec<Column> {
-    let study = outcome.study;
+fn spectra_table(study: &DisplacementStudy, stored: &StoredDisplacements) -> Vec<Column> {
     let (line_names, abscissa_name): (&[&str], &str) = match study.structures {
         Structures::Oscillators(_) => (&["uplift_displacement_m", "capacity_m"], "strength"),
         Structures::Blocks(_) => (&["height_m"], "tan_alpha"),
@@ -67,30 +60,26 @@ fn spectra_table(outcome: &DisplacementOutcome<'_>) -> Vec<Column> {
     let (to, by) = (&study.scaling.to, &study.scaling.by);
     let is_scaled = |place: usize| to[place] != ScaledTo::Unscaled;
     // motions that are not scaled stand there once
-    let places = Array::from_fn([outcome.sets.len(), to.len(), by.len(), lines.len(), abscissa.len()], |at| at);
+    let places = Array::from_fn([stored.sets.len(), to.len(), by.len(), lines.len(), abscissa.len()], |at| at);
     let rows = places.values().iter().copied().filter(|[_, to, by, ..]| is_scaled(*to) || *by == 0);
-    let line_of = |[_, to, whose, line, _]: [usize; 5]| (to * by.len() + whose) * lines.len() + line;
-    let ordinates_of = |row, percentile| line_of(row) * percentiles.len() + percentile;
     // what rounding makes of those that a run prints; nothing is known of the others
     let repeated = printed(abscissa);
-    let noisy = |row @ [set, .., position]: [usize; 5], percentile| {
+    let noisy = |[set, to, by, line, position]: [usize; 5], percentile| {
         let at = repeated.iter().position(|&at| at == position)?;
-        Some(outcome.rounding[set][ordinates_of(row, percentile) * repeated.len() + at])
+        Some(stored.rounding.as_ref()?.percentile_m[[set, to, by, line, percentile, at]])
     };
     ColumnsOf::new(rows)
-        .with("record_set", |[set, ..]| outcome.sets[set].name())
+        .with("record_set", |[set, ..]| stored.sets[set].name.as_str())
         .with("scaling", |[_, place, ..]| to[place].to_string())
         .with("scaled_by", |[_, place, whose, ..]| is_scaled(place).then(|| by[whose].key()))
         .each(line_names.iter().enumerate(), |columns, (of, name)| columns.with(*name, |[.., line, _]| lines[line][of]))
         .with(abscissa_name, |[.., position]| abscissa[position])
         .each(percentiles.iter().enumerate(), |columns, (percentile, percent)| {
-            columns.with(percentile_name(*percent), |row @ [set, .., position]| {
-                outcome.spectra[set].percentile_m[ordinates_of(row, percentile) * abscissa.len() + position]
+            columns.with(percentile_name(*percent), |[set, to, by, line, position]| {
+                stored.percentile_m[[set, to, by, line, percentile, position]]
             })
         })
-        .with("overturned", |row @ [set, .., position]| {
-            outcome.spectra[set].overturned[line_of(row) * abscissa.len() + position]
-        })
+        .with("overturned", |row| stored.overturned[row])
         .each(percentiles.iter().enumerate(), |columns, (percentile, percent)| {
             let name = percentile_name(*percent);
             let name = name.trim_end_matches("_m");

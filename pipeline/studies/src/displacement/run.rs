@@ -18,11 +18,9 @@ use uplift_study::DisplacementStudy;
 use super::report::RunReport;
 use super::rounding::rounding;
 use super::write::stored_motions;
-use super::{
-    DisplacementOutcome, Inputs, carry_out_designs, needs, set_spectra, write_displacement_csv, write_displacements,
-};
-use crate::complete_result;
+use super::{DisplacementOutcome, Inputs, carry_out_designs, csv_tables, needs, set_spectra, write_displacements};
 use crate::error::StudiesError;
+use crate::{complete_result, write_tables};
 
 /// With fewer motions beyond a percentile than this, one of them decides it.
 const FEW_BEYOND: f64 = 5.0;
@@ -94,9 +92,8 @@ pub fn run(
     let mut files = vec![path.to_owned()];
     // the tables say what the file says
     let file = ResultFile::open(path)?;
-    let rows = file.design()?.map_or_else(Vec::new, |design| design.rows);
     if study.output.csv {
-        files.extend(write_displacement_csv(path, &outcome, &rows).inspect_err(complete_result(path, events))?);
+        files.extend(write_tables(&file, csv_tables(&file, study)?).inspect_err(complete_result(path, events))?);
     }
     let of_records = (records.description.as_str(), records.synthetic);
     let head = provenance.head(&study.title, of_records, alarms(&file)?, files, place.start.elapsed().as_secs_f64());

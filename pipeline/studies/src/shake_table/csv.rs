@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_job::outputs::{Output, OutputKind, beside};
-use uplift_job::table::{ColumnsOf, write_table};
-use uplift_result::{ShakeTable, TABLE_ORDER, TABLE_TESTS};
+use uplift_job::table::ColumnsOf;
+use uplift_result::{ResultFile, ShakeTable, TABLE_ORDER, TABLE_TESTS};
 use uplift_study::ShakeTableStudy;
 
-use super::ShakeTableOutcome;
+use crate::Table;
 use crate::error::StudiesError;
 
 /// A column of every such table, and of no other.
@@ -25,15 +25,12 @@ pub fn tables(study: &ShakeTableStudy, result: &Path) -> Vec<Output> {
     if study.output.csv { vec![table] } else { Vec::new() }
 }
 
-/// Writes the table of `outcome` beside the result file `result`, and beside it where it comes from.
+/// The table of the result in `file`.
 ///
 /// # Errors
-/// A file that cannot be written.
-pub(crate) fn write_shake_table_csv(result: &Path, outcome: &ShakeTableOutcome<'_>) -> Result<PathBuf, StudiesError> {
-    let file = shake_table_csv_path(result);
-    let line = outcome.provenance.line(&outcome.study.title, &outcome.table.records);
-    write_table(&file, &line, columns(outcome.table))?;
-    Ok(file)
+/// A file that is damaged.
+pub fn csv_tables(file: &ResultFile) -> Result<Vec<Table>, StudiesError> {
+    Ok(vec![(shake_table_csv_path(file.path()), columns(&file.shake_table()?))])
 }
 
 /// A row a test, `[level, excitation]`: what `uplift validate` reads.

@@ -12,9 +12,9 @@ use uplift_study::{Kind, ShakeTableStudy};
 use super::plan::needs;
 use super::report::RunReport;
 use super::spectra::spectra;
-use super::{Inputs, ShakeTableOutcome, carry_out, write_shake_table, write_shake_table_csv};
-use crate::complete_result;
+use super::{Inputs, ShakeTableOutcome, carry_out, csv_tables, write_shake_table};
 use crate::error::StudiesError;
+use crate::{complete_result, write_tables};
 
 /// What every result says of the model.
 const TORSION: &str = "the deck does not turn about the vertical in the model: torsion, which was up to 0.115 rad in \
@@ -43,10 +43,11 @@ pub fn run(study: &ShakeTableStudy, place: &Place<'_>, events: &dyn Events) -> R
     write_shake_table(path, &outcome)?;
     earlier.set_aside(events)?;
     let mut files = vec![path.to_owned()];
+    let file = ResultFile::open(path)?;
     if study.output.csv {
-        files.push(write_shake_table_csv(path, &outcome).inspect_err(complete_result(path, events))?);
+        files.extend(write_tables(&file, csv_tables(&file)?).inspect_err(complete_result(path, events))?);
     }
-    let alarms = alarms(&ResultFile::open(path)?)?;
+    let alarms = alarms(&file)?;
     let records = (table.records.as_str(), table.synthetic);
     let head = provenance.head(&study.title, records, alarms, files, place.start.elapsed().as_secs_f64());
     Ok(RunReport { head, kind: Kind::ShakeTable.key(), table })

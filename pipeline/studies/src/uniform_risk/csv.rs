@@ -5,18 +5,18 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_job::outputs::{Output, OutputKind, beside};
-use uplift_job::table::{ColumnsOf, write_table};
+use uplift_job::table::ColumnsOf;
 use uplift_result::declared::{Field, Place, Quantity};
 use uplift_result::{Fits, ResultFile, SiteArrays, StoredSpectra, regression, urs};
 use uplift_study::UniformRiskStudy;
 use uplift_uniform_risk::{DisplacementOptions, QUOTED_LIMITS, displacements};
 
-use super::ComputedStudy;
 use super::site_table::{PROBLEM, site_table_paths};
+use crate::Table;
 use crate::error::StudiesError;
 
 /// The tables beside the result file `result`: spectra and coefficients.
-pub(crate) fn csv_paths(result: &Path) -> [PathBuf; 2] {
+fn csv_paths(result: &Path) -> [PathBuf; 2] {
     ["urs.csv", "regression.csv"].map(|ending| beside(result, ending))
 }
 
@@ -40,19 +40,16 @@ pub fn tables(study: &UniformRiskStudy, result: &Path) -> Vec<Output> {
     tables
 }
 
-/// Write the tables of `outcome` beside the result file `result`, which is written already, and beside each where it
-/// comes from.
+/// The tables of the result in `file`.
 ///
 /// # Errors
-/// A file that cannot be written.
-pub(crate) fn write_csv(result: &Path, outcome: &ComputedStudy<'_>) -> Result<(), StudiesError> {
-    let line = outcome.provenance.line(&outcome.study.title, &outcome.records.description);
-    let [ordinates, coefficients] = csv_paths(result);
-    let spectra = outcome.stored_spectra();
+/// A file that is damaged.
+pub fn csv_tables(file: &ResultFile) -> Result<Vec<Table>, StudiesError> {
+    let [ordinates, coefficients] = csv_paths(file.path());
+    let spectra = file.spectra()?;
     let mut columns = spectra_table(&spectra);
-    columns.extend(band_columns(&quoted_bands_m(&ResultFile::open(result)?, &spectra, false)?));
-    write_table(&ordinates, &line, columns)?;
-    Ok(write_table(&coefficients, &line, regression_table(&spectra))?)
+    columns.extend(band_columns(&quoted_bands_m(file, &spectra, false)?));
+    Ok(vec![(ordinates, columns), (coefficients, regression_table(&spectra))])
 }
 
 /// A row for each ordinate: what it is of, then the arrays of its spectrum.

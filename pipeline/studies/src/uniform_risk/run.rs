@@ -19,9 +19,9 @@ use super::earlier::is_of_records;
 use super::plan::{hazard_of, tell_mistaken_curves};
 use super::report::{MeasureReport, RunReport};
 use super::site_table::{self, SiteOutput};
-use super::{Inputs, csv_paths, needs, write_csv, write_result};
-use crate::complete_result;
+use super::{Inputs, csv_tables, needs, write_result};
 use crate::error::StudiesError;
+use crate::{complete_result, write_tables};
 
 /// Carries out `study`, but for the rows of its analysis that are `known`.
 ///
@@ -115,13 +115,12 @@ pub fn run(
     earlier.set_aside(events)?;
     checkpoint.remove_unless_shared(events);
     let mut files = vec![path.to_owned()];
+    // tables and summary say what every other look at the file says
+    let file = ResultFile::open(path)?;
     if study.output.csv && !study.sites.is_empty() {
-        write_csv(path, &outcome).inspect_err(complete_result(path, events))?;
-        files.extend(csv_paths(path));
+        files.extend(write_tables(&file, csv_tables(&file)?).inspect_err(complete_result(path, events))?);
     }
     files.extend(sites.finish().inspect_err(complete_result(path, events))?);
-    // the summary says what every other look at the file says
-    let file = ResultFile::open(path)?;
     let (of_records, seconds) =
         ((records.description.as_str(), records.synthetic), place.start.elapsed().as_secs_f64());
     let head = provenance.head(&study.title, of_records, alarms(&file)?, files, seconds);
