@@ -173,6 +173,29 @@ fn every_branch_is_repaired_by_its_own_pair_of_curves() {
         }
     }
     assert!(!printed.contains("repaired by their mean only"), "{printed}");
+    // bands of repaired numbers have no second one, and that is said
+    let left_out = "the mean of the weighted hazard curves; their spread is left out";
+    both.write(
+        "frame.toml",
+        "kind = \"frame\"\ncolumns = 4\nwidth_m = 1.6\nheight_m = 9.6\ncolumn_mass_kg = 48000\ndeck_mass_kg = 900000\n",
+    );
+    let frame = ["frame.toml", "--urs", "r.h5"];
+    for (asked, more) in [
+        (&["spectrum", "r.h5"][..], &["--repaired"][..]),
+        (&["spectrum", "r.h5", "--strength", "0.2"], &["--repaired"]),
+        (&[&["design"], &frame[..]].concat(), &["--repaired"]),
+        (
+            &[&["target"], &frame[..], &["--vary", "width", "--overturning", "1e-4", "--proxy"]].concat(),
+            &["--repaired"],
+        ),
+    ] {
+        let told = |more: &[&str]| both.uplift(&[asked, more].concat()).ok().stdout;
+        assert_eq!([told(&[]), told(more)].map(|said| said.contains(left_out)), [false, true], "{asked:?}");
+    }
+    for command in ["overturning", "risk"] {
+        let told = both.uplift(&[&[command], &frame[..]].concat()).ok().stdout;
+        assert!(told.contains(left_out), "{told}");
+    }
     // the same, asked of the result of a plain run
     both.uplift(&["run", "study.toml", "-o", "plain.h5", "--set", "consistency.repair=\"none\"", "-q"]).ok();
     both.uplift(&["consistency", "plain.h5", "--repair", "-q"]).ok();

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
+use uplift_job::text::HAZARD_OF_REPAIR;
 use uplift_result::ResultFile;
 use uplift_study::Structure;
-use uplift_uniform_risk::StudyOfResult;
+use uplift_uniform_risk::{SpectraOfResult, StudyOfResult};
 
 use super::limit::FrameLimit;
 use crate::error::DesignError;
@@ -89,13 +90,22 @@ pub struct ReportSource {
     pub record_set: String,
     /// Whether they are synthetic.
     pub synthetic: bool,
+    /// Its sites with weighted hazard curves, by measure.
+    #[serde(skip)]
+    weighted: Vec<(String, &'static str)>,
 }
 
 impl ReportSource {
     /// Of the result in `file`, whose study is `source`.
     pub(super) fn read(file: &ResultFile, source: &StudyOfResult) -> Result<Self, DesignError> {
         let head = file.head()?;
+        let measures = source.measures.iter().map(SpectraOfResult::measure);
+        let weighted = measures.flat_map(|measure| {
+            let sites = source.study.sites.iter().filter(move |site| site.has_weighted_curves(measure));
+            sites.map(move |site| (site.name.clone(), measure.label()))
+        });
         Ok(Self {
+            weighted: weighted.collect(),
             result: source.path.clone(),
             study_digest: head.study_digest(),
             study_file: head.study_file,
@@ -103,5 +113,12 @@ impl ReportSource {
             record_set: source.record_set.clone(),
             synthetic: source.synthetic,
         })
+    }
+
+    /// Which hazard `repaired` numbers of the measure `im` are of at a site with weighted curves; none where nothing is
+    /// repaired, and of a site with one curve.
+    pub fn hazard_of_repair(&self, repaired: bool, site: &str, im: &str) -> Option<&'static str> {
+        let is_weighted = || self.weighted.iter().any(|(own, of)| own == site && *of == im);
+        (repaired && is_weighted()).then_some(HAZARD_OF_REPAIR)
     }
 }

@@ -21,6 +21,9 @@ pub fn spectrum_words(measure: &str, repaired: bool) -> String {
     if repaired { format!("{measure}, repaired") } else { measure.to_owned() }
 }
 
+/// Which hazard repaired numbers are of at a site with weighted curves: their bands have no second one over these.
+pub const HAZARD_OF_REPAIR: &str = "the mean of the weighted hazard curves; their spread is left out";
+
 /// What is in a list, each once, in the order of the list.
 pub fn distinct<T: PartialEq>(all: impl IntoIterator<Item = T>) -> Vec<T> {
     let mut found = Vec::new();

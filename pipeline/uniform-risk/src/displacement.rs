@@ -97,6 +97,9 @@ pub struct DisplacementReport {
     pub measure: IntensityMeasure,
     /// Whether they are weighted for hazard consistency.
     pub repaired: bool,
+    /// Whether the spread over weighted hazard curves is left out at a site that has some.
+    #[serde(skip)]
+    pub without_curves: bool,
     /// What the bands take for independent.
     pub band_of: BandOf,
     /// What was shaken, but for its strength.
@@ -184,6 +187,7 @@ pub fn displacements(file: &ResultFile, asked: &DisplacementOptions) -> Result<D
         synthetic: head.synthetic,
         measure,
         repaired: asked.repaired,
+        without_curves: asked.repaired && sites.iter().any(|&site| study.sites[site].has_weighted_curves(measure)),
         band_of: units.of,
         structures: study.structures_of_a_motion(),
         oscillator: study.oscillator,

@@ -54,6 +54,9 @@ fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         None => format!("{} by {}, {risk}", report.site, report.spectrum_words()),
     };
     writeln!(out, "At        {at}; {records}")?;
+    if let Some(hazard) = report.source.hazard_of_repair(report.repaired, &report.site, report.im) {
+        writeln!(out, "Hazard    {hazard}")?;
+    }
     Ok(())
 }
 

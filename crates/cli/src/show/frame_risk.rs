@@ -101,6 +101,10 @@ fn print_answer(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), Co
         write!(out, " ({im}: {})", measure_option(im))?;
     }
     writeln!(out, ", {risk}; {}", record_set(&report.source.record_set, report.direction.is_some()))?;
+    let is_repaired = overturning.repaired.is_some() || frame.repaired_m.is_some();
+    if let Some(hazard) = report.source.hazard_of_repair(is_repaired, &report.site, report.im) {
+        writeln!(out, "Repaired     {hazard}")?;
+    }
     Ok(())
 }
 

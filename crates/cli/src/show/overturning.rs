@@ -86,7 +86,11 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
     }
     print_by_earthquake(out, &table)?;
     if is_repaired {
-        writeln!(out, "repaired: the records weighted for the site's hazard")?;
+        let mut sites = report.by_site();
+        let hazard =
+            sites.find_map(|(of, found, _)| report.source.hazard_of_repair(of.repaired.is_some(), &of.site, found.im));
+        let hazard = hazard.map_or_else(String::new, |hazard| format!(", {hazard}"));
+        writeln!(out, "repaired: the records weighted for the site's hazard{hazard}")?;
     }
     if table.contains('*') {
         writeln!(out, "* the last digits are not significant (rounding)")?;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use uplift::spectrum::SpectrumReport;
 use uplift::text::{
-    Table, cell_with_band, counted, kind_of_risks, metres_with_named_band, per_cent, risk_in_words, risk_name, rounded,
-    two_digits,
+    HAZARD_OF_REPAIR, Table, cell_with_band, counted, kind_of_risks, metres_with_named_band, per_cent, risk_in_words,
+    risk_name, rounded, two_digits,
 };
 use uplift::uniform_risk::{CONFIDENCE, Displacement, DisplacementReport};
 
@@ -53,11 +53,15 @@ fn print_answers(out: &mut impl Write, report: &DisplacementReport) -> Result<()
             writeln!(out, "  with its weighted hazard curves: {} band {lower} to {upper} m", per_cent(CONFIDENCE))?;
         }
     }
-    print_elastic(out, report)
+    print_below(out, report)
 }
 
-/// What displacements mean at which the structure does not rock yet; nothing where there are none.
-fn print_elastic(out: &mut impl Write, report: &DisplacementReport) -> Result<(), CommandError> {
+/// Which hazard repaired displacements are of where a site has several curves; what displacements mean at which the
+/// structure does not rock yet. Nothing where there is neither.
+fn print_below(out: &mut impl Write, report: &DisplacementReport) -> Result<(), CommandError> {
+    if report.without_curves {
+        writeln!(out, "Hazard: {HAZARD_OF_REPAIR}")?;
+    }
     let uplift_m = report.oscillator.uplift_displacement_m;
     if report.displacements.iter().any(|own| 0.0 < own.u_m && own.u_m < uplift_m) {
         writeln!(out, "Below {uplift_m} m the structure does not uplift: no design values")?;
@@ -106,7 +110,7 @@ pub(super) fn print_displacements(out: &mut impl Write, report: &DisplacementRep
             })
         });
     writeln!(out, "{table}")?;
-    print_elastic(out, report)
+    print_below(out, report)
 }
 
 /// The displacements as CSV, with all their digits; the warnings where they are in nobody's way.

@@ -123,6 +123,9 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let wobbles = report.own.as_ref().is_some_and(|own| own.models.len() > 1);
     let records = record_set(&report.source.record_set, wobbles);
     writeln!(out, "At        {site} by {im}; {records}{}{own}", fewer_levels(own_levels))?;
+    if let Some(hazard) = report.source.hazard_of_repair(report.repaired, site, report.im) {
+        writeln!(out, "Hazard    {hazard}")?;
+    }
     Ok(())
 }
 

@@ -41,6 +41,11 @@ impl Site {
     pub fn curve(&self, measure: IntensityMeasure) -> Option<&CurveFile> {
         self.curves.iter().find(|curve| curve.measure == measure)
     }
+
+    /// Whether its hazard in `measure` is uncertain: weighted curves.
+    pub fn has_weighted_curves(&self, measure: IntensityMeasure) -> bool {
+        self.curve(measure).is_some_and(|curve| !curve.branches.is_empty())
+    }
 }
 
 fn write_curves<S: Serializer>(curves: &[CurveFile], serializer: S) -> Result<S::Ok, S::Error> {
