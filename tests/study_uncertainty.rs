@@ -291,7 +291,7 @@ fn mistakes_are_reported_at_once() {
         "3 mistakes",
         "uncertainty.samples: samples belongs to kind = \"epistemic\"",
         "a study has many strengths, and each scatters about its own value",
-        "the oscillator has no capacity: its force does not fall after uplift",
+        "no displacement capacity: the force does not fall after uplift",
     ];
     uncertain.uplift(&["check", "study.toml"]).fails(3, &words);
     // used, and asked about

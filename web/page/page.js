@@ -571,7 +571,7 @@ async function analyse(question, done) {
   bar.hidden = true;
 }
 const often = (event) => {
-  if (!event.may_happen) return "cannot happen: the force does not fall after uplift";
+  if (!event.may_happen) return "no displacement capacity: the force does not fall after uplift";
   const limits = event.band_per_year ? ` (90 % band ${rate(event.band_per_year[0])} to ${rate(event.band_per_year[1])})` : "";
   if (event.per_year === 0) return `no record shows it; at most ${rate(event.at_most_per_year)} a year`;
   return `${rate(event.per_year)} a year${limits}, ${digits(100 * event.probability)} % in ${about.years} years${event.alarm ? `. ${event.alarm}` : ""}`;

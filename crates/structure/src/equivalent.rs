@@ -45,6 +45,11 @@ impl Conditions {
     }
 }
 
+/// What is said everywhere of a structure whose force does not fall after uplift, and why.
+pub const NO_CAPACITY: &str = "no displacement capacity";
+/// Why a structure has [`NO_CAPACITY`].
+pub const NO_CAPACITY_REASON: &str = "the force does not fall after uplift";
+
 /// Slope of the restoring force after uplift.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PostUpliftForce {

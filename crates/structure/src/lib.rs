@@ -80,7 +80,7 @@ pub use block::{Block, Body, PointMass, Reference};
 pub use curved::CurvedFrame;
 pub use description::{Allowed, Kind, StructureDescription};
 pub use design::{Check, design};
-pub use equivalent::{Conditions, EquivalentSystem, PostUpliftForce};
+pub use equivalent::{Conditions, EquivalentSystem, NO_CAPACITY, NO_CAPACITY_REASON, PostUpliftForce};
 pub use error::{StructureError, not_negative, positive, require};
 pub use frame::{Anchorage, Frame, RestrainedFrame};
 pub use geometry::Geometry;

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::equivalent::NO_CAPACITY;
+
 /// A property of the structure that limits what its equivalent oscillator is worth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Warning {
@@ -41,13 +43,13 @@ impl fmt::Display for Warning {
                  below the static one",
                 100.0 * linearisation_error
             ),
-            Self::ZeroStiffness => f.write_str(
-                "post-uplift stiffness zero: the structure is the ZSBE system, without a displacement capacity",
-            ),
+            Self::ZeroStiffness => {
+                write!(f, "post-uplift stiffness zero: the structure is the ZSBE system, with {NO_CAPACITY}")
+            }
             Self::PositiveStiffness { stiffness_n_m } => write!(
                 f,
-                "post-uplift stiffness {stiffness_n_m:.6e} N/m, positive: no displacement capacity, and spectra and \
-                 rules of negative-stiffness systems do not apply"
+                "post-uplift stiffness {stiffness_n_m:.6e} N/m, positive: {NO_CAPACITY}, and spectra and rules of \
+                 negative-stiffness systems do not apply"
             ),
             Self::ExtensionEnds { rolling_until_m, rolling_capacity_m, overturning_m } => write!(
                 f,

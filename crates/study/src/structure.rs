@@ -130,9 +130,7 @@ fn read_uncertainty(
         match quantity.value(&structure.system, structure.description.restitution) {
             Some(value) if is_assumed => Described::Assumed(value),
             Some(value) => Described::As(value),
-            None if quantity == UncertainQuantity::Capacity => {
-                Described::Impossible("the force of this structure does not fall after uplift: it has no capacity")
-            }
+            None if quantity == UncertainQuantity::Capacity => Described::NoCapacity,
             None => Described::Open,
         }
     };

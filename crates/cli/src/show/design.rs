@@ -13,7 +13,7 @@ use uplift::text::{
     two_digits,
 };
 use uplift_spectra::Noisy;
-use uplift_structure::Rule;
+use uplift_structure::{NO_CAPACITY, NO_CAPACITY_REASON, Rule};
 
 use self::frame::{print_mark, print_own_spectrum, print_verdicts, rule_cell};
 use super::alarms::{is_doubted, print_in_parts};
@@ -63,8 +63,7 @@ fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
 /// The verdict of the rules, with the demand on the structure's oscillator and its risks.
 fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
     let name = &report.structure.name;
-    let unlimited = || "unlimited capacity: the force does not fall".to_owned();
-    let has = report.capacity_words().unwrap_or_else(unlimited);
+    let has = report.capacity_words().unwrap_or_else(|| format!("{NO_CAPACITY}: {NO_CAPACITY_REASON}"));
     // of a frame that can wobble it is the oscillator that is judged
     let whose = if report.wobbles { ", by its oscillator alone" } else { "" };
     let doubt = doubt(&report.alarms);
@@ -201,8 +200,8 @@ fn print_rules(out: &mut impl Write, report: &DesignReport) -> Result<(), Comman
     if report.rules.is_empty() {
         writeln!(
             out,
-            "\nThe rules of equal displacement and equal energy do not apply: the force rises after uplift, and there \
-             is no capacity\nto exceed. The demand on the oscillator is the one above."
+            "\nThe rules of equal displacement and equal energy do not apply: {NO_CAPACITY}. The demand on the \
+             oscillator\nis the one above."
         )?;
         return Ok(());
     }

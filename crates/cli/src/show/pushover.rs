@@ -5,6 +5,7 @@ use std::io::Write;
 use uplift::pushover::{MeasuredCurve, ProtocolReport, PushoverReport};
 use uplift::text::{Table, TableOf, counted};
 use uplift_statics::{Capacity, PushoverState};
+use uplift_structure::{NO_CAPACITY, NO_CAPACITY_REASON};
 
 use super::{print_files, shown_path};
 use crate::error::CommandError;
@@ -30,9 +31,10 @@ pub(crate) fn print_pushover(report: &PushoverReport, terminal: &Terminal) -> Re
         });
     writeln!(out, "\n{}", states.build().with_left(1))?;
     for curve in &report.linear {
-        let capacity = curve.capacity_m.map_or("none".to_owned(), |capacity_m| format!("{capacity_m:.4} m"));
+        let capacity = |capacity_m: f64| format!("capacity {capacity_m:.4} m");
+        let capacity = curve.capacity_m.map_or_else(|| NO_CAPACITY.to_owned(), capacity);
         let (k, share) = (kilo(curve.stiffness_n_m), curve.share_of_critical);
-        writeln!(out, "linear, {k} kN/m ({share:.3} of the critical stiffness): capacity {capacity}")?;
+        writeln!(out, "linear, {k} kN/m ({share:.3} of the critical stiffness): {capacity}")?;
     }
     if let Some(cyclic) = &report.cyclic {
         let stoppers = match cyclic.dissipated_j {
@@ -83,7 +85,7 @@ fn head(out: &mut impl Write, report: &PushoverReport) -> Result<(), CommandErro
     if let Some(without) = &capacity.exact_without_stoppers {
         writeln!(out, "  without stoppers          {}", capacity_words(Some(without)))?;
     }
-    let linear = capacity.linear_m.map_or("none: the force does not fall".to_owned(), |m| format!("{m:.4} m"));
+    let linear = capacity.linear_m.map_or_else(|| format!("none: {NO_CAPACITY_REASON}"), |m| format!("{m:.4} m"));
     let (k, critical) = (kilo(capacity.linear_stiffness_n_m), kilo(capacity.critical_stiffness_n_m));
     writeln!(out, "  linear                    {linear}, with {k} kN/m; critical {critical} kN/m")?;
     if report.restrained > 0 {

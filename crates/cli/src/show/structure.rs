@@ -7,6 +7,7 @@ use uplift::alarms::Alarm;
 pub(super) use uplift::structure::WOBBLING_FRAME as WOBBLING;
 use uplift::structure::{Bands, EventRisk, StructureReport};
 use uplift::text::{self, per_cent, short, three_digits, two_digits};
+use uplift_structure::{NO_CAPACITY, NO_CAPACITY_REASON};
 
 use super::alarms::is_doubted;
 use super::{ROUNDING_DECIDES, shown_path};
@@ -45,9 +46,10 @@ pub(super) fn print_structure(out: &mut impl Write, structure: &StructureReport)
     lines.push(match structure.capacity_m {
         Some(capacity_m) => format!("           displacement capacity    {capacity_m:.4} m"),
         None if stiffness_n_m > 0.0 => {
-            format!("           displacement capacity    none: the force rises, by {} N/m", short(stiffness_n_m))
+            let rises = short(stiffness_n_m);
+            format!("           displacement capacity    none: {NO_CAPACITY_REASON}, it rises by {rises} N/m")
         }
-        None => "           displacement capacity    none: the force stays".to_owned(),
+        None => format!("           displacement capacity    none: {NO_CAPACITY_REASON}"),
     });
     lines.extend(structure.warnings.iter().map(|warning| format!("warning    {warning}")));
     Ok(writeln!(out, "\n{}", lines.join("\n"))?)
@@ -172,6 +174,6 @@ pub(super) fn risk_cells(risk: &EventRisk) -> [String; 3] {
     match risk.at_most_per_year {
         // a count of none is no proof: an alarm says what the bound is
         Some(bound) => [format!("< {}", text::rate(bound)), "-".to_owned(), format!("> {}", return_period(bound))],
-        None => ["cannot".to_owned(), "-".to_owned(), "-".to_owned()],
+        None => [NO_CAPACITY.to_owned(), "-".to_owned(), "-".to_owned()],
     }
 }

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use uplift::structure::{QuantityReport, UncertainFinding, UncertaintyReport};
 use uplift::text::{self, Table, per_cent, short, thousands, two_digits};
+use uplift_structure::NO_CAPACITY;
 
 use crate::error::CommandError;
 
@@ -24,11 +25,11 @@ pub(super) fn print_uncertain_answers(out: &mut impl Write, report: &Uncertainty
         };
         let value = match at_most {
             Some(bound) => format!("< {}", text::rate(bound)),
-            None if is_rate && value == 0.0 => "cannot happen".to_owned(),
+            None if is_rate && value == 0.0 => NO_CAPACITY.to_owned(),
             None => shown(value),
         };
-        let is_banded = at_most.is_none() && value != "cannot happen";
-        let unit = if value == "cannot happen" {
+        let is_banded = at_most.is_none() && value != NO_CAPACITY;
+        let unit = if value == NO_CAPACITY {
             ""
         } else if is_rate {
             " per year"

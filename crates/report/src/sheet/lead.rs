@@ -7,6 +7,7 @@ use uplift::structure::{
 };
 use uplift::text::{risk_in_words, two_digits};
 use uplift_spectra::Noisy;
+use uplift_structure::{NO_CAPACITY, NO_CAPACITY_REASON};
 
 use super::numbers::{chance, lower_bound, marked, power, rounding};
 
@@ -63,7 +64,7 @@ fn frame_sentences(report: &DesignReport, frame: &FrameReport) -> Vec<Sentence> 
     let model = own.model;
     let mut sentences = Vec::new();
     sentences.push(match own.check {
-        None => Sentence::plain(format!("{at} the {model} has no capacity to exceed: the force does not fall.")),
+        None => Sentence::plain(format!("{at} the {model} has {NO_CAPACITY}: {NO_CAPACITY_REASON}.")),
         Some(check) if check.required_capacity_m.is_finite() => {
             let capacity = capacity(report).map_or_else(String::new, |capacity| format!("; it has {capacity}"));
             let (required, verdict) = (two_digits(check.required_capacity_m), verdict_word(check.satisfied));

@@ -6,6 +6,7 @@ use uplift::structure::{
 use uplift::study::Structure;
 use uplift::text::{Table, metres_or_overturns, per_cent, relative_error_in_words, risk_in_words, share, two_digits};
 use uplift_spectra::Noisy;
+use uplift_structure::NO_CAPACITY_REASON;
 
 use crate::page::TitledTable;
 
@@ -95,7 +96,7 @@ pub(crate) fn facts(structure: &Structure, of: &StructureReport) -> Vec<(&'stati
     given_as("Restitution", of.restitution, "");
     match of.capacity_m {
         Some(capacity_m) => given_as("Displacement capacity u_{cap}", Some(capacity_m), "m"),
-        None => facts.push(("Displacement capacity u_{cap}", "none: the force does not fall after uplift".to_owned())),
+        None => facts.push(("Displacement capacity u_{cap}", format!("none: {NO_CAPACITY_REASON}"))),
     }
     facts
 }

@@ -1,7 +1,7 @@
 //! The section `[uncertainty]`: quantities of a structure that are not known exactly.
 
 use uplift_plausible::{Range, USUAL_VARIATION, after_value};
-use uplift_structure::UncertainQuantity;
+use uplift_structure::{NO_CAPACITY, NO_CAPACITY_REASON, UncertainQuantity};
 use uplift_uncertainty::{Distribution, Family, GaussianCopula, RandomVector, Sampling, UncertaintyError};
 
 use serde_json::{Value, json};
@@ -130,8 +130,8 @@ pub(crate) enum Described {
     Open,
     /// Cannot be reported for other mistakes.
     Mistaken,
-    /// There is none, for this reason.
-    Impossible(&'static str),
+    /// A displacement capacity where the force does not fall: there is none.
+    NoCapacity,
 }
 
 /// A number that can be, but is probably meant otherwise.
@@ -318,8 +318,8 @@ fn read_quantity(
     if let (Some(Some(mean)), Described::As(own)) = (mean, described) {
         doubts.extend(section.given(&MEAN).and_then(|field| far_off(&field, mean, own, usual.unit)));
     }
-    if let Described::Impossible(reason) = described {
-        section.mistake("", reason, "leave it out");
+    if described == Described::NoCapacity {
+        section.mistake("", format!("{NO_CAPACITY}: {NO_CAPACITY_REASON}"), "leave it out");
         section.finish();
         return None;
     }

@@ -33,7 +33,7 @@ pub(super) fn read(
     }
     let described = |quantity: UncertainQuantity| match oscillator.map(|oscillator| oscillator.value(quantity)) {
         Some(Some(value)) => Described::As(value),
-        Some(None) => Described::Impossible("the oscillator has no capacity: its force does not fall after uplift"),
+        Some(None) => Described::NoCapacity,
         None => Described::Mistaken,
     };
     let mut doubts = Vec::new();

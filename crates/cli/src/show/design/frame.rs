@@ -7,7 +7,7 @@ use uplift::structure::{
     DemandBands, DesignReport, EventRisk, FrameReport, LimitRisk, OSCILLATOR, ReportSource, verdict_word,
 };
 use uplift::text::{Table, cell_with_band, metres_or_overturns, typed, typed_path};
-use uplift_structure::Rule;
+use uplift_structure::{NO_CAPACITY, NO_CAPACITY_REASON, Rule};
 
 use crate::error::CommandError;
 use crate::show::structure::{mark_of, marked_band_in_cell, measure_option, print_by_earthquake, risk_cells};
@@ -36,7 +36,7 @@ pub(super) fn print_verdicts(
             let model = wobbling.model;
             format!("{verdict}: {model} overturns more often than the target, {capacity}")
         }
-        _ => "unlimited capacity: the force does not fall".to_owned(),
+        _ => format!("{NO_CAPACITY}: {NO_CAPACITY_REASON}"),
     };
     writeln!(out, "Verdict   {name} by {by}: {answer}")?;
     print_proxy(out, report, wobbling.demand_m)?;
