@@ -509,10 +509,15 @@ fn a_file_that_says_another_unit_or_kind_is_answered_with_the_line_to_write() {
     let poe = ["check", "study.toml", "--set", "sites.Here.pgv.kind=poe", "--set", "sites.Here.pgv.years=50"];
     study.uplift(&poe).fails(4, &["leave out `kind` and `years` of pgv in [[sites]]"]);
     study.write("b.csv", &format!("pgv_m_s,maf\n{}", rows(0.01)));
-    let branches =
-        "sites.Here.pgv={ branches = [{ file = \"pgv.csv\", weight = 0.5 }, { file = \"b.csv\", weight = 0.5 }] }";
+    let branches = |unit: &str| {
+        format!(
+            "sites.Here.pgv={{ {unit}branches = [{{ file = \"pgv.csv\", weight = 0.5 }}, {{ file = \"b.csv\", weight = \
+             0.5 }}] }}"
+        )
+    };
     let all_or_this = ["b.csv", "unit = \"m/s\" } in [[sites]] if all branches are so, or convert this file"];
-    study.uplift(&["check", "study.toml", "--set", branches]).fails(4, &all_or_this);
+    study.uplift(&["check", "study.toml", "--set", &branches("unit = \"cm/s\", ")]).fails(4, &all_or_this);
+    study.uplift(&["check", "study.toml", "--set", &branches("")]).ok();
     // a unit that is not read
     study.write("pgv.csv", &format!("# IM: PGV [mm/s]\niml,maf\n{}", rows(10.0)));
     words(&["declares its unit as \"mm/s\"", "convert its levels into cm/s, and write that into its head"]);

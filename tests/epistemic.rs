@@ -105,6 +105,38 @@ fn branches_are_the_studies_of_their_curves() {
     assert_eq!(array(&study, "again.h5", "/epistemic/pgv/Here/u_m"), [a, b].concat());
 }
 
+/// A branch whose file says its unit is read in that unit, as the file alone is.
+#[test]
+fn a_branch_in_another_unit_is_converted() {
+    let study = study();
+    let rows: Vec<String> =
+        [0.5_f64, 2.0, 20.0, 300.0].iter().map(|&im| format!("{},{:e}", im / 100.0, 0.2 * im.powi(-2))).collect();
+    study.write("b_m.csv", &format!("PGV (m/s),maf\n{}\n", rows.join("\n")));
+    let text = std::fs::read_to_string(study.path().join("study.toml")).unwrap();
+    study.write("metres.toml", &text.replace("b.csv", "b_m.csv"));
+    let explicit = text.replace("file = \"b.csv\"", "file = \"b_m.csv\"\nunit = \"m/s\"");
+    study.write("explicit.toml", &explicit);
+    for name in ["study", "metres", "explicit"] {
+        study.uplift(&["run", &format!("{name}.toml"), "-o", &format!("{name}.h5"), "-q"]).ok();
+        let of = |name: &str| array(&study, &format!("{name}.h5"), "/epistemic/pgv/Here/u_m");
+        for (found, expected) in of(name).iter().zip(of("study")) {
+            assert!((found - expected).abs() <= 1e-12 * expected, "{name}: {found} {expected}");
+        }
+    }
+    // the result keeps it: later commands read the same
+    study.uplift(&["spectrum", "metres.h5"]).ok();
+    assert!(study.uplift(&["run", "metres.toml", "-o", "metres.h5"]).ok().stdout.contains("done already"));
+    let toml = LabelledReader::open(&study.path().join("metres.h5")).unwrap();
+    study.write("again.toml", &toml.attribute::<String>("/", "study_toml").unwrap());
+    study.uplift(&["check", "again.toml"]).ok();
+    // the unit that the study says holds for a branch as for a file alone
+    study.write(
+        "said.toml",
+        &text.replace("[sites.pgv]\n", "[sites.pgv]\nunit = \"cm/s\"\n").replace("b.csv", "b_m.csv"),
+    );
+    study.uplift(&["check", "said.toml"]).fails(4, &["b_m.csv", "m/s"]);
+}
+
 #[test]
 fn mistakes_in_branches_are_all_said() {
     let study = study();

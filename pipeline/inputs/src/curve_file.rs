@@ -38,7 +38,7 @@ pub(super) fn read_converted(
     (site, file): (&str, &CurveFile),
     path: &Path,
 ) -> Result<(CsvCurve, bool), String> {
-    let read = read_path(path, &csv_options(file)).map_err(|error| with_remedy(&error, study, site, file))?;
+    let read = read_path(path, &csv_options(file, path)).map_err(|error| with_remedy(&error, study, site, file))?;
     let curve = read.curve.in_field_units(study.gravity_m_s2).map_err(|error| error.to_string())?;
     let converted = by_the_records_definition(study, file.measure, &curve)
         .map_err(|reason| format!("{}: {reason}", path.display()))?;
@@ -51,9 +51,9 @@ pub(super) fn curve_of(study: &UniformRiskStudy, of: (&str, &CurveFile), path: &
     Some(read_converted(study, of, path).ok()?.0.curve)
 }
 
-/// How the numbers of a file are read that a study says as `file`.
-fn csv_options(file: &CurveFile) -> CsvOptions {
-    let mut options = CsvOptions::new(file.measure.label(), file.unit.symbol());
+/// How the numbers at `path` are read, which a study says as `file`.
+fn csv_options(file: &CurveFile, path: &Path) -> CsvOptions {
+    let mut options = CsvOptions::new(file.measure.label(), file.unit_of(path).symbol());
     match file.kind {
         CurveKind::Maf => options.second_column = Some(SecondColumn::AnnualRate),
         CurveKind::Poe { years } => {

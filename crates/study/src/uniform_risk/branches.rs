@@ -2,15 +2,22 @@
 
 use std::path::PathBuf;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
+use serde_json::json;
+use uplift_hazard::CurveUnit;
 
-use crate::keys::{Declared, File, Key, Number, Text, file, number, text};
-use crate::reading::{Field, Paths, Rule};
+use super::curve::{read_unit, write_unit};
+use crate::keys::{Declared, File, Key, Number, Special, Text, file, number, special, text};
+use crate::reading::{Field, Paths, Rule, optional};
 
-pub(super) const KEYS: &[&dyn Declared] = &[&FILE, &WEIGHT, &NAME];
+pub(super) const KEYS: &[&dyn Declared] = &[&FILE, &WEIGHT, &NAME, &UNIT];
 const FILE: Key<File> = file("file").meaning("the curve").note("existing file");
 const WEIGHT: Key<Number> = number("weight", "", ABOVE_0_BELOW_1).meaning("its weight").note("they add up to 1");
 const NAME: Key<Text> = text("name").without_default("`branch 1` and so on").meaning("name").note("each once");
+
+const UNIT: Key<Special> = special("unit", || json!({ "type": "string", "minLength": 1 }))
+    .without_default("as the file says, else that of the curve")
+    .meaning("unit of its levels");
 
 /// Most branches of one curve; each is carried through the risk of every resample.
 pub(super) const MOST_BRANCHES: usize = 1000;
@@ -28,10 +35,21 @@ pub struct Branch {
     pub weight: f64,
     /// The file, absolute.
     pub file: PathBuf,
+    /// Unit of its levels, where it is another than that of the curve.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "write_own_unit")]
+    pub unit: Option<CurveUnit>,
 }
 
-/// Reads the list of branches.
-pub(super) fn read(field: &Field<'_>, paths: &Paths) -> Option<Vec<Branch>> {
+#[allow(clippy::ref_option, clippy::trivially_copy_pass_by_ref)] // as serde calls it
+fn write_own_unit<S: Serializer>(unit: &Option<CurveUnit>, serializer: S) -> Result<S::Ok, S::Error> {
+    match unit {
+        Some(unit) => write_unit(unit, serializer),
+        None => serializer.serialize_none(),
+    }
+}
+
+/// Reads the list of branches, whose levels are in one of these `units`; none of exports, which say it themselves.
+pub(super) fn read(field: &Field<'_>, units: &[CurveUnit], paths: &Paths) -> Option<Vec<Branch>> {
     let items = field.items();
     if items.len() < 2 || items.len() > MOST_BRANCHES {
         return field.refuse(
@@ -44,7 +62,7 @@ pub(super) fn read(field: &Field<'_>, paths: &Paths) -> Option<Vec<Branch>> {
     }
     let mut branches: Vec<Branch> = Vec::new();
     for (index, item) in items.iter().enumerate() {
-        branches.extend(branch(item, index, &branches, paths));
+        branches.extend(branch(item, units, (index, &branches), paths));
     }
     if branches.len() < items.len() {
         return None;
@@ -56,7 +74,7 @@ pub(super) fn read(field: &Field<'_>, paths: &Paths) -> Option<Vec<Branch>> {
     Some(branches)
 }
 
-fn branch(item: &Field<'_>, index: usize, others: &[Branch], paths: &Paths) -> Option<Branch> {
+fn branch(item: &Field<'_>, units: &[CurveUnit], (index, others): (usize, &[Branch]), paths: &Paths) -> Option<Branch> {
     let mut section = item.section();
     if !section.is_present() {
         return None;
@@ -75,6 +93,8 @@ fn branch(item: &Field<'_>, index: usize, others: &[Branch], paths: &Paths) -> O
             }
         }
     };
+    let unit_field = if units.is_empty() { None } else { section.given(&UNIT) };
+    let unit = optional(unit_field.as_ref(), |field| read_unit(field, units));
     section.finish();
-    Some(Branch { name: name?, weight: weight?, file: file? })
+    Some(Branch { name: name?, weight: weight?, file: file?, unit: unit? })
 }

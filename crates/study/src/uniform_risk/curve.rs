@@ -33,8 +33,8 @@ const OF_YEARS: Key<Number> = number("years", "yr", Rule::Within(YEARS))
 pub(super) const BRANCHES: Key<Special> = special("branches", || json!({ "minItems": 2, "maxItems": MOST_BRANCHES }))
     .without_default("none")
     .meaning(
-        "epistemic uncertainty: a list of weighted curves, realizations of a logic tree for instance, in the same \
-         unit and kind",
+        "epistemic uncertainty: a list of weighted curves, realizations of a logic tree for instance, of the same \
+         kind",
     )
     .note("2 to 1000");
 
@@ -47,7 +47,7 @@ pub struct CurveFile {
     /// The file, absolute; none where the mean of the branches is taken.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
-    /// Unit of its levels, and of those of the branches.
+    /// Unit of its levels, and of those of the branches that have none of their own.
     #[serde(serialize_with = "write_unit")]
     pub unit: CurveUnit,
     /// What it gives for each level.
@@ -62,6 +62,11 @@ impl CurveFile {
     /// Every file with numbers of this curve.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         self.file.iter().chain(self.branches.iter().map(|branch| &branch.file)).map(PathBuf::as_path)
+    }
+
+    /// Unit of the levels in its file at `path`.
+    pub fn unit_of(&self, path: &Path) -> CurveUnit {
+        self.branches.iter().find(|branch| branch.file == path).and_then(|branch| branch.unit).unwrap_or(self.unit)
     }
 
     /// The other units that a curve of its measure may have.
@@ -84,7 +89,7 @@ pub enum CurveKind {
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
-fn write_unit<S: Serializer>(unit: &CurveUnit, serializer: S) -> Result<S::Ok, S::Error> {
+pub(super) fn write_unit<S: Serializer>(unit: &CurveUnit, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(unit.symbol())
 }
 
@@ -106,7 +111,7 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
         }
     }
     let mut section = field.section();
-    let branches = section.given(&BRANCHES).map_or(Some(Vec::new()), |field| branches::read(&field, paths));
+    let branches = section.given(&BRANCHES).map_or(Some(Vec::new()), |field| branches::read(&field, units, paths));
     let file = match (section.given(&FILE), &branches) {
         (Some(field), _) => paths.input(&field).map(Some),
         // branches with mistakes are still branches
@@ -120,23 +125,37 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
     let (unit_said, kind_said) = said(first.as_deref(), units);
     let kind = kind(&mut section, kind_said);
     section.finish();
-    let (file, branches) = (file?, branches?);
-    let unit = given.unwrap_or(Some(unit_said));
-    Some(CurveFile { measure, file, unit: unit?, kind: kind?, branches })
+    let (file, mut branches, is_given) = (file?, branches?, given.is_some());
+    let unit = given.unwrap_or(Some(unit_said))?;
+    for branch in &mut branches {
+        // where the study says a unit, a file that says another is refused as it is alone
+        let own = branch.unit.or_else(|| unit_in(&branch.file, units).filter(|_| !is_given));
+        branch.unit = own.filter(|own| *own != unit);
+    }
+    Some(CurveFile { measure, file, unit, kind: kind?, branches })
 }
 
 /// Unit and kind that a file says itself, else the unit of the measure and annual rates; what is wrong with the file is
 /// said where it is read.
 fn said(file: Option<&Path>, units: &[CurveUnit]) -> (CurveUnit, CurveKind) {
     let Some(text) = file.and_then(|file| table_text(file).ok()) else { return (units[0], CurveKind::Maf) };
-    let unit = Declared::in_table(&text).1.and_then(|unit| CurveUnit::parse(&unit));
+    let unit = unit_in_table(&text, units);
     let years = years_in_table(&text).filter(|years| YEARS.contains(*years));
     let kind = years.map_or(CurveKind::Maf, |years| CurveKind::Poe { years });
-    (unit.filter(|unit| units.contains(unit)).unwrap_or(units[0]), kind)
+    (unit.unwrap_or(units[0]), kind)
+}
+
+/// The one of these `units` that a file says itself.
+fn unit_in(file: &Path, units: &[CurveUnit]) -> Option<CurveUnit> {
+    unit_in_table(&table_text(file).ok()?, units)
+}
+
+fn unit_in_table(text: &str, units: &[CurveUnit]) -> Option<CurveUnit> {
+    CurveUnit::parse(&Declared::in_table(text).1?).filter(|unit| units.contains(unit))
 }
 
 /// A unit as people write it, gal for cm/s2. What is spelt nearly as one is no suggestion: mm/s is not m/s.
-fn read_unit(field: &Field<'_>, units: &[CurveUnit]) -> Option<CurveUnit> {
+pub(super) fn read_unit(field: &Field<'_>, units: &[CurveUnit]) -> Option<CurveUnit> {
     let text = field.text()?;
     CurveUnit::parse(text).filter(|unit| units.contains(unit)).or_else(|| {
         let known: Vec<&str> = units.iter().map(|unit| unit.symbol()).collect();

@@ -249,7 +249,7 @@ fn export(
     let mut section = field.section();
     let file = section.needed(&curve::FILE, "there is no export of the mean hazard", "add file = \"path\"");
     let file = file.and_then(|field| paths.input(&field));
-    let branches = section.given(&curve::BRANCHES).map_or(Some(Vec::new()), |field| branches::read(&field, paths));
+    let branches = section.given(&curve::BRANCHES).map_or(Some(Vec::new()), |field| branches::read(&field, &[], paths));
     if branches.as_ref().is_some_and(|own| !own.is_empty()) && !studied.is_empty() && !studied.contains(&measure) {
         let what = format!("the study has no spectra by {}", measure.label());
         section.mistake(
