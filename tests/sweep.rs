@@ -211,8 +211,11 @@ fn an_unfinished_sweep_has_a_status() {
     let study = SmallStudy::new();
     let ask = ["sweep", "study.toml", "--over", "oscillator.restitution=0.85,0.95", "-q"];
     study.uplift(&ask).ok();
-    let finished = study.uplift(&["status", "results/study.sweep"]);
-    assert!(finished.code == 4 && finished.stderr.contains("is a folder: name a result in it"), "{}", finished.stderr);
+    // a script that waits for it sees no error when it is finished
+    let finished = "results/study.sweep: finished sweep, 2 variants\n  more: uplift status \
+                    results/study.sweep/restitution-0.85.h5\n";
+    let is_finished = |of: &str| assert_eq!(study.uplift(&["status", of]).ok().stdout, finished, "{of}");
+    ["study.toml", "results/study.sweep"].into_iter().for_each(is_finished);
     // as an interruption leaves it
     std::fs::remove_file(study.path().join("results/study.sweep/comparison.csv")).unwrap();
     std::fs::remove_file(study.path().join("results/study.sweep/restitution-0.95.h5")).unwrap();
@@ -221,7 +224,9 @@ fn an_unfinished_sweep_has_a_status() {
         assert_eq!(study.uplift(&["status", of]).ok().stdout, words, "{of}");
     }
     study.uplift(&ask).ok();
-    study.uplift(&["status", "study.toml"]).fails(4, &["no result"]);
+    is_finished("study.toml");
+    std::fs::create_dir(study.path().join("empty")).unwrap();
+    study.uplift(&["status", "empty"]).fails(4, &["is a folder: it has no results"]);
     // in a folder of another name: by the command in its results, before there is one by its checkpoints
     study.uplift(&[&ask[..], &["-o", "sw"]].concat()).ok();
     std::fs::remove_file(study.path().join("sw/comparison.csv")).unwrap();
@@ -235,6 +240,11 @@ fn an_unfinished_sweep_has_a_status() {
     let words = "begun: unfinished sweep or run; the same command resumes it\n\
                  begun/restitution-0.85.h5.part: checkpoint of an unfinished run, 360 of 360 analyses (100 %)";
     assert!(said.starts_with(words), "{said}");
+    // a folder of any results
+    study.uplift(&["run", "study.toml", "-o", "begun/r.h5", "-q"]).ok();
+    std::fs::remove_file(study.path().join("begun/restitution-0.85.h5.part")).unwrap();
+    let words = "begun: 1 result\n  more: uplift status begun/r.h5\n";
+    assert_eq!(study.uplift(&["status", "begun"]).ok().stdout, words);
 }
 
 #[test]

@@ -30,7 +30,7 @@ pub struct StatusReport {
     /// Slices of its table of sites.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub slices: Vec<SlicesStatus>,
-    /// Its sweep, where that is not finished.
+    /// Its sweep; or what is in the folder that was asked about.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep: Option<SweepStatus>,
     /// What an interrupted bootstrap of the result has finished.
@@ -48,16 +48,18 @@ pub struct SlicesStatus {
     pub done: Vec<usize>,
 }
 
-/// The folder of an interrupted sweep.
+/// A folder of results: of a sweep, or of anything.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct SweepStatus {
     /// The folder.
     pub folder: PathBuf,
-    /// Variants that have a result.
-    pub variants: usize,
+    /// Its results.
+    pub results: Vec<PathBuf>,
     /// Whether it is known to be one, by its name or by the command of a result in it.
     pub is_certain: bool,
-    /// The checkpoints of unfinished variants.
+    /// Whether a sweep lacks its comparison.
+    pub lacks_comparison: bool,
+    /// The checkpoints of unfinished runs.
     pub unfinished: Vec<UnfinishedStatus>,
 }
 
@@ -141,7 +143,8 @@ pub struct UnfinishedStatus {
 /// * `input` — a result file, a study file, or a shard
 ///
 /// # Errors
-/// A study with mistakes, a file that is none of these or damaged, and where there is nothing at all.
+/// A study with mistakes, a file that is none of these or damaged, and where there is nothing at all; none where there
+/// is anything to report, finished or not, so that a script that waits for a run sees no error when it ends.
 pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
     if input.is_file() && !is_hdf5(input) {
         if let Ok(Some(finding)) = RowFile::read(input) {
@@ -158,11 +161,7 @@ pub fn status(input: &Path) -> Result<StatusReport, UpliftError> {
         return Ok(StatusReport { sweep: Some(sweep), ..StatusReport::default() });
     }
     if input.is_dir() {
-        let what = results_in(input).min().map_or_else(
-            || "it has no results".to_owned(),
-            |first| format!("name a result in it, such as {}", first.display()),
-        );
-        return Err(JobError::input(format!("{} is a folder: {what}", input.display())).into());
+        return Err(JobError::input(format!("{} is a folder: it has no results", input.display())).into());
     }
     if let Some(bootstrap) = BootstrapStatus::read(input.to_owned()) {
         return Ok(StatusReport { bootstrap: Some(bootstrap), ..StatusReport::default() });
@@ -253,9 +252,10 @@ fn unfinished_in(folder: &Path) -> Vec<UnfinishedStatus> {
 }
 
 impl SweepStatus {
-    /// Of the sweep in `folder`: it has checkpoints, or results of a sweep and no comparison yet.
+    /// Of a `folder` with results or checkpoints.
     fn read(folder: &Path) -> Option<Self> {
-        let results: Vec<PathBuf> = results_in(folder).collect();
+        let mut results: Vec<PathBuf> = results_in(folder).collect();
+        results.sort();
         let is_of_sweep = |path: &PathBuf| {
             let head = ResultFile::open(path).and_then(|file| file.head());
             head.is_ok_and(|head| head.command.contains(" sweep "))
@@ -263,9 +263,10 @@ impl SweepStatus {
         let is_named = folder.extension().is_some_and(|extension| extension == "sweep");
         let is_certain = is_named || results.iter().any(is_of_sweep);
         let unfinished = unfinished_in(folder);
-        let lacks_comparison = is_certain && !results.is_empty() && !comparison(folder).exists();
-        let (folder, variants) = (folder.to_owned(), results.len());
-        (lacks_comparison || !unfinished.is_empty()).then_some(Self { folder, variants, is_certain, unfinished })
+        let lacks_comparison = is_certain && !comparison(folder).exists();
+        let is_empty = results.is_empty() && unfinished.is_empty();
+        let folder = folder.to_owned();
+        (!is_empty).then_some(Self { folder, results, is_certain, lacks_comparison, unfinished })
     }
 }
 

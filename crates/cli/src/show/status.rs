@@ -7,7 +7,7 @@ use uplift::status::{BootstrapStatus, ResultStatus, SlicesStatus, StatusReport, 
 
 use uplift::text::{counted, one_line};
 
-use super::shown_path;
+use super::{shown_path, typed_path};
 use crate::error::CommandError;
 use crate::terminal::output;
 
@@ -33,18 +33,8 @@ pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
         };
         writeln!(out, "slices of the sites: {} of {count}; {missing}", done.len())?;
     }
-    if let Some(SweepStatus { folder, variants, is_certain, unfinished }) = &report.sweep {
-        let folder = shown_path(folder).display();
-        if *is_certain {
-            let finished = counted(*variants, "variant");
-            writeln!(out, "{folder}: unfinished sweep, {finished} finished; the same `uplift sweep` resumes it")?;
-        } else {
-            // results beside it need not be its own
-            writeln!(out, "{folder}: unfinished sweep or run; the same command resumes it")?;
-        }
-        for unfinished in unfinished {
-            print_unfinished(&mut out, unfinished)?;
-        }
+    if let Some(sweep) = &report.sweep {
+        print_sweep(&mut out, sweep)?;
     }
     if let Some(BootstrapStatus { file, strengths, command }) = &report.bootstrap {
         let words = command.as_ref().and_then(|command| command.split_once(" bootstrap "));
@@ -59,6 +49,26 @@ pub(crate) fn print_status(report: &StatusReport) -> Result<(), CommandError> {
         writeln!(out, "being written now, by {holder}")?;
     }
     Ok(())
+}
+
+fn print_sweep(out: &mut impl Write, sweep: &SweepStatus) -> Result<(), CommandError> {
+    let SweepStatus { folder, results, is_certain, lacks_comparison, unfinished } = sweep;
+    let (folder, finished) = (shown_path(folder).display(), counted(results.len(), "variant"));
+    let is_finished = unfinished.is_empty() && !lacks_comparison;
+    match (is_certain, is_finished, &results[..]) {
+        (true, false, _) => {
+            writeln!(out, "{folder}: unfinished sweep, {finished} finished; the same `uplift sweep` resumes it")?;
+        }
+        // results beside it need not be its own
+        (false, false, _) => writeln!(out, "{folder}: unfinished sweep or run; the same command resumes it")?,
+        (true, true, _) => writeln!(out, "{folder}: finished sweep, {finished}")?,
+        (false, true, results) => writeln!(out, "{folder}: {}", counted(results.len(), "result"))?,
+    }
+    for unfinished in unfinished {
+        print_unfinished(out, unfinished)?;
+    }
+    let Some(first) = results.first().filter(|_| is_finished) else { return Ok(()) };
+    Ok(writeln!(out, "  more: uplift status {}", typed_path(first))?)
 }
 
 /// A title behind what it is of; nothing where there is none.
