@@ -28,6 +28,24 @@ pub struct OwnRisk {
     pub pairs: usize,
     /// To how many pairs that count alike these amount.
     pub effective_pairs: f64,
+    /// Rate of motions above the last level, 1/yr; infinite where it is not known.
+    pub beyond_per_year: f64,
+}
+
+/// By how much of itself a rate may be off before that is told: bands of 105 records are wider.
+const WITHIN_BAND: f64 = 0.5;
+
+impl OwnRisk {
+    /// By how much of itself the rate is off at most for motions outside the levels: above the last one all may do what
+    /// a share of those at it do, below the first one none.
+    fn most_off(&self) -> f64 {
+        let EventRisk { per_year, lower_tail_share, upper_tail_share, .. } = self.risk;
+        if upper_tail_share >= lower_tail_share {
+            self.beyond_per_year / per_year - upper_tail_share
+        } else {
+            lower_tail_share
+        }
+    }
 }
 
 /// Numbers of the structure file that are probably in another unit, or exchanged.
@@ -70,7 +88,7 @@ pub fn own_risk_alarms(risks: &[OwnRisk]) -> Vec<Alarm> {
 
 fn outside_levels(own: &OwnRisk) -> Option<Case> {
     let (share, what) = own.risk.outside_levels(own.levels, own.measure.unit(), share_in_words)?;
-    Some(Case {
+    (own.most_off() > WITHIN_BAND).then(|| Case {
         severity: if share > DECISIVE_SHARE { Severity::Caution } else { Severity::Note },
         badness: share,
         subject: own.subject.clone(),
@@ -127,6 +145,7 @@ mod tests {
             records: 30,
             pairs: 30,
             effective_pairs: 30.0,
+            beyond_per_year: f64::INFINITY,
         }
     }
 
@@ -136,12 +155,24 @@ mod tests {
         let [above] = &own_risk_alarms(&[own(EventRisk { upper_tail_share: 0.078, ..RISK })])[..] else { panic!() };
         assert_eq!(above.severity, Severity::Note);
         assert!(above.what == "rate too low (7.8 % of the risk lies above the last level, 200 cm/s)", "{above}");
-        let [below] = &own_risk_alarms(&[own(EventRisk { lower_tail_share: 0.5, ..RISK })])[..] else { panic!() };
+        let [below] = &own_risk_alarms(&[own(EventRisk { lower_tail_share: 0.6, ..RISK })])[..] else { panic!() };
         assert!(
             below.severity == Severity::Caution
-                && below.what.ends_with("too high (50 % of the risk lies below the first level, 1 cm/s)"),
+                && below.what.ends_with("too high (60 % of the risk lies below the first level, 1 cm/s)"),
             "{below}"
         );
+    }
+
+    #[test]
+    fn what_a_band_holds_is_not_told() {
+        let risk = EventRisk { upper_tail_share: 0.016, ..RISK };
+        let told = |share_at_last_level: f64| {
+            let beyond_per_year = risk.upper_tail_share * risk.per_year / share_at_last_level;
+            own_risk_alarms(&[OwnRisk { beyond_per_year, ..own(risk) }]).len()
+        };
+        // a third of the records overturn at the last level: by all above it the rate would rise by 3 %
+        assert_eq!([1.0, 0.35, 0.02].map(told), [0, 0, 1]);
+        assert_eq!(own_risk_alarms(&[own(EventRisk { lower_tail_share: 0.4, ..RISK })]), []);
     }
 
     #[test]

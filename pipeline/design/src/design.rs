@@ -31,7 +31,7 @@ use super::demand::ExactDemand;
 use super::opening::{Place, Repair, job_name, records_and_pairs, restitution};
 use super::own_frame::{OwnFrame, STOPPED, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
-use super::risk::own_risk;
+use super::risk::{at_place, own_risk};
 use super::rules::{MeasureVerdict, OwnCheck, RuleDemands, apply_rules, verdicts_by_curve};
 use super::spectrum::SpectrumDemand;
 use crate::error::DesignError;
@@ -121,9 +121,9 @@ pub fn design(
     alarms.extend(safety_factor_alarm(safety_factor));
     if let Some(exact) = &exact {
         let scatter = Scatter::from_file(&file)?;
-        let mut risks = own_risks(exact, place, (&scatter.pairs, &weights));
+        let mut risks = own_risks((exact, target_per_year), place, (&scatter.pairs, &weights));
         risks.extend(frame.iter().flat_map(|frame| frame.own_risks(place, &scatter)));
-        alarms.extend(own_risk_alarms(&risks));
+        alarms.extend(own_risk_alarms(&at_place(risks, place)));
     }
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove();
@@ -242,7 +242,7 @@ fn result_at(path: &Path, risk: OneRisk, events: &dyn Events) -> Result<ResultFi
 
 /// What may come from outside the stripes: the demand, exceeding the capacity, overturning.
 fn own_risks(
-    exact: &ExactDemand,
+    (exact, target_per_year): (&ExactDemand, f64),
     place: Place<'_>,
     (pairs, weights): (&[Vec<usize>], &SiteWeights<'_>),
 ) -> Vec<OwnRisk> {
@@ -253,7 +253,8 @@ fn own_risks(
         ..own_risk((event, risk), (place.name, place.measure), counts)
     };
     let ExactDemand { lower_tail_share, upper_tail_share, .. } = *exact;
-    let demand = EventRisk { lower_tail_share, upper_tail_share, at_most_per_year: None, ..exact.overturning };
+    let shares = EventRisk { lower_tail_share, upper_tail_share, at_most_per_year: None, ..exact.overturning };
+    let demand = EventRisk { per_year: target_per_year, ..shares };
     let mut risks = vec![own("demand on its oscillator", demand), own("overturning", exact.overturning)];
     risks.extend(exact.beyond_capacity.map(|risk| own("exceeding the capacity", risk)));
     risks

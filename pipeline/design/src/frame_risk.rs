@@ -36,7 +36,7 @@ use super::lognormal::lognormal_bands;
 use super::opening::{Place, check_tables, choose_measure, job_name, restitution};
 use super::own_frame::loss;
 use super::report::{ReportSource, StructureReport};
-use super::risk::{OVERTURNING_M, own_risk};
+use super::risk::{OVERTURNING_M, at_place, own_risk};
 use crate::error::DesignError;
 use analysis::{Demands, FrameAnalysis};
 use demand::{Question, Resampled};
@@ -168,8 +168,8 @@ pub fn frame_risk(
     let event =
         format!("overturning of the {}", if structure.description.kind == Kind::Block { "block" } else { "frame" });
     let own = overturning.risks.iter().map(|&risk| (event.as_str(), risk));
-    let own: Vec<_> = own.map(|event| own_risk(event, (place.name, measure), counts)).collect();
-    alarms.extend(own_risk_alarms(&own));
+    let own = own.map(|event| own_risk(event, (place.name, measure), counts));
+    alarms.extend(own_risk_alarms(&at_place(own, place)));
     let mut report = FrameRiskReport {
         structure: StructureReport::from_structure(structure, Some(restitution(structure, &source.study))),
         site: place.name.to_owned(),

@@ -102,7 +102,8 @@ pub fn overturning(
         alarms_of_inputs(&file, &Scope { site, measure: options.measure, repaired: true, ..Scope::default() })?;
     alarms.extend(structure_alarms(structure));
     let counts = (records.count(), scatter.pairs.len());
-    alarms.extend(own_risk_alarms(&own_risks(models, (&found, &of_frame), &names, counts)));
+    let places: Vec<(usize, &str)> = sites.iter().copied().zip(names.iter().copied()).collect();
+    alarms.extend(own_risk_alarms(&own_risks(models, (&found, &of_frame), &places, counts)));
     let records = u32::try_from(records.count()).unwrap_or(u32::MAX);
     let mut report = OverturningReport {
         structure: StructureReport::from_structure(structure, None),
@@ -272,7 +273,7 @@ fn notes_on(models: &[(System, &'static str)], found: &[OfMeasure<'_>]) -> Vec<S
 fn own_risks(
     models: &[(System, &'static str)],
     (found, of_frame): (&[OfMeasure<'_>], &[FrameCollapses]),
-    sites: &[&str],
+    places: &[(usize, &str)],
     counts: (usize, usize),
 ) -> Vec<OwnRisk> {
     let mut risks = Vec::new();
@@ -281,8 +282,11 @@ fn own_risks(
         let of_models = models.iter().map(|(model, _)| model.kind()).zip(found);
         for (model, found) in of_models.chain(of_frame) {
             let event = format!("overturning of the {model}");
-            let of_site = |(site, &risk): (&&str, &EventRisk)| own_risk((&event, risk), (site, measure), counts);
-            risks.extend(sites.iter().zip(&found.own.risks).map(of_site));
+            let of_site = |(&(site, name), &risk): (&(usize, &str), &EventRisk)| {
+                let beyond_per_year = measure.weights[site].upper_tail_per_year();
+                OwnRisk { beyond_per_year, ..own_risk((&event, risk), (name, measure), counts) }
+            };
+            risks.extend(places.iter().zip(&found.own.risks).map(of_site));
         }
     }
     risks

@@ -8,6 +8,7 @@ use uplift_risk::{PooledDemand, SiteWeights};
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, at_most_per_year};
 
 use crate::error::DesignError;
+use crate::opening::Place;
 
 /// The same of something that may happen, though no run may show it of `pairs`, each with the positions of its
 /// records.
@@ -32,7 +33,14 @@ pub(super) fn own_risk(
         records,
         pairs,
         effective_pairs: pairs as f64,
+        beyond_per_year: f64::INFINITY,
     }
+}
+
+/// The same of risks at one `place`, where it is known how often motions are stronger than the last level.
+pub(super) fn at_place(risks: impl IntoIterator<Item = OwnRisk>, place: Place<'_>) -> Vec<OwnRisk> {
+    let beyond_per_year = place.measure.weights[place.site].upper_tail_per_year();
+    risks.into_iter().map(|own| OwnRisk { beyond_per_year, ..own }).collect()
 }
 
 /// A threshold that nothing but overturning exceeds.

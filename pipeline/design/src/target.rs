@@ -36,7 +36,7 @@ use super::hazard::Hazard;
 use super::opening::{Place, Repair, check_tables};
 use super::own_frame::{OwnFrame, STOPPED, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
-use super::risk::own_risk;
+use super::risk::{at_place, own_risk};
 use crate::error::DesignError;
 use band::Frequencies;
 use candidate::Attempt;
@@ -136,7 +136,7 @@ pub fn target(
     let event = options.event().words();
     let of_proxy = own_risk((&event, found.risk), (place.name, measure), counts);
     let of_own = own.iter().flat_map(|of| of.own_risks(&event, place, counts));
-    alarms.extend(own_risk_alarms(&[of_proxy].into_iter().chain(of_own).collect::<Vec<_>>()));
+    alarms.extend(own_risk_alarms(&at_place([of_proxy].into_iter().chain(of_own), place)));
     alarms.extend(alarms_of_answer(structure, options.quantity, own.as_ref().map_or(safe_value, |own| own.safe_value)));
     let by_other_measures = judged_by((&file, &others), &mut trials, (place, [safe_value, value], target_per_year))?;
     let mut report = TargetReport {
