@@ -154,11 +154,17 @@ fn other_values_than_the_file_s_replace_nothing_unasked() {
     refused(&study, &run, "r.h5", "with --set records.first=3, this run is without --set");
     // what changes no number is no other result
     study.uplift(&[&fewer[..], &["--set", "title=\"another\""]].concat()).ok();
-    // a study that is only looked at is reported what its run would meet
+    // a check tells what a run would cost, and is refused as the run is
     study.uplift(&["run", "study.toml", "--set", "records.first=3"]).ok();
-    let check = study.uplift(&["check", "study.toml"]).ok();
-    assert!(check.stdout.contains("results/study.h5 is the result of this study with --set"), "{}", check.stdout);
-    assert!(check.stdout.starts_with("A run would be refused"), "{}", check.stdout);
+    for quiet in [&[][..], &["-q"]] {
+        let [check, run] = ["check", "run"].map(|of| study.uplift(&[&[of, "study.toml"], quiet].concat()));
+        let words = ["results/study.h5 is the result of this study with --set"];
+        let (check, run) = (check.fails(2, &words), run.fails(2, &words));
+        assert!(check.stdout.starts_with("A run would be refused"), "{}", check.stdout);
+        assert_eq!(check.stderr.lines().last(), run.stderr.lines().last());
+    }
+    study.uplift(&["check", "study.toml", "--json"]).fails(2, &["--force"]);
+    study.uplift(&["check", "study.toml", "--set", "output.file=free.h5"]).ok();
 }
 
 /// Names of the files in a folder, in order.

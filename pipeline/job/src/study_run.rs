@@ -64,8 +64,8 @@ pub struct PlanHead {
     pub alarms: Vec<Alarm>,
     /// What else to know before running it.
     pub notes: Vec<String>,
-    /// Whether a run is refused, since it would replace the result of another; the last note says which.
-    pub would_replace: bool,
+    /// Why a run is refused, where it would replace the result of another.
+    pub would_replace: Option<String>,
 }
 
 /// The report of a run of any kind.

@@ -47,15 +47,11 @@ pub fn plan(study: &AnyStudy, options: &RunOptions, events: &dyn Events) -> Resu
         AnyStudy::Displacement(study) => Plan::Displacement(Box::new(displacement::plan(study, study_file, events)?)),
         AnyStudy::ShakeTable(study) => Plan::ShakeTable(Box::new(shake_table::plan(study, study_file, events)?)),
     };
-    // a study is looked at more often than it is run
-    if let Some(reason) = replaced(study, options)? {
-        let head = match &mut plan {
-            Plan::UniformRisk(plan) => &mut plan.head,
-            Plan::Displacement(plan) => &mut plan.head,
-            Plan::ShakeTable(plan) => &mut plan.head,
-        };
-        head.notes.push(reason);
-        head.would_replace = true;
-    }
+    let head = match &mut plan {
+        Plan::UniformRisk(plan) => &mut plan.head,
+        Plan::Displacement(plan) => &mut plan.head,
+        Plan::ShakeTable(plan) => &mut plan.head,
+    };
+    head.would_replace = replaced(study, options)?;
     Ok(plan)
 }

@@ -38,9 +38,7 @@ pub(crate) fn print_plan(plan: &Plan, terminal: &Terminal) -> Result<(), Command
     let warnings: Vec<_> = told(&head.alarms, terminal).map(own).collect();
     print_lines(&mut out, &warnings, terminal.shows_details() || terminal.is_quiet())?;
     if terminal.is_quiet() {
-        // the verdict refers to it
-        let replaced = head.notes.last().filter(|_| head.would_replace);
-        return Ok(replaced.map_or(Ok(()), |note| writeln!(out, "Note      {note}"))?);
+        return Ok(());
     }
     if let Plan::UniformRisk(plan) = plan {
         for proposal in plan.levels.iter().filter_map(|check| check.proposal.as_ref()) {
@@ -97,8 +95,8 @@ fn verdict(plan: &Plan) -> &'static str {
     let head = plan.head();
     if !head.room.cannot.is_empty() {
         "There is no room for a run, see below"
-    } else if head.would_replace {
-        "A run would be refused, since its result file belongs to another study (see the last note)"
+    } else if head.would_replace.is_some() {
+        "A run would be refused, since its result file belongs to another study, see below"
     } else if is_doubted(&head.alarms) {
         "The study can be run, subject to the mistake? below"
     } else {

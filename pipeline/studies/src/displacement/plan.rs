@@ -81,7 +81,7 @@ pub fn plan(study: &DisplacementStudy, study_file: &Path, events: &dyn Events) -
         output: study.output.file.clone(),
         alarms: ranked(study_alarms(&study.warnings, records.synthetic).collect()),
         notes: records.notes.clone(),
-        would_replace: false,
+        would_replace: None,
     };
     Ok(Plan {
         head,

@@ -56,7 +56,7 @@ pub fn plan(study: &ShakeTableStudy, study_file: &Path, events: &dyn Events) -> 
         output: study.output.file.clone(),
         alarms: ranked(study_alarms(&study.warnings, table.synthetic).collect()),
         notes: inputs.notes,
-        would_replace: false,
+        would_replace: None,
     };
     let (excitations, levels) = (table.excitations.len(), table.levels.len());
     Ok(Plan { head, kind: Kind::ShakeTable.key(), excitations, levels })

@@ -102,7 +102,7 @@ pub fn plan(study: &UniformRiskStudy, study_file: &Path, events: &dyn Events) ->
                 .collect(),
         ),
         notes: notes.into_iter().map(|alarm| alarm.what).collect(),
-        would_replace: false,
+        would_replace: None,
     };
     Ok(Plan { head, levels, consistency })
 }

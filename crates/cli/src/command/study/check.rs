@@ -34,5 +34,8 @@ pub(crate) fn check(arguments: &CheckArguments, terminal: &Terminal) -> Result<(
     let plan = plan(&study, &run_options(file, overrides, None, false), terminal)
         .map_err(|error| if is_stopped(&error) { CommandError::Interrupted(STOPPED) } else { error.into() })?;
     if arguments.json { print_json(&plan) } else { print_plan(&plan, terminal) }?;
-    Ok(plan.head().room.refuse(terminal)?)
+    // as a run does, once what a study costs has been told
+    let head = plan.head();
+    head.would_replace.clone().map_or(Ok(()), |reason| Err(CommandError::Usage(reason)))?;
+    Ok(head.room.refuse(terminal)?)
 }
