@@ -144,7 +144,7 @@ fn a_return_period_is_called_by_its_name_everywhere() {
     assert!(table.contains("  475 years  ") && !table.contains("9.99"), "{table}");
     let design = ["design", "block.toml", "--urs", "r.h5", "--site", "Here", "--report", "sheet.html"];
     let shown = study.uplift(&[&design[..], &asked[..]].concat()).ok().stdout;
-    assert!(shown.contains("At        Here by PGV, 475 years (9.991 % in 50 years); "), "{shown}");
+    assert!(shown.contains("At        Here, 475 years (9.991 % in 50 years); "), "{shown}");
     let sheet = std::fs::read_to_string(study.path().join("sheet.html")).unwrap();
     assert!(sheet.contains("At Here, for 475 years (9.991 % in 50 years)"));
     let export = export(&study, "r.h5", &asked);

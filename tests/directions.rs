@@ -280,14 +280,17 @@ fn what_has_no_third_component_is_named_at_once() {
     study.uplift(&ask).fails(4, &["3 records have a vertical acceleration", "leave the ground", "SYN003"]);
     // a design, and how often it overturns, are those of the proxy then
     let told = "the ground falls as fast as gravity under 3 records";
-    let design = json(&study, &["design", "frame.toml", "--urs", "r.h5", "--site", "Here"]);
-    assert!(design["frame"].is_null() && design["exact"]["overturning"]["per_year"].is_number(), "{design}");
-    assert!(design["without_frame"].as_str().unwrap().contains(told), "{design}");
-    let said = study.uplift(&["design", "frame.toml", "--urs", "r.h5", "--site", "Here"]).ok().stdout;
-    assert!(
-        said.contains("Frame     left out: ") && said.contains(told) && said.contains("its oscillator alone"),
-        "{said}"
-    );
+    for structure in ["frame.toml", "block.toml"] {
+        let ask = ["design", structure, "--urs", "r.h5", "--site", "Here"];
+        let design = json(&study, &ask);
+        assert!(design["own"].is_null() && design["exact"]["overturning"]["per_year"].is_number(), "{design}");
+        assert!(design["without_own"].as_str().unwrap().contains(told), "{design}");
+        let said = study.uplift(&ask).ok().stdout;
+        assert!(
+            said.contains("Itself    not analysed: ") && said.contains(told) && said.contains("its oscillator alone"),
+            "{said}"
+        );
+    }
     let rates = json(&study, &["overturning", "frame.toml", "--urs", "r.h5"]);
     let models: Vec<&str> =
         rates["models"].as_array().unwrap().iter().map(|of| of["model"].as_str().unwrap()).collect();
@@ -296,7 +299,7 @@ fn what_has_no_third_component_is_named_at_once() {
     let rates = json(&study, &["overturning", "block.toml", "--urs", "r.h5"]);
     assert!(rates["notes"].to_string().contains("the block is not analysed"), "{rates}");
     let alone = json(&study, &["design", "frame.toml", "--urs", "r.h5", "--site", "Here", "--proxy"]);
-    assert!(alone["without_frame"].is_null(), "{alone}");
+    assert!(alone["without_own"].is_null(), "{alone}");
 }
 
 /// Blocks of a study of displacement spectra: without motion the third component changes nothing but rounding, and with

@@ -124,7 +124,7 @@ fn a_design_has_the_frame_beside_its_proxy() {
     let ask = ["--site", "Here"];
     let risk = json(&study, &[&["risk", "free.toml"], &ask[..]].concat());
     let design = json(&study, &[&["design", "free.toml"], &ask[..]].concat());
-    let models = design["frame"]["models"].as_array().unwrap();
+    let models = design["own"]["models"].as_array().unwrap();
     for (model, name) in models.iter().zip(["wobbling frame", "planar frame"]) {
         assert_eq!(model["model"], name);
         assert_eq!(model["demand_m"], row(&risk, name)["demand_m"]["value"], "{name}");
@@ -133,7 +133,7 @@ fn a_design_has_the_frame_beside_its_proxy() {
         assert_eq!(check["satisfied"], enough, "{model}");
     }
     assert_eq!(models[0]["overturning"]["per_year"], risk["overturning"]["per_year"]);
-    assert_eq!(design["frame"]["levels"], serde_json::json!([1.0, 3.0, 10.0, 20.0, 40.0, 80.0, 160.0]));
+    assert_eq!(design["own"]["levels"], serde_json::json!([1.0, 3.0, 10.0, 20.0, 40.0, 80.0, 160.0]));
 
     let said = study.uplift(&[&["design", "free.toml", "--urs", "r.h5", "--report", "s.html"], &ask[..]].concat()).ok();
     let (first, rest) = said.stdout.split_once('\n').unwrap();
@@ -177,7 +177,7 @@ fn a_design_has_the_frame_beside_its_proxy() {
 
     let alone = study.uplift(&[&["design", "free.toml", "--urs", "r.h5", "--proxy"], &ask[..]].concat()).ok();
     assert!(alone.stdout.contains("by its oscillator alone") && !alone.stdout.contains("wobbling"), "{}", alone.stdout);
-    assert!(json(&study, &[&["design", "free.toml", "--proxy"], &ask[..]].concat())["frame"].is_null());
+    assert!(json(&study, &[&["design", "free.toml", "--proxy"], &ask[..]].concat())["own"].is_null());
     // two shards give the same answer
     for part in ["1/2", "2/2"] {
         let shard = ["design", "free.toml", "--urs", "r.h5", "--shard", part, "-q"];
@@ -185,7 +185,109 @@ fn a_design_has_the_frame_beside_its_proxy() {
     }
     let files = ["r.h5.design-free.shard-1-of-2", "r.h5.design-free.shard-2-of-2"];
     let whole = json(&study, &[&["design", "free.toml", "--shards", files[0], files[1]], &ask[..]].concat());
-    assert_eq!(whole["frame"], design["frame"]);
+    assert_eq!(whole["own"], design["own"]);
+}
+
+const BLOCK: &str = "kind = \"block\"\nwidth_m = 0.4\nheight_m = 2\nmass_kg = 100\n";
+
+/// A design has the block's own numbers, and they are those of `risk`, `overturning` and `target`.
+#[test]
+fn a_design_has_the_block_beside_its_proxy() {
+    let study = study(STUDY);
+    let here = |command: &str, more: &[&str]| {
+        json(&study, &[&[command, "statue.toml", "--site", "Here", "--no-keep"], more].concat())
+    };
+    study.write("statue.toml", BLOCK);
+    let design = here("design", &[]);
+    let models = design["own"]["models"].as_array().unwrap();
+    let [block] = &models[..] else { panic!("{design}") };
+    assert_eq!((&block["model"], &design["by_proxy"]), (&"block".into(), &false.into()));
+    let risk = here("risk", &[]);
+    let (own, of_risk) = (number(&block["demand_m"]), &row(&risk, "planar frame")["demand_m"]);
+    let limits = &block["bands"]["demand_m"]["by_record"];
+    for (of_design, key) in [(own, "value"), (number(&limits[0]), "lower"), (number(&limits[1]), "upper")] {
+        // by another solver
+        let of_risk = number(&of_risk[key]);
+        assert!((of_design - of_risk).abs() <= 1e-6 * of_risk, "{key}: {of_design} {of_risk}");
+    }
+    let oscillator = number(&design["exact"]["demand_m"]);
+    assert!((own / oscillator - 1.0).abs() > 0.01, "the same as by its oscillator: {own} {oscillator}");
+    assert_eq!(block["overturning"]["per_year"], risk["overturning"]["per_year"]);
+    assert_eq!(block["beyond_limit"]["per_year"], risk["beyond_limit"]["per_year"]);
+    let overturning = here("overturning", &[]);
+    let of_block = overturning["overturning"].as_array().unwrap().iter().find(|of| of["model"] == "block").unwrap();
+    let site = &of_block["sites"][0];
+    assert_eq!(block["overturning"]["per_year"], site["per_year"]);
+    assert_eq!(block["bands"]["overturning_per_year"], site["bands"]);
+    assert_eq!(design["own"]["levels"], of_block["levels"]);
+
+    // what a target needs, a design finds enough: both hold the capacity against the same demand
+    let rate = design["target_per_year"].to_string();
+    let event = ["--exceed", "capacity", "--safety-factor", "2.5", "--per-year", &rate, "--tolerance", "0.02"];
+    let target = here("target", &[&["--vary", "width"], &event[..]].concat());
+    let at = number(&target["own"]["value"]);
+    study.write("statue.toml", &BLOCK.replace("0.4", &at.to_string()));
+    let wide = here("design", &[]);
+    let (found, asked) = (&wide["own"]["models"][0], &target["own"]["models"][0]);
+    assert_eq!(found["demand_m"], asked["demand_m"]);
+    assert_eq!(found["check"]["satisfied"], asked["is_met"]);
+
+    // the centre goes half as far, and has half of the capacity
+    study.write("statue.toml", &format!("{BLOCK}displacement_of = \"centre\"\n"));
+    let centre = here("design", &[]);
+    let of_centre = &centre["own"]["models"][0];
+    assert!((number(&of_centre["demand_m"]) / own - 0.5).abs() < 1e-12, "{of_centre}");
+    assert_eq!(of_centre["check"]["satisfied"], block["check"]["satisfied"]);
+    for event in ["beyond_capacity", "overturning"] {
+        assert_eq!(of_centre[event]["per_year"], block[event]["per_year"], "{event}");
+    }
+
+    // two shards give the same answer
+    study.write("statue.toml", BLOCK);
+    for part in ["1/2", "2/2"] {
+        study.uplift(&["design", "statue.toml", "--urs", "r.h5", "--shard", part, "-q"]).ok();
+    }
+    let files = ["r.h5.design-statue.shard-1-of-2", "r.h5.design-statue.shard-2-of-2"];
+    assert_eq!(here("design", &["--shards", files[0], files[1]])["own"], design["own"]);
+}
+
+/// The first line is the verdict on the block, the second that on its oscillator, on the terminal and the sheet.
+#[test]
+fn a_design_says_first_what_the_block_needs() {
+    let study = study(STUDY);
+    study.write("statue.toml", BLOCK);
+    let ask = ["design", "statue.toml", "--urs", "r.h5", "--site", "Here", "--report", "s.html", "--force"];
+    let design = study.uplift(&[&ask[..], &["--json", "-q"]].concat()).json();
+    let [block, oscillator] = [&design["own"]["models"][0]["check"], &design["own_check"]];
+    let [needed, of_oscillator] = [block, oscillator].map(|check| number(&check["required_capacity_m"]));
+    let said = study.uplift(&ask).ok().stdout;
+    let word = |check: &Value| if check["satisfied"] == true { "satisfied" } else { "NOT satisfied" };
+    let first = format!("Verdict   statue by PGV: {}: block requires {needed:.2} m, capacity 0.40 m\n", word(block));
+    assert!(said.starts_with(&first), "{said}");
+    let ratio = needed / of_oscillator;
+    let second = said.lines().nth(1).unwrap();
+    assert!(second.starts_with("          oscillator by PGV: ") && second.contains(word(oscillator)), "{said}");
+    assert!(second.ends_with(&format!("; block moves {ratio:.1} times as far")), "{said}");
+    for model in ["block, restitution 0.942 ", "oscillator, restitution 0.950 "] {
+        assert!(said.lines().any(|line| line.starts_with(model)), "{model}: {said}");
+    }
+    assert!(!said.contains("frame") && !said.contains("both components"), "{said}");
+    let sheet = std::fs::read_to_string(study.path().join("s.html")).unwrap();
+    let lead: Vec<&str> = sheet.split_once("<div class=\"answer\">").unwrap().1.split("<p").skip(1).collect();
+    assert!(lead[0].contains("the block requires a capacity of ") && lead[0].contains(word(block)), "{lead:?}");
+    assert!(lead[2].contains("The block overturns "), "{lead:?}");
+    assert!(sheet.contains("The restitution of the block is 0.9423.") && !sheet.contains("wobbl"), "{sheet}");
+
+    let alone = study.uplift(&[&ask[..], &["--proxy"]].concat()).ok().stdout;
+    assert!(alone.lines().next().unwrap().starts_with("Verdict   statue, by its oscillator alone, "), "{alone}");
+    let alone = study.uplift(&[&ask[..], &["--proxy", "--json", "-q"]].concat()).json();
+    assert!(alone["own"].is_null() && alone["without_own"].is_null() && alone["by_proxy"] == true, "{alone}");
+
+    // no block rocks so: its oscillator is all that there is, and the reason is said
+    study.write("statue.toml", &BLOCK.replace("0.4", "3"));
+    let said = study.uplift(&[&ask[..], &["--details"]].concat()).ok().stdout;
+    assert!(said.contains("\nItself    not analysed: ") && said.contains("a stockier block does not rock"), "{said}");
+    assert!(said.lines().next().unwrap().contains(", by its oscillator alone, "), "{said}");
 }
 
 /// Where a study has many levels, a frame is shaken at some of them: the same ones whatever is asked, so that it has
@@ -203,7 +305,7 @@ fn a_frame_has_one_rate_by_every_command() {
     let wobbling = overturning["overturning"].as_array().unwrap().iter().find(|of| of["model"] == "wobbling frame");
     for (place, site) in ["Here", "There"].iter().enumerate() {
         let design = json(&study, &["design", "free.toml", "--site", site, "--shards", files[0], files[1]]);
-        let frame = &design["frame"];
+        let frame = &design["own"];
         assert!(frame["levels"].as_array().unwrap().len() <= 28, "{frame}");
         let of_site = &wobbling.unwrap()["sites"][place];
         assert_eq!(frame["levels"], wobbling.unwrap()["levels"]);
@@ -230,14 +332,14 @@ fn a_column_that_is_pulled_back_is_told_by_its_capacity() {
     assert_eq!(risk["limit"]["event"], "capacity");
     assert_eq!(risk["limit"]["displacement_m"], risk["structure"]["capacity_m"]);
     assert!(number(passed) > 2.0 * number(&risk["overturning"]["per_year"]), "{passed} {}", risk["overturning"]);
-    assert_eq!(&design["frame"]["models"][0]["beyond_limit"]["per_year"], passed);
-    assert_eq!(&design["frame"]["models"][0]["beyond_capacity"]["per_year"], passed);
+    assert_eq!(&design["own"]["models"][0]["beyond_limit"]["per_year"], passed);
+    assert_eq!(&design["own"]["models"][0]["beyond_capacity"]["per_year"], passed);
     let models = overturning["overturning"].as_array().unwrap();
     let of_model = |name: &str| models.iter().find(|of| of["model"] == name).map(|of| &of["sites"][0]).unwrap();
     assert_eq!(&of_model("wobbling frame")["beyond_limit"]["per_year"], passed);
     // like is compared with like: the oscillator at the same displacement
     let of_proxy = &of_model("oscillator")["beyond_limit"]["per_year"];
-    assert_eq!(&design["frame"]["proxy_beyond_limit"]["per_year"], of_proxy);
+    assert_eq!(&design["own"]["proxy_beyond_limit"]["per_year"], of_proxy);
     let rate = format!("{:.1e}", number(passed));
     assert!(of_risk.contains(&format!("\nLimit        capacity 0.53 m, passed {rate} per year (")), "{of_risk}");
     let heading = of_design.lines().find(|line| line.starts_with("model")).unwrap();
@@ -332,8 +434,8 @@ fn the_restitution_of_wobbling_is_a_key_of_the_structure() {
     let ask = ["--site", "Here"];
     let [none, one, loses] =
         ["free", "none", "loses"].map(|name| json(&study, &[&["design", &format!("{name}.toml")], &ask[..]].concat()));
-    assert_eq!(none["frame"], one["frame"]);
-    let of = |report: &Value, model: usize| report["frame"]["models"][model].clone();
+    assert_eq!(none["own"], one["own"]);
+    let of = |report: &Value, model: usize| report["own"]["models"][model].clone();
     assert_eq!(of(&none, 1), of(&loses, 1), "the planar frame has its own");
     assert_eq!((number(&of(&none, 0)["restitution"]), number(&of(&loses, 0)["restitution"])), (1.0, 0.8));
     assert!(number(&of(&loses, 0)["demand_m"]) < number(&of(&none, 0)["demand_m"]), "{loses}");
@@ -461,6 +563,19 @@ fn repaired_weights_stand_beside_the_plain_ones() {
     assert!(risk.contains(&format!("; repaired {}\n", uplift::text::rate(rate))), "{risk}");
     let rates = shown("overturning");
     assert!(rates.contains(" repaired ") && rates.contains("\nrepaired: the records weighted for"), "{rates}");
+    // a design by them has their demand on a block itself
+    study.write("statue.toml", BLOCK);
+    let of = |command: &str, more: &[&str]| {
+        let ask = [command, "statue.toml", "--site", "Athens &lt; 1", "--measure", "pgv"];
+        json(&study, &[&ask[..], more].concat())
+    };
+    let [plain, repaired] = [&[][..], &["--repaired"]].map(|more| of("design", more)["own"]["models"][0].clone());
+    let [by_equal, by_weights] = [&plain, &repaired].map(|block| number(&block["demand_m"]));
+    let risk = &of("risk", &[])["demands"][0];
+    assert!((by_weights / number(&risk["repaired_m"]) - 1.0).abs() < 1e-6 && by_weights != by_equal, "{risk}");
+    let rates = of("overturning", &[]);
+    let block = rates["overturning"].as_array().unwrap().iter().find(|of| of["model"] == "block").unwrap();
+    assert_eq!(repaired["overturning"]["per_year"], block["sites"][0]["repaired"]["per_year"]);
     let montreux = json(&study, &["risk", "frame.toml", "--site", "Montreux", "--measure", "pgv"]);
     assert!(montreux["demands"][0]["repaired_m"].is_null() && montreux["overturning"]["repaired"].is_null());
 }
@@ -493,13 +608,10 @@ fn a_block_is_told_in_its_own_words_and_both_commands_name_their_restitution() {
         let asked = [&[command, "block.toml", "--urs", "r.h5", "--site", "Here", "-q"], more].concat();
         study.uplift(&asked).ok().stdout
     };
-    let design = ask("design", &[]);
-    let proxy = " on the equivalent oscillator, restitution 0.95\n          for that of the block itself:\n";
-    assert!(design.contains(proxy), "{design}");
-    let printed = design.lines().find_map(|line| line.trim().strip_prefix("uplift ")).unwrap();
-    assert!(printed.contains(" --measure pgv --poe "), "{printed}");
-    let own = study.uplift(&printed.split(' ').collect::<Vec<_>>()).ok().stdout;
-    assert!(own.contains(" on block itself, restitution 0.9423\n"), "{own}");
+    let design = ask("design", &["--details"]);
+    for words in ["block's restitution      0.9423\n", "oscillator's restitution 0.95\n"] {
+        assert!(design.contains(words), "{words}\n{design}");
+    }
     let risk = ask("risk", &["--details"]);
     for words in [
         " on block itself, restitution 0.9423\n",

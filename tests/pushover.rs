@@ -408,7 +408,7 @@ fn from_a_spectrum_to_a_stack() {
     study.write("free-round.toml", &(free + "column_shape = \"cylinder\"\n"));
     let own = study.uplift(&[&["design", "free-round.toml", "--json"][..], &spectrum, &["1"]].concat()).json();
     let found = study.uplift(&[&round[..9], &["--safety-factor", "1", "--json"]].concat()).json();
-    assert_eq!(found["frame"]["models"][0]["demand_m"], own["frame"]["models"][0]["demand_m"]);
+    assert_eq!(found["frame"]["models"][0]["demand_m"], own["own"]["models"][0]["demand_m"]);
     assert!(found["found"] == 0 && found["stacks"].as_array().unwrap().is_empty(), "{found}");
 }
 

@@ -151,10 +151,12 @@ fn a_block_is_judged_itself() {
         alone.lines().next().unwrap().ends_with(", by its oscillator alone") && !alone.contains("block, "),
         "{alone}"
     );
-    // a displacement is that of the oscillator
-    let beyond = ["target", "block.toml", "--urs", "r.h5", "--exceed", "capacity", "--per-year", "2e-3", "--json"];
+    // what is equivalent to a frame is judged for overturning alone
+    study.write("frame.toml", &frame(0.6));
+    let beyond = ["target", "frame.toml", "--urs", "r.h5", "--exceed", "capacity", "--per-year", "2e-3", "--json"];
     let beyond = study.uplift(&[&beyond[..], &["--vary", "width", "--tolerance", "0.02", "--no-keep"]].concat()).json();
     assert!(beyond["own"].is_null() && beyond["by_proxy"] == true, "{beyond}");
+    assert!(beyond["without_own"].as_str().unwrap().contains("for overturning alone"), "{beyond}");
 }
 
 /// With the weights of a repair the search has the rates that `uplift overturning` has by them.

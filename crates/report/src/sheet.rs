@@ -1,6 +1,6 @@
 //! The design sheet: one page on one structure at one site, to hand over.
 //!
-//! It leads with verdict, demand and risk in a sentence each, of a frame that wobbles first; then the structure to
+//! It leads with verdict, demand and risk in a sentence each, of the structure itself first; then the structure to
 //! scale, the numbers, and what they rest on. Style and policy are those of the report.
 
 mod bands;

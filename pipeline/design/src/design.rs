@@ -29,13 +29,13 @@ use uplift_uniform_risk::{EventRisk, OneRisk, SpectraOfResult, StudyOfResult, at
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
 use super::opening::{Place, Repair, job_name, records_and_pairs, restitution};
-use super::own_frame::{OwnFrame, STOPPED, what_frames_leave_out};
+use super::own_structure::{OwnStructure, STOPPED, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{at_place, own_risk};
 use super::rules::{MeasureVerdict, OwnCheck, RuleDemands, apply_rules, verdicts_by_curve};
 use super::spectrum::SpectrumDemand;
 use crate::error::DesignError;
-use analysis::{DesignAnalysis, OwnAnalysis, Question};
+use analysis::{DesignAnalysis, OwnAnalysis, Question, is_judged_as_block};
 pub use options::DesignOptions;
 pub use report::DesignReport;
 pub(super) use words::without_uncertainty;
@@ -76,8 +76,8 @@ pub fn design(
     notes.extend(if options.repaired { None } else { beside(plain, repaired) });
     let unread = spectrum.is_none().then(|| beyond_spectrum(structure, &source));
     notes.extend(unread.clone());
-    let [wobbles, is_shaken] = [OwnFrame::is_described(structure), OwnFrame::can_be_shaken(structure)];
-    let mut without_frame = (wobbles && !is_shaken && !options.proxy).then(|| STOPPED.to_owned());
+    let [wobbles, is_shaken] = [OwnStructure::wobbles(structure), OwnStructure::can_be_shaken(structure)];
+    let mut without_own = (wobbles && !is_shaken && !options.proxy).then(|| STOPPED.to_owned());
     let mut own = None;
     if !options.spectrum_only {
         match records_and_pairs(&source, options.manifest.as_deref(), is_shaken && !options.proxy)? {
@@ -91,14 +91,14 @@ pub fn design(
             }
         }
     }
-    let (exact, uncertainty, frame, checkpoint) = match own {
+    let (exact, uncertainty, itself, checkpoint) = match own {
         Some(own) => {
-            without_frame = without_frame.or(own.without_frame);
-            (Some(own.exact), own.uncertainty, own.frame, Some(own.checkpoint))
+            without_own = without_own.or(own.without_own);
+            (Some(own.exact), own.uncertainty, own.itself, Some(own.checkpoint))
         }
         None => (None, None, None, None),
     };
-    notes.extend(frame.as_ref().map(|_| what_frames_leave_out(structure)));
+    notes.extend(itself.as_ref().filter(|_| wobbles).map(|_| what_frames_leave_out(structure)));
     if structure.uncertainty.is_some() && uncertainty.is_none() {
         notes.push(without_uncertainty(options.repaired, &source));
     }
@@ -122,7 +122,7 @@ pub fn design(
     if let Some(exact) = &exact {
         let scatter = Scatter::from_file(&file)?;
         let mut risks = own_risks((exact, target_per_year), place, (&scatter.pairs, &weights));
-        risks.extend(frame.iter().flat_map(|frame| frame.own_risks(place, &scatter)));
+        risks.extend(itself.iter().flat_map(|itself| itself.own_risks(place, &scatter)));
         alarms.extend(own_risk_alarms(&at_place(risks, place)));
     }
     if let Some(checkpoint) = checkpoint {
@@ -143,9 +143,9 @@ pub fn design(
         spectrum,
         exact,
         own_check,
-        wobbles,
-        frame,
-        without_frame,
+        by_proxy: (wobbles || is_judged_as_block(structure)) && itself.is_none(),
+        own: itself,
+        without_own,
         uncertainty,
         rules,
         by_other_measures,
@@ -175,7 +175,7 @@ pub fn design_shard(
     // one shard serves every site
     let site = options.site.as_ref().or(source.sites.first()).map(String::as_str);
     let Place { measure, .. } = Place::choose(&source, site, options.measure)?;
-    let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
+    let with_pairs = OwnStructure::can_be_shaken(structure) && !options.proxy;
     let records = records_and_pairs(&source, options.manifest.as_deref(), with_pairs)?.map_err(JobError::input)?;
     let analysis = DesignAnalysis::from_structure(structure, (&source, measure), (records, options))?;
     let work = analysis.work(&source, &job_name("design", structure))?;

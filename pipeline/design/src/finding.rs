@@ -16,7 +16,7 @@ use super::design::DesignReport;
 use super::frame_risk::{FrameRiskReport, ModelDemand};
 use super::limit::{FrameLimit, LimitEvent, LimitRisk};
 use super::overturning::{CollapseReport, OverturningOptions, OverturningReport};
-use super::own_frame::FrameModel;
+use super::own_structure::OwnModel;
 use super::report::ReportSource;
 use super::target::{TargetBand, TargetOptions, TargetReport};
 use super::uncertain::{AleatoryResult, EpistemicResult, UncertainFinding, UncertaintyReport};
@@ -139,18 +139,18 @@ impl DesignReport {
             rows.extend(exact.beyond_capacity.iter().flat_map(|risk| rate(EXCEEDING, risk, beyond, at)));
             rows.extend(rate("overturning", &exact.overturning, overturning, at));
         }
-        if let Some(frame) = &self.frame {
+        if let Some(own) = &self.own {
             // the capacity has its row in any case
-            let limit = frame.limit.filter(|limit| limit.event != LimitEvent::Capacity);
-            rows.extend(frame.models.iter().flat_map(|model| frame_rows(model, limit, at)));
+            let limit = own.limit.filter(|limit| limit.event != LimitEvent::Capacity);
+            rows.extend(own.models.iter().flat_map(|model| own_rows(model, limit, at)));
         }
         rows.extend(uncertain(self.uncertainty.as_ref()));
         rows
     }
 }
 
-/// Demand, required capacity and risks of a frame by one of its models.
-fn frame_rows(of: &FrameModel, limit: Option<FrameLimit>, at: [&str; 2]) -> Vec<FindingRow> {
+/// Demand, required capacity and risks of a structure itself by one of its models.
+fn own_rows(of: &OwnModel, limit: Option<FrameLimit>, at: [&str; 2]) -> Vec<FindingRow> {
     let row = |what: &str, value: f64| FindingRow::new(format!("{what}, {}", of.model), value, "m").at(at[0], at[1]);
     let mut rows = banded(&row("demand", of.demand_m), of.bands.map(|bands| bands.demand_m));
     rows.extend(of.check.map(|check| row("required capacity", check.required_capacity_m)));
@@ -201,7 +201,7 @@ impl OverturningReport {
     }
 }
 
-/// How often a frame passes its limit by the `model`.
+/// How often a structure passes its limit by the `model`.
 fn beyond_limit(limit: Option<FrameLimit>, beyond: Option<&LimitRisk>, model: &str, at: [&str; 2]) -> Vec<FindingRow> {
     let (Some(limit), Some(beyond)) = (limit, beyond) else { return Vec::new() };
     let event = if limit.event == LimitEvent::Capacity { EXCEEDING } else { limit.event.words() };

@@ -34,7 +34,7 @@ use super::hazard::Hazard;
 use super::limit::{FrameLimit, LimitRisk};
 use super::lognormal::lognormal_bands;
 use super::opening::{Place, check_tables, choose_measure, job_name, restitution};
-use super::own_frame::loss;
+use super::own_structure::loss;
 use super::report::{ReportSource, StructureReport};
 use super::risk::{OVERTURNING_M, at_place, own_risk};
 use crate::error::DesignError;
@@ -155,7 +155,7 @@ pub fn frame_risk(
     let hazard = Hazard::from_file(&file, &source, (measure, site))?;
     let counted = PooledDemand::new(&Stripes::new(levels, own_m)?)?;
     let bands = rate_bands(&counted, (&hazard, None), scatter, OVERTURNING_M)?;
-    let limit = FrameLimit::from_frame(structure, &analysis.frame);
+    let limit = FrameLimit::from_structure(structure, Some(analysis.frame.columns()));
     let of_limit =
         |limit: FrameLimit| LimitRisk::new(&counted, (&hazard, None), scatter, (limit.displacement_m, years));
     let beyond_limit = limit.map(of_limit).transpose()?;

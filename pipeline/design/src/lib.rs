@@ -15,7 +15,7 @@ mod lognormal;
 mod models;
 mod opening;
 mod overturning;
-mod own_frame;
+mod own_structure;
 mod pairs;
 mod report;
 mod risk;
@@ -43,7 +43,7 @@ pub use limits::{CAPACITY_SHARE, LimitOptions, LimitState, LimitStripes, indepen
 pub use overturning::{
     CollapseReport, ModelReport, OverturningOptions, OverturningReport, SiteRisk, overturning, overturning_shard,
 };
-pub use own_frame::{FrameModel, FrameReport};
+pub use own_structure::{OwnModel, OwnReport};
 pub use report::{ReportSource, StructureReport};
 pub use rules::{MeasureVerdict, OwnCheck, RuleCheck, RuleOutcome, verdict_word};
 pub use sensitivity::{DemandNoise, DemandRounding, RuleRanges, Sensitivity};

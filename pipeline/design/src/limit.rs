@@ -2,7 +2,6 @@
 //! its capacity, so that the frame seldom overturns; how often it fails is then how often it passes this limit.
 
 use serde::Serialize;
-use uplift_frame::RockingFrame;
 use uplift_job::text::to_the_centimetre;
 use uplift_risk::{PooledDemand, RunWeights, SiteWeights};
 use uplift_statics::{EventKind, RestrainedColumns};
@@ -59,11 +58,11 @@ pub struct FrameLimit {
 }
 
 impl FrameLimit {
-    /// Of the `frame` of a structure; none of one that has neither.
-    pub(super) fn from_frame(structure: &Structure, frame: &RockingFrame) -> Option<Self> {
+    /// Of a structure with these columns; none of one that has neither.
+    pub(super) fn from_structure(structure: &Structure, columns: Option<&RestrainedColumns>) -> Option<Self> {
         let capacity_m = structure.system.capacity_m();
         let capacity = capacity_m.map(|displacement_m| Self { event: LimitEvent::Capacity, displacement_m });
-        let of_tendons = Self::from_tendons(frame.columns());
+        let of_tendons = columns.and_then(Self::from_tendons);
         capacity.into_iter().chain(of_tendons).min_by(|a, b| a.displacement_m.total_cmp(&b.displacement_m))
     }
 
@@ -95,7 +94,7 @@ impl FrameLimit {
     }
 }
 
-/// How often the limit of a frame is passed.
+/// How often the limit of a structure is passed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LimitRisk {
     /// How often.

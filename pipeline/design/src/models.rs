@@ -16,14 +16,9 @@ pub(super) fn models(
     for_both: Option<f64>,
     notes: &mut Vec<String>,
 ) -> Result<Vec<(System, &'static str)>, DesignError> {
-    let own = structure.description.restitution;
-    let chosen = for_both.map(|value| (value, "--restitution")).or(own.map(|value| (value, "the structure file")));
-    let (restitution, origin) = chosen.unwrap_or((study.oscillator.restitution, "the study"));
-    let fail = |error: DesignError| match for_both {
-        Some(_) => JobError::Usage(format!("--restitution: {error}")).into(),
-        None => uplift_job::in_file(error, &structure.file),
-    };
-    let oscillator = structure.system.spectral_oscillator(restitution).map_err(|error| fail(error.into()))?;
+    let (restitution, origin) = chosen(structure, for_both).unwrap_or((study.oscillator.restitution, "the study"));
+    let oscillator = structure.system.spectral_oscillator(restitution);
+    let oscillator = oscillator.map_err(|error| refused(error.into(), structure, for_both))?;
     let mut models = vec![(System::Oscillator(oscillator), origin)];
     match structure.system.post_uplift() {
         PostUpliftForce::Negative { .. } => {}
@@ -32,23 +27,46 @@ pub(super) fn models(
                 .to_owned(),
         ),
     }
+    match block(structure, for_both)? {
+        Ok((block, origin)) => models.push((System::Block(block), origin)),
+        Err(reason) => notes.push(reason),
+    }
+    Ok(models)
+}
+
+/// The block that rotates as a structure does, with the origin of its restitution; or why there is none.
+pub(super) fn block(
+    structure: &Structure,
+    for_both: Option<f64>,
+) -> Result<Result<(RockingBlock, &'static str), String>, DesignError> {
     let Some(block) = structure.block else {
         let kind = structure.description.kind.name();
-        notes.push(format!("a {kind} is not a solitary block: no block is analysed"));
-        return Ok(models);
+        return Ok(Err(format!("a {kind} is not a solitary block: no block is analysed")));
     };
-    let (restitution, origin) = chosen.unwrap_or((block.restitution, "angular momentum"));
+    let (restitution, origin) = chosen(structure, for_both).unwrap_or((block.restitution, "angular momentum"));
     let rocking = match RockingBlock::new(block.size_m, block.slenderness_rad) {
         Ok(rocking) => rocking,
         Err(error) => {
-            notes.push(format!("only the equivalent oscillator is analysed, for no block rocks so: {error}"));
-            return Ok(models);
+            return Ok(Err(format!("only the equivalent oscillator is analysed, for no block rocks so: {error}")));
         }
     };
-    let block = rocking
+    let rocking = rocking
         .with_gravity(structure.system.conditions().gravity_m_s2())
         .and_then(|block| block.with_restitution(restitution))
-        .map_err(|error| fail(error.into()))?;
-    models.push((System::Block(block), origin));
-    Ok(models)
+        .map_err(|error| refused(error.into(), structure, for_both))?;
+    Ok(Ok((rocking, origin)))
+}
+
+/// The restitution that was asked for, else that of the structure's file.
+fn chosen(structure: &Structure, for_both: Option<f64>) -> Option<(f64, &'static str)> {
+    let own = structure.description.restitution;
+    for_both.map(|value| (value, "--restitution")).or(own.map(|value| (value, "the structure file")))
+}
+
+/// Whose restitution no model has.
+fn refused(error: DesignError, structure: &Structure, for_both: Option<f64>) -> DesignError {
+    match for_both {
+        Some(_) => JobError::Usage(format!("--restitution: {error}")).into(),
+        None => uplift_job::in_file(error, &structure.file),
+    }
 }

@@ -26,14 +26,14 @@ use super::hazard::Hazard;
 use super::limit::{FrameLimit, LimitRisk};
 use super::lognormal::lognormal_bands;
 use super::opening::{check_tables, job_name, site_index};
-use super::own_frame::{FrameLevels, FramePeaks, what_frames_leave_out};
+use super::own_structure::{OwnLevels, OwnPeaks, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{OVERTURNING_M, own_risk};
 use super::tables::{risk_path, write_tables};
 use super::uncertain::{Event, SiteQuestions, Uncertain, UncertaintyReport};
 use crate::error::DesignError;
 use analysis::{OSCILLATOR, factors};
-pub(crate) use analysis::{OverturningAnalysis, block_leaves_the_ground, peaks_m};
+pub(crate) use analysis::{OverturningAnalysis, peaks_m};
 pub use options::OverturningOptions;
 pub use report::{CollapseReport, ModelReport, OverturningReport, SiteRisk};
 use report::{Collapses, FrameCollapses, reports};
@@ -219,10 +219,10 @@ impl<'a> AtSites<'a> {
     /// The same of a frame at the levels of these positions among those of the measure.
     fn frame_collapses(
         &self,
-        (_, levels, peaks): &(&SpectraOfResult, &FrameLevels, FramePeaks),
+        (_, levels, peaks): &(&SpectraOfResult, &OwnLevels, OwnPeaks),
         limit: Option<FrameLimit>,
     ) -> Result<FrameCollapses, DesignError> {
-        let FrameLevels { places, values: levels } = levels;
+        let OwnLevels { places, values: levels } = levels;
         let means = self.hazard.iter().map(|of| of.mean.at_levels(places)).collect::<Result<Vec<_>, _>>()?;
         let hazard = self.hazard.iter().zip(&means).map(|(of, mean)| of.at_levels(mean, places));
         let repaired = self.repaired.iter().map(|runs| runs.map(|runs| runs.at_levels(places)).transpose());

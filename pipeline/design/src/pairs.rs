@@ -29,8 +29,7 @@ impl Pairs {
 
     /// The vertical component of every pair, each so `many` times; none where the study does not ask for it.
     pub(super) fn verticals<'a>(&self, set: &'a RecordSet, many: usize) -> Vec<&'a Accelerogram> {
-        let of_pair = set.records.iter().step_by(self.per_pair).filter_map(|record| record.vertical.as_ref());
-        of_pair.flat_map(|vertical| std::iter::repeat_n(&vertical.accelerogram, many)).collect()
+        verticals(set, self.per_pair).flat_map(|vertical| std::iter::repeat_n(vertical, many)).collect()
     }
 
     /// Wobbling frames under both components of every pair.
@@ -60,4 +59,10 @@ impl Pairs {
         let stripes = plan_motions((measure, levels), records, wobbling, true)?;
         Ok(stripes.across(self.all.iter().map(|pair| &pair.h2).collect())?)
     }
+}
+
+/// The vertical component of every pair of so many records; none where the study does not ask for it.
+pub(super) fn verticals(set: &RecordSet, per_pair: usize) -> impl Iterator<Item = &Accelerogram> {
+    let of_pair = set.records.iter().step_by(per_pair).filter_map(|record| record.vertical.as_ref());
+    of_pair.map(|vertical| &vertical.accelerogram)
 }

@@ -34,7 +34,7 @@ pub use trial::LevelShare;
 use super::certainty::Scatter;
 use super::hazard::Hazard;
 use super::opening::{Place, Repair, check_tables};
-use super::own_frame::{OwnFrame, STOPPED, what_frames_leave_out};
+use super::own_structure::{OwnStructure, STOPPED, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{at_place, own_risk};
 use crate::error::DesignError;
@@ -100,7 +100,7 @@ pub fn target(
     let (others, unchecked) = others(&file, &source, place, &repair)?;
     let scatter = Scatter::from_file(&file)?;
     let of_records = (&hazard, &scatter);
-    let wobbles = OwnFrame::is_described(structure);
+    let wobbles = OwnStructure::wobbles(structure);
     let without_frame = why_left_out(structure, options);
     let asked = (options, years, wobbles && !options.proxy && without_frame.is_none());
     let mut trials = Trials::from_structure(structure, &source, (place, weights), of_records, asked, events)?;
@@ -242,9 +242,9 @@ fn alarms_before(
 
 /// Why a frame that can wobble is left out although no `--proxy` asks for that.
 fn why_left_out(structure: &Structure, options: &TargetOptions) -> Option<String> {
-    let is_asked = OwnFrame::is_described(structure) && !options.proxy;
+    let is_asked = OwnStructure::wobbles(structure) && !options.proxy;
     let has_columns = !matches!(options.quantity, Quantity::Strength | Quantity::Capacity);
-    match (OwnFrame::can_be_shaken(structure), has_columns) {
+    match (OwnStructure::can_be_shaken(structure), has_columns) {
         (true, false) if is_asked => Some(OF_SIZE.to_owned()),
         (false, _) if is_asked => Some(STOPPED.to_owned()),
         _ => None,

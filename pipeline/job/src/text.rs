@@ -5,7 +5,7 @@ mod table;
 mod typed;
 mod visible;
 
-pub use risk::{kind_of_risks, per_cent, risk_in_words, risk_name, risk_option, risks_in_words, rounded, share};
+pub use risk::{kind_of_risks, per_cent, risk_in_words, risk_name, risks_in_words, rounded, share};
 pub use table::{Table, TableOf};
 pub use typed::{shown_path, typed, typed_path};
 pub use uplift_plausible::counted;

@@ -1,28 +1,26 @@
 //! A design as an engineer reads it.
 
-mod frame;
+mod own;
 
 use std::io::Write;
-use std::path::Path;
 
 use uplift::structure::{
     Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome, Sensitivity, verdict_word,
 };
 use uplift::text::{
-    self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, risk_option, short,
-    two_digits,
+    self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short, two_digits,
 };
 use uplift_spectra::Noisy;
 use uplift_structure::{NO_CAPACITY, NO_CAPACITY_REASON, Rule};
 
-use self::frame::{print_mark, print_own_spectrum, print_verdicts, rule_cell};
+use self::own::{print_mark, print_own_spectrum, print_unread, print_verdicts, rule_cell};
 use super::alarms::{is_doubted, print_in_parts};
+use super::shown_path;
 use super::structure::{
-    BLOCK, band_after, demand_in_words, doubt, fewer_levels, measure_option, print_moved, print_notes, print_structure,
-    rate, record_set, restitution_line, risk_cells,
+    BLOCK, band_after, demand_in_words, doubt, fewer_levels, print_moved, print_notes, print_structure, rate,
+    record_set, restitution_line, risk_cells,
 };
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
-use super::{shown_path, typed_path};
 use crate::error::CommandError;
 use crate::terminal::Terminal;
 
@@ -33,22 +31,23 @@ pub(crate) fn print_design(report: &DesignReport, terminal: &Terminal) -> Result
 
 /// What an engineer asks first.
 fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
-    match &report.frame {
-        Some(frame) => print_verdicts(out, report, frame)?,
+    match &report.own {
+        Some(own) => print_verdicts(out, report, own)?,
         None => print_verdict(out, report)?,
     }
-    if let Some(reason) = &report.without_frame {
-        writeln!(out, "Frame     left out: {reason}")?;
+    if let Some(reason) = &report.without_own {
+        writeln!(out, "Itself    not analysed: {reason}")?;
     }
     if let Some(uncertainty) = &report.uncertainty {
         print_uncertain_answers(out, uncertainty)?;
     }
     let risk = risk_in_words(report.poe, report.years);
-    let records = record_set(&report.source.record_set, report.frame.is_some());
-    let at = match &report.frame {
-        // by which measure stands in the first line, which is of the frame
-        Some(frame) => {
-            let levels = fewer_levels([(frame.levels.len(), frame.levels_of_study, report.im)]);
+    let in_space = report.own.as_ref().is_some_and(|own| own.models.len() > 1);
+    let records = record_set(&report.source.record_set, in_space);
+    let at = match &report.own {
+        // by which measure stands in the first line, which is of the structure itself
+        Some(own) => {
+            let levels = fewer_levels([(own.levels.len(), own.levels_of_study, report.im)]);
             format!("{}, {risk}{levels}", report.site)
         }
         None => format!("{} by {}, {risk}", report.site, report.spectrum_words()),
@@ -64,16 +63,13 @@ fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
 fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
     let name = &report.structure.name;
     let has = report.capacity_words().unwrap_or_else(|| format!("{NO_CAPACITY}: {NO_CAPACITY_REASON}"));
-    // of a frame that can wobble it is the oscillator that is judged
-    let whose = if report.wobbles { ", by its oscillator alone" } else { "" };
+    let whose = if report.by_proxy { ", by its oscillator alone" } else { "" };
     let doubt = doubt(&report.alarms);
     writeln!(out, "Verdict   {name}{whose}, {has}: {doubt}{}", report.verdict())?;
     if let Some(verdicts) = report.verdicts() {
         writeln!(out, "          {verdicts}")?;
     }
-    if let Some(why) = &report.unread {
-        writeln!(out, "          {why}")?;
-    }
+    print_unread(out, report)?;
     let unsafe_upper_limits = report.unsafe_upper_limits().into_iter().map(|(_, verdict)| verdict);
     let by_others = report.verdicts_by_other_measures().into_iter().map(|(_, verdict)| verdict);
     for verdict in unsafe_upper_limits.chain(report.beyond_tendon()).chain(by_others) {
@@ -91,9 +87,10 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         let bands = exact.bands.as_ref();
         let by_whom = bands.map_or("", |bands| bands.demand_m.by_whom());
         let demand = demand_in_words(exact.demand_m, bands.map(|bands| bands.demand_m.quoted()), by_whom);
-        let is_block = report.structure.kind == BLOCK;
         let whose = match report.structure.restitution {
-            Some(restitution) if is_block => format!("the equivalent oscillator, restitution {restitution}"),
+            Some(restitution) if report.structure.kind == BLOCK => {
+                format!("the equivalent oscillator, restitution {restitution}")
+            }
             _ => "the equivalent oscillator".to_owned(),
         };
         let uplift_m = report.structure.uplift_displacement_m;
@@ -103,13 +100,6 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
             String::new()
         };
         writeln!(out, "Demand    {demand} on {whose}{rests}")?;
-        if is_block {
-            let [structure, result, site] =
-                [&report.structure.file, &report.source.result, Path::new(&report.site)].map(typed_path);
-            let (measure, risk) = (measure_option(report.im), risk_option(report.poe, report.years));
-            writeln!(out, "          for that of the block itself:")?;
-            writeln!(out, "          uplift risk {structure} --urs {result} --site {site} {measure} {risk}")?;
-        }
         if let Some(risk) = &exact.beyond_capacity {
             let [beyond, ..] = risk_cells(risk);
             let [overturning, ..] = risk_cells(&exact.overturning);
@@ -133,7 +123,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
 
 fn print_details(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
     print_structure(out, &report.structure)?;
-    for of in report.frame.iter().flat_map(|frame| &frame.models) {
+    for of in report.own.iter().flat_map(|own| &own.models) {
         writeln!(out, "{}", restitution_line(of.model, of.restitution))?;
     }
     writeln!(

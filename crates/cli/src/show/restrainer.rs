@@ -110,7 +110,7 @@ fn frame_words(report: &RestrainerDesign) -> String {
     let Some(frame) = &report.frame else {
         return if report.proxy && report.found > 0 { ", by its oscillator alone".to_owned() } else { String::new() };
     };
-    let wobbling = frame.wobbling();
+    let wobbling = frame.decisive();
     let Some(check) = wobbling.check else { return String::new() };
     // each takes analyses of its own
     let others = if check.satisfied || report.found < 2 { "" } else { " (other stacks not tried)" };

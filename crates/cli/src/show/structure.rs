@@ -21,9 +21,13 @@ pub(super) fn noun(model: &'static str, kind: &str) -> &'static str {
     if model == BLOCK && kind != BLOCK { "equivalent block" } else { model }
 }
 
-/// The restitution of a model of a frame, below the lines of the structure.
+/// The restitution of a model of the structure itself, below the lines of the structure.
 pub(super) fn restitution_line(model: &str, restitution: f64) -> String {
-    let what = if model == WOBBLING { "wobbling restitution" } else { "restitution in a plane" };
+    let what = match model {
+        WOBBLING => "wobbling restitution",
+        BLOCK => "block's restitution",
+        _ => "restitution in a plane",
+    };
     format!("           {what:<24} {restitution:.4}")
 }
 

@@ -224,11 +224,8 @@ fn print_limit(out: &mut impl Write, report: &TargetReport, own: &TargetOwn) -> 
     let at = with_unit(own.limit_at, report);
     let is_more = own.passes_limit_above(report.target_per_year);
     let more = if is_more { ", more often than the target. Search for the limit:" } else { "" };
-    let limit_in_words = limit.in_words();
-    writeln!(
-        out,
-        "Limit     the wobbling frame passes its limit, {limit_in_words}, {per_year} per year at {at}{more}"
-    )?;
+    let (model, limit_in_words) = (noun(own.decisive().model, report.structure.kind), limit.in_words());
+    writeln!(out, "Limit     the {model} passes its limit, {limit_in_words}, {per_year} per year at {at}{more}")?;
     if is_more {
         let [structure, result] = [&report.structure.file, &report.source.result].map(|path| typed_path(path));
         let site = uplift::text::typed(&report.site);

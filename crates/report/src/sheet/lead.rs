@@ -1,9 +1,9 @@
-//! The sentences at the head of a design sheet: the frame that wobbles, where there is one, then the equivalent
+//! The sentences at the head of a design sheet: the structure itself, where it is analysed, then the equivalent
 //! oscillator.
 
 use serde::Serialize;
 use uplift::structure::{
-    DemandBands, DesignReport, EventRisk, ExactDemand, FrameReport, OSCILLATOR, RuleOutcome, verdict_word,
+    DemandBands, DesignReport, EventRisk, ExactDemand, OSCILLATOR, OwnReport, RuleOutcome, verdict_word,
 };
 use uplift::text::{risk_in_words, two_digits};
 use uplift_spectra::Noisy;
@@ -31,11 +31,11 @@ impl Sentence {
 /// Verdict, demand and risk, a sentence each.
 pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
     let mut sentences = Vec::new();
-    if let Some(frame) = &report.frame {
-        sentences.extend(frame_sentences(report, frame));
+    if let Some(own) = &report.own {
+        sentences.extend(own_sentences(report, own));
     }
-    if let Some(reason) = &report.without_frame {
-        sentences.push(Sentence::plain(format!("The frame itself is left out: {reason}.")));
+    if let Some(reason) = &report.without_own {
+        sentences.push(Sentence::plain(format!("The structure itself is not analysed: {reason}.")));
     }
     sentences.push(demand(report));
     sentences.extend(oscillator_verdicts(report));
@@ -58,9 +58,9 @@ fn at(report: &DesignReport) -> String {
     format!("At {}, for {},", report.site, risk_in_words(report.poe, report.years))
 }
 
-/// The verdict on the frame that wobbles, its demand, and how often it overturns.
-fn frame_sentences(report: &DesignReport, frame: &FrameReport) -> Vec<Sentence> {
-    let (own, at) = (frame.wobbling(), at(report));
+/// The verdict on the structure itself, its demand, and how often it overturns.
+fn own_sentences(report: &DesignReport, itself: &OwnReport) -> Vec<Sentence> {
+    let (own, at) = (itself.decisive(), at(report));
     let model = own.model;
     let mut sentences = Vec::new();
     sentences.push(match own.check {
@@ -85,7 +85,7 @@ fn frame_sentences(report: &DesignReport, frame: &FrameReport) -> Vec<Sentence> 
     });
     if own.demand_m.is_finite() {
         let times = report
-            .frame_over_proxy()
+            .own_over_proxy()
             .map_or_else(String::new, |ratio| format!(", {ratio:.1} times that of its equivalent oscillator"));
         let differ = if report.verdicts_differ() == Some(true) { "; the verdicts differ" } else { "" };
         let (demand, band) = (two_digits(own.demand_m), band_of_demand(own.bands.as_ref()));
@@ -93,7 +93,7 @@ fn frame_sentences(report: &DesignReport, frame: &FrameReport) -> Vec<Sentence> 
     }
     sentences.extend(unsafe_upper_limits(report, |whose| whose != OSCILLATOR));
     sentences.extend(beyond_tendon(report));
-    if let Some((limit, beyond)) = frame.governing_limit().zip(own.beyond_limit) {
+    if let Some((limit, beyond)) = itself.governing_limit().zip(own.beyond_limit) {
         let what = format!("The {model} passes its {}", limit.in_words());
         sentences.push(Sentence::plain(rate(&what, &beyond.risk, None, report.years)));
     }
@@ -104,10 +104,10 @@ fn frame_sentences(report: &DesignReport, frame: &FrameReport) -> Vec<Sentence> 
 
 /// The demand on the equivalent oscillator.
 fn demand(report: &DesignReport) -> Sentence {
-    let of_frame = report.frame.is_some();
-    let before = if of_frame { "The".to_owned() } else { at(report) + " the" };
-    // the capacity of a frame is in its verdict
-    let capacity = capacity(report).filter(|_| !of_frame);
+    let is_second = report.own.is_some();
+    let before = if is_second { "The".to_owned() } else { at(report) + " the" };
+    // that of the structure itself is in its verdict
+    let capacity = capacity(report).filter(|_| !is_second);
     let capacity = capacity.map_or_else(String::new, |capacity| format!("; the capacity is {capacity}"));
     match (&report.exact, &report.spectrum) {
         (Some(ExactDemand { overturns: true, .. }), _) => {
@@ -126,7 +126,7 @@ fn demand(report: &DesignReport) -> Sentence {
     }
 }
 
-/// What the rules say of the equivalent oscillator, and its own demand where there is no frame.
+/// What the rules say of the equivalent oscillator, and its own demand where there is nothing else.
 fn oscillator_verdicts(report: &DesignReport) -> Vec<Sentence> {
     let mut sentences = Vec::new();
     let safety = report.required_safety_factor;
@@ -148,7 +148,7 @@ fn oscillator_verdicts(report: &DesignReport) -> Vec<Sentence> {
             sentences.push(Sentence::verdict(format!("By {rule} the oscillator overturns."), false));
         }
     }
-    if report.frame.is_some() {
+    if report.own.is_some() {
         sentences.extend(unsafe_upper_limits(report, |whose| whose == OSCILLATOR));
         return sentences;
     }
@@ -163,7 +163,7 @@ fn oscillator_verdicts(report: &DesignReport) -> Vec<Sentence> {
 
 /// Whose demand is not satisfied at the upper limit of its band, of those whose name is `wanted`.
 fn unsafe_upper_limits(report: &DesignReport, wanted: impl Fn(&str) -> bool) -> Vec<Sentence> {
-    let article = if report.frame.is_some() { "The" } else { "Its" };
+    let article = if report.own.is_some() { "The" } else { "Its" };
     let limits = report.unsafe_upper_limits().into_iter().filter(|(whose, _)| wanted(whose));
     limits.map(|(whose, words)| Sentence::verdict(format!("{article} {whose} is {words}."), false)).collect()
 }

@@ -1,10 +1,13 @@
 //! The numbers of a design sheet: as facts of the structure, and in tables.
 
 use uplift::structure::{
-    DemandRounding, DesignReport, EventRisk, RuleCheck, RuleOutcome, Sensitivity, StructureReport, verdict_word,
+    DemandRounding, DesignReport, EventRisk, OwnModel, RuleCheck, RuleOutcome, Sensitivity, StructureReport,
+    WOBBLING_FRAME, verdict_word,
 };
 use uplift::study::Structure;
-use uplift::text::{Table, metres_or_overturns, per_cent, relative_error_in_words, risk_in_words, share, two_digits};
+use uplift::text::{
+    Table, metres_or_overturns, per_cent, relative_error_in_words, risk_in_words, rounded, share, two_digits,
+};
 use uplift_spectra::Noisy;
 use uplift_structure::NO_CAPACITY_REASON;
 
@@ -101,9 +104,9 @@ pub(crate) fn facts(structure: &Structure, of: &StructureReport) -> Vec<(&'stati
     facts
 }
 
-/// The frame, then its equivalent oscillator: demands, rules, risk, and what of them is noise.
+/// The structure itself, then its equivalent oscillator: demands, rules, risk, and what of them is noise.
 pub(super) fn tables(report: &DesignReport) -> Vec<TitledTable> {
-    [frame(report), demands(report), rules(report), risk(report), noise(report)].into_iter().flatten().collect()
+    [itself(report), demands(report), rules(report), risk(report), noise(report)].into_iter().flatten().collect()
 }
 
 fn demands(report: &DesignReport) -> Option<TitledTable> {
@@ -137,15 +140,15 @@ fn demands(report: &DesignReport) -> Option<TitledTable> {
     TitledTable::new("demand", "Demand on the equivalent oscillator", note, table).unless_empty()
 }
 
-/// The frame that wobbles, by both models.
-fn frame(report: &DesignReport) -> Option<TitledTable> {
-    let frame = report.frame.as_ref()?;
+/// The structure itself, by each of its models.
+fn itself(report: &DesignReport) -> Option<TitledTable> {
+    let own = report.own.as_ref()?;
     let per_year = |risk: &EventRisk| match risk.at_most_per_year {
         Some(most) => format!("< {}", scientific(most)),
         None => scientific(risk.per_year),
     };
     let dash = || "–".to_owned();
-    let table = Table::from_rows(&frame.models)
+    let table = Table::from_rows(&own.models)
         .left("model", |of| of.model)
         .right("demand, m", |of| metres_or_overturns(of.demand_m))
         .right("required capacity, m", |of| {
@@ -154,17 +157,18 @@ fn frame(report: &DesignReport) -> Option<TitledTable> {
         .left("verdict", |of| of.check.map_or_else(dash, |check| verdict_word(check.satisfied).to_owned()))
         .right("beyond its capacity a year", |of| of.beyond_capacity.as_ref().map_or_else(dash, per_year))
         .right("overturning a year", |of| per_year(&of.overturning));
-    let wobbling = match frame.wobbling().restitution {
-        1.0 => "loses no energy".to_owned(),
-        kept => format!("keeps {kept} of its velocity past the upright"),
+    let OwnModel { model, restitution, .. } = *own.decisive();
+    let loses = match restitution {
+        _ if model != WOBBLING_FRAME => format!("The restitution of the {model} is {}.", rounded(restitution, 4)),
+        1.0 => format!("The wobbling model loses no energy; {PLANAR}."),
+        kept => format!("The wobbling model keeps {kept} of its velocity past the upright; {PLANAR}."),
     };
-    let note = format!(
-        "At {} levels. The wobbling model {wobbling}; the planar one is shaken by one component alone, which is \
-         unconservative (Section 6.2.3).",
-        frame.levels.len()
-    );
-    TitledTable::new("frame", "The frame", note, table).unless_empty()
+    let note = format!("At {} levels. {loses}", own.levels.len());
+    TitledTable::new(own.noun(), format!("The {}", own.noun()), note, table).unless_empty()
 }
+
+/// What the other model of a frame leaves out.
+const PLANAR: &str = "the planar one is shaken by one component alone, which is unconservative (Section 6.2.3)";
 
 fn rules(report: &DesignReport) -> Option<TitledTable> {
     let rounding = rounding(report);

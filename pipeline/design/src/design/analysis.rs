@@ -7,6 +7,7 @@ use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_result::ResultFile;
 use uplift_risk::SiteWeights;
+use uplift_structure::Kind;
 use uplift_study::Structure;
 use uplift_uniform_risk::{SpectraOfResult, Stripes, StudyOfResult, plan_stripes};
 
@@ -16,7 +17,7 @@ use crate::demand::{ExactDemand, exact_demand};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::{Place, ShakenRecords, job_name, restitution};
-use crate::own_frame::{FrameLevels, FrameQuestion, FrameReport, OwnFrame};
+use crate::own_structure::{OwnLevels, OwnQuestion, OwnReport, OwnStructure};
 use crate::pairs::Pairs;
 use crate::shaken::Shaken;
 use crate::sweep::Sweep;
@@ -35,10 +36,10 @@ pub(super) struct OwnAnalysis {
     pub(super) exact: ExactDemand,
     /// None where all of it is known, and with repaired weights.
     pub(super) uncertainty: Option<UncertaintyReport>,
-    /// The frame itself; none of a structure that cannot wobble.
-    pub(super) frame: Option<FrameReport>,
-    /// Why a frame that can wobble is left out.
-    pub(super) without_frame: Option<String>,
+    /// The structure itself; none of one that is judged by its oscillator alone.
+    pub(super) itself: Option<OwnReport>,
+    /// Why a frame that can wobble, or a block, is left out.
+    pub(super) without_own: Option<String>,
     /// To be removed when the answer is given.
     pub(super) checkpoint: Checkpoint,
 }
@@ -60,7 +61,8 @@ impl OwnAnalysis {
         let set = &analysis.records.set;
         let mut analysed = analysed.into_iter();
         let own = Stripes::new(&measure.plan, set, analysed.next().ok_or(JobError::Interrupted)?);
-        let of_frame = analysis.frame.as_ref().map(|_| [analysed.next(), analysed.next()]);
+        let of_own = analysis.itself.as_ref().map_or(0, |(itself, _)| itself.models().count());
+        let of_own: Vec<_> = analysed.by_ref().take(of_own).collect();
         let of_uncertain = analysed.next().map(|analysed| Stripes::new(&measure.plan, set, analysed));
         let scatter = Scatter::from_file(file)?;
         let years = source.study.risk.years;
@@ -77,27 +79,25 @@ impl OwnAnalysis {
             }
             _ => None,
         };
-        let frame = match (&analysis.frame, of_frame) {
-            (Some((frame, levels)), Some([Some(wobbling), Some(planar)])) => {
-                let of_proxy = |limit| shaken.beyond_limit(limit, (&hazard, &scatter));
-                let question = FrameQuestion {
-                    levels,
-                    place,
-                    weights,
-                    hazard: &hazard,
-                    scatter: &scatter,
-                    target_per_year,
-                    years,
-                    capacity_m: structure.system.capacity_m(),
-                    safety_factor: options.safety_factor,
-                    limit: frame.limit,
-                    proxy_beyond_limit: frame.limit.map(of_proxy).transpose()?,
-                };
-                Some(question.answer(&frame.peaks(&wobbling, Some(&planar)))?)
-            }
-            _ => None,
+        let answer = |(itself, levels): &(OwnStructure, OwnLevels)| {
+            let of_proxy = |limit| shaken.beyond_limit(limit, (&hazard, &scatter));
+            let question = OwnQuestion {
+                levels,
+                place,
+                weights,
+                hazard: &hazard,
+                scatter: &scatter,
+                target_per_year,
+                years,
+                capacity_m: structure.system.capacity_m(),
+                safety_factor: options.safety_factor,
+                limit: itself.limit,
+                proxy_beyond_limit: itself.limit.map(of_proxy).transpose()?,
+            };
+            question.answer(&itself.peaks(&of_own))
         };
-        Ok(Self { exact, uncertainty, frame, without_frame: analysis.without_frame, checkpoint })
+        let itself = analysis.itself.as_ref().map(answer).transpose()?;
+        Ok(Self { exact, uncertainty, itself, without_own: analysis.without_own, checkpoint })
     }
 }
 
@@ -105,10 +105,10 @@ impl OwnAnalysis {
 pub(super) struct DesignAnalysis<'a> {
     measure: &'a SpectraOfResult,
     records: ShakenRecords,
-    /// The frame itself, with its levels; none of a structure that cannot wobble, and of a proxy.
-    frame: Option<(OwnFrame, FrameLevels)>,
-    /// Why one that can wobble is left out.
-    without_frame: Option<String>,
+    /// The structure itself, with its levels; none of one that is judged by its oscillator alone.
+    itself: Option<(OwnStructure, OwnLevels)>,
+    /// Why a frame that can wobble, or a block, is left out.
+    without_own: Option<String>,
     sweep: Sweep,
     systems: Vec<System>,
     /// The structures that it may be; none where all of it is known, and with repaired weights.
@@ -126,27 +126,29 @@ impl<'a> DesignAnalysis<'a> {
         let restitution = restitution(structure, &source.study);
         let uncertain =
             if is_asked { Uncertain::from_structure(structure, restitution, records.count())? } else { None };
-        let frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
-        let frame = frame.map(|frame| {
-            let levels = frame.levels(&records.set, measure);
-            (frame, levels)
+        let (itself, without_own) =
+            itself(structure, pairs, options)?.map_or_else(|why| (None, why), |of| (Some(of), None));
+        let itself = itself.map(|itself| {
+            let levels = itself.levels(&records.set, measure);
+            (itself, levels)
         });
-        let without_frame = match &frame {
-            Some((frame, levels)) => frame.leaves_the_ground(&records.set, (measure.measure(), levels))?,
+        let falls = match &itself {
+            Some((itself, levels)) => itself.leaves_the_ground(&records.set, (measure.measure(), levels))?,
             None => None,
         };
-        let frame = frame.filter(|_| without_frame.is_none());
-        Ok(Self { systems: sweep.systems(), sweep, uncertain, frame, without_frame, measure, records })
+        let itself = itself.filter(|_| falls.is_none());
+        let without_own = without_own.or(falls);
+        Ok(Self { systems: sweep.systems(), sweep, uncertain, itself, without_own, measure, records })
     }
 
-    /// Their stripes by the measure, then those of the frame, then those of the structures that it may be.
+    /// Their stripes by the measure, then those of the structure itself, then those of the structures that it may be.
     pub(super) fn work(&self, source: &StudyOfResult, title: &str) -> Result<Work<'_>, DesignError> {
         let measure = self.measure;
         let plan = plan_stripes(&source.study, &measure.plan, &self.records.set, &self.systems)?;
         let label = measure.measure().label().to_owned();
         let mut plans = vec![LabelledPlan { label, remark: None, plan, motions: &self.records.motions, known: None }];
-        if let Some((frame, levels)) = &self.frame {
-            plans.extend(frame.plans(&self.records, (measure.measure(), levels))?);
+        if let Some((itself, levels)) = &self.itself {
+            plans.extend(itself.plans(&self.records, (measure.measure(), levels))?);
         }
         if let Some(uncertain) = &self.uncertain {
             let study = (measure.measure().label(), &source.study);
@@ -154,6 +156,23 @@ impl<'a> DesignAnalysis<'a> {
         }
         Ok(Work::new(title, plans))
     }
+}
+
+/// Whether a structure that is no frame on cylinders is shaken itself.
+pub(super) fn is_judged_as_block(structure: &Structure) -> bool {
+    structure.description.kind == Kind::Block
+}
+
+/// The structure itself, where it is to be shaken: a frame by its `pairs`; or why a block is left out.
+fn itself(
+    structure: &Structure,
+    pairs: Option<Pairs>,
+    options: &DesignOptions,
+) -> Result<Result<OwnStructure, Option<String>>, DesignError> {
+    if pairs.is_none() && (options.proxy || !is_judged_as_block(structure)) {
+        return Ok(Err(None));
+    }
+    Ok(OwnStructure::from_structure(structure, pairs)?.map_err(Some))
 }
 
 /// What is asked of the structures that it may be, each with the answer for the structure as described.

@@ -4,7 +4,7 @@ use serde::Serialize;
 use uplift_job::alarm::Alarm;
 
 use crate::demand::ExactDemand;
-use crate::own_frame::FrameReport;
+use crate::own_structure::OwnReport;
 use crate::report::{ReportSource, StructureReport};
 use crate::rules::{MeasureVerdict, OwnCheck, RuleOutcome};
 use crate::spectrum::SpectrumDemand;
@@ -41,14 +41,14 @@ pub struct DesignReport {
     pub exact: Option<ExactDemand>,
     /// Whether its capacity is at least the safety factor times that demand; none without a capacity.
     pub own_check: Option<OwnCheck>,
-    /// Whether the structure describes a frame that can wobble.
-    pub wobbles: bool,
-    /// What the frame itself says; none of a structure that cannot wobble, by its proxy, and without an analysis.
+    /// Whether a frame that can wobble, or a block, is judged by its oscillator alone.
+    pub by_proxy: bool,
+    /// What a frame that can wobble, or a block, says itself; none by its proxy, and without an analysis.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub frame: Option<FrameReport>,
-    /// Why a frame that can wobble is left out although no `--proxy` asks for that.
+    pub own: Option<OwnReport>,
+    /// Why such a structure is left out although no `--proxy` asks for that.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub without_frame: Option<String>,
+    pub without_own: Option<String>,
     /// The structure where its quantities are not known exactly; none where its file says that they are, and without
     /// an analysis of its own.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,4 +1,4 @@
-//! What a design says of a structure: whether it is good enough, by rules, measures, its own demand and its frame.
+//! What a design says of a structure: whether it is good enough, by rules, measures, its own demand and itself.
 
 use uplift_ida::OSCILLATOR;
 use uplift_job::text::{spectrum_words, to_the_centimetre, two_digits};
@@ -8,17 +8,17 @@ use crate::certainty::DemandBands;
 use crate::rules::{OwnCheck, RuleOutcome, verdict_word, verdicts_in_words};
 
 impl DesignReport {
-    /// How many times as far as its proxy, the equivalent oscillator, the wobbling frame goes; none without a frame, or
-    /// where either overturns more often than the target.
-    pub fn frame_over_proxy(&self) -> Option<f64> {
-        let ratio = self.frame.as_ref()?.wobbling().demand_m / self.exact.as_ref()?.demand_m;
+    /// How many times as far as its proxy, the equivalent oscillator, the structure itself goes; none where it is not
+    /// analysed, or where either overturns more often than the target.
+    pub fn own_over_proxy(&self) -> Option<f64> {
+        let ratio = self.own.as_ref()?.decisive().demand_m / self.exact.as_ref()?.demand_m;
         Some(ratio).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
     }
 
-    /// Whether the verdict on the wobbling frame is another than that of a rule on its proxy; none without a verdict on
-    /// each.
+    /// Whether the verdict on the structure itself is another than that of a rule on its proxy; none without a verdict
+    /// on each.
     pub fn verdicts_differ(&self) -> Option<bool> {
-        let own = self.frame.as_ref()?.wobbling().check?;
+        let own = self.own.as_ref()?.decisive().check?;
         let mut checks = self.rules.iter().filter_map(RuleOutcome::check).peekable();
         checks.peek()?;
         Some(checks.any(|check| check.satisfied != own.satisfied))
@@ -54,7 +54,7 @@ impl DesignReport {
         Some(format!("capacity {capacity_m:.2} m{yields}"))
     }
 
-    /// The verdict on the proxy of a frame: `satisfied`; none where no rule applies.
+    /// The verdict on the proxy: `satisfied`; none where no rule applies.
     pub fn verdict_on_proxy(&self) -> Option<String> {
         verdict_of_rules(&self.rules, self.own_check)
     }
@@ -67,14 +67,14 @@ impl DesignReport {
         Some(format!("by {}: {verdicts}", self.spectrum_words()))
     }
 
-    /// The same by other measures, and of a frame, which may tell another story, the verdict on its oscillator:
-    /// `oscillator by PGA: NOT satisfied`. A measure by which every rule is satisfied is left out where every rule is
-    /// satisfied here, too, and there is no frame.
+    /// The same by other measures, and of a structure that is analysed itself, which may tell another story, the
+    /// verdict on its oscillator: `oscillator by PGA: NOT satisfied`. A measure by which every rule is satisfied is
+    /// left out where every rule is satisfied here, too, and there is the oscillator alone.
     pub fn verdicts_by_other_measures(&self) -> Vec<(&'static str, String)> {
         let is_satisfied = |rules: &[RuleOutcome]| rules.iter().filter_map(RuleOutcome::check).all(|of| of.satisfied);
         let told = self.by_other_measures.iter().filter_map(|of| {
             let by = spectrum_words(of.im, self.repaired);
-            if self.frame.is_some() {
+            if self.own.is_some() {
                 return Some((of.im, format!("{OSCILLATOR} by {by}: {}", verdict_of_rules(&of.rules, None)?)));
             }
             let verdicts = verdicts_in_words(&of.rules, None)?;
@@ -87,20 +87,21 @@ impl DesignReport {
     /// Whose demand is satisfied, and is not at the upper limit of its band, with `not satisfied at the upper limit of
     /// the demand's band, 0.50 m (requires 1.25 m)`.
     pub fn unsafe_upper_limits(&self) -> Vec<(&'static str, String)> {
-        let oscillator = if self.frame.is_some() { OSCILLATOR } else { "own demand" };
-        let of_frame = self.frame.iter().flat_map(|frame| &frame.models);
-        let all = of_frame
+        let oscillator = if self.own.is_some() { OSCILLATOR } else { "own demand" };
+        let itself = self.own.iter().flat_map(|own| &own.models);
+        let all = itself
             .map(|of| (of.model, of.check, of.bands.as_ref()))
             .chain(self.exact.iter().map(|exact| (oscillator, self.own_check, exact.bands.as_ref())));
         all.filter_map(|(whose, check, bands)| Some((whose, self.unsafe_upper_limit(check?, bands?)?))).collect()
     }
 
-    /// That the upper limit of the demand, on the frame where there is one, is beyond the yield of the tendons: `the
-    /// demand's band reaches 0.50 m, beyond the tendon yield at 0.42 m`. None where the demand is not satisfied anyway.
+    /// That the upper limit of the demand, on the structure itself where it is analysed, is beyond the yield of the
+    /// tendons: `the demand's band reaches 0.50 m, beyond the tendon yield at 0.42 m`. None where the demand is not
+    /// satisfied anyway.
     pub fn beyond_tendon(&self) -> Option<String> {
         let limit = self.structure.tendon_limit?;
-        let (check, bands) = match &self.frame {
-            Some(frame) => (frame.wobbling().check, frame.wobbling().bands.as_ref()),
+        let (check, bands) = match &self.own {
+            Some(own) => (own.decisive().check, own.decisive().bands.as_ref()),
             None => (self.own_check, self.exact.as_ref()?.bands.as_ref()),
         };
         if check.is_some_and(|check| !check.satisfied) {

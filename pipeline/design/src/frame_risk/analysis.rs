@@ -11,7 +11,7 @@ use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_motions, plan_stripes, with_verticals};
 
 use super::super::opening::{ShakenRecords, required};
-use super::super::own_frame::{self, in_the_plane_of_records};
+use super::super::own_structure::{self, in_the_plane_of_records};
 use super::super::pairs::Pairs;
 use super::super::sweep::{OF_STUDY, OWN, Sweep};
 use crate::error::DesignError;
@@ -58,7 +58,7 @@ impl FrameAnalysis {
         let wobbling = match (wanted, frame.shape()) {
             (Some(Model::Wobbling), ColumnShape::Rectangle) => return Err(FrameError::RectangleWobbles.into()),
             (Some(Model::Planar), _) | (None, ColumnShape::Rectangle) => vec![],
-            (None | Some(Model::Wobbling), ColumnShape::Cylinder) => vec![own_frame::wobbling(&frame, structure)],
+            (None | Some(Model::Wobbling), ColumnShape::Cylinder) => vec![own_structure::wobbling(&frame, structure)],
         };
         let sweep = Sweep::from_structure(structure, &source.study, false)?;
         let oscillators =
@@ -66,7 +66,7 @@ impl FrameAnalysis {
         let both = |pair: &RecordPair| [&pair.h1, &pair.h2].map(motion_key);
         let component_keys = pairs.iter().flat_map(both).collect();
         Ok(Self {
-            planar: vec![own_frame::planar(&frame, restitution.0)],
+            planar: vec![own_structure::planar(&frame, restitution.0)],
             frame,
             restitution,
             component_keys,

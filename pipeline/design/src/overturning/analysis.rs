@@ -13,7 +13,7 @@ use super::options::OverturningOptions;
 use crate::error::DesignError;
 use crate::models::models;
 use crate::opening::{ShakenRecords, choose_measure, records_and_pairs, required};
-use crate::own_frame::{FrameLevels, FramePeaks, OwnFrame, STOPPED, falls};
+use crate::own_structure::{OwnLevels, OwnPeaks, OwnStructure, STOPPED, falls};
 use crate::uncertain::Uncertain;
 
 /// Place of the equivalent oscillator among the models.
@@ -35,7 +35,7 @@ pub(crate) struct OverturningAnalysis<'a> {
     /// Each with the origin of its restitution.
     pub(crate) models: Vec<(System, &'static str)>,
     /// The frame itself, with its levels, `[measure]`; none of a structure that cannot wobble.
-    pub(super) frame: Option<(OwnFrame, Vec<FrameLevels>)>,
+    pub(super) frame: Option<(OwnStructure, Vec<OwnLevels>)>,
     /// Why one that can wobble is left out.
     pub(super) without_frame: Option<String>,
     /// The structures that it may be; none where all of it is known.
@@ -55,12 +55,12 @@ impl<'a> OverturningAnalysis<'a> {
             None => source.measures.iter().collect(),
         };
         let mut models = models(structure, &source.study, options.restitution, notes)?;
-        let with_pairs = OwnFrame::can_be_shaken(structure) && !options.proxy;
-        let stops = OwnFrame::is_described(structure) && !OwnFrame::can_be_shaken(structure) && !options.proxy;
+        let with_pairs = OwnStructure::can_be_shaken(structure) && !options.proxy;
+        let stops = OwnStructure::wobbles(structure) && !OwnStructure::can_be_shaken(structure) && !options.proxy;
         let mut without_frame = stops.then(|| STOPPED.to_owned());
         let found = records_and_pairs(source, options.manifest.as_deref(), with_pairs)?;
         let (records, pairs) = required(found, "overturning")?;
-        let frame = pairs.map(|pairs| OwnFrame::from_structure(structure, pairs)).transpose()?;
+        let frame = pairs.map(|pairs| OwnStructure::frame(structure, pairs)).transpose()?;
         let mut frame = frame.map(|frame| {
             let levels = measures.iter().map(|of| frame.levels(&records.set, of)).collect::<Vec<_>>();
             (frame, levels)
@@ -94,13 +94,13 @@ impl<'a> OverturningAnalysis<'a> {
     pub(crate) fn frame_peaks(
         &self,
         analysed: &mut impl Iterator<Item = Analysed>,
-    ) -> Vec<(&'a SpectraOfResult, &FrameLevels, FramePeaks)> {
+    ) -> Vec<(&'a SpectraOfResult, &OwnLevels, OwnPeaks)> {
         let Some((frame, levels)) = &self.frame else { return Vec::new() };
         let measures = self.measures.iter().zip(levels);
         measures
             .map_while(|(&measure, levels)| {
-                let [wobbling, planar] = [analysed.next()?, analysed.next()?];
-                Some((measure, levels, frame.peaks(&wobbling, Some(&planar))))
+                let both = [analysed.next()?, analysed.next()?];
+                Some((measure, levels, frame.peaks(&both)))
             })
             .collect()
     }
@@ -139,7 +139,7 @@ pub(super) fn factors() -> Vec<f64> {
 }
 
 /// Why the block among `models` cannot be shaken: its records, scaled, let it leave the ground.
-pub(crate) fn block_leaves_the_ground(
+fn block_leaves_the_ground(
     models: &[(System, &'static str)],
     study: &UniformRiskStudy,
     measures: &[&SpectraOfResult],

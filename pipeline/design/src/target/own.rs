@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 use uplift_alarms::OwnRisk;
-use uplift_ida::System;
-use uplift_study::{Structure, UniformRiskStudy};
+use uplift_structure::Kind;
+use uplift_study::Structure;
 use uplift_uniform_risk::EventRisk;
 
 use super::search::{digits, least, rounded_up};
@@ -14,12 +14,9 @@ use crate::certainty::{Bands, Scatter};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::limit::{FrameLimit, LimitRisk};
-use crate::models::models;
 use crate::opening::Place;
-use crate::overturning::block_leaves_the_ground;
-use crate::own_frame::{FrameLevels, FrameModel, FrameQuestion, FrameReport, OwnFrame};
-use crate::pairs::Pairs;
-use crate::risk::{OVERTURNING_M, own_risk};
+use crate::own_structure::{OwnLevels, OwnModel, OwnQuestion, OwnReport, OwnStructure};
+use crate::risk::own_risk;
 
 /// Most values at which it is shaken.
 const MOST_VALUES: usize = 8;
@@ -46,8 +43,8 @@ pub struct TargetOwn {
     /// The value at which the limit is looked at: the safe one, or the first where there is none.
     #[serde(skip)]
     pub limit_at: f64,
-    /// The limit that the wobbling frame passes there more often than it overturns; none where overturning is
-    /// not what is asked for, where it tells how often the frame fails, and of a block.
+    /// The limit that it passes there more often than it overturns; none where overturning is not what is asked for,
+    /// and where it tells how often the structure fails.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<FrameLimit>,
     /// How often it passes that.
@@ -146,22 +143,14 @@ impl TargetOwn {
 }
 
 impl TargetModel {
-    /// Of a frame whose `threshold_m` must not be exceeded; none where it must not overturn.
-    fn from_frame(of: &FrameModel, threshold_m: Option<f64>, target_per_year: f64) -> Self {
+    /// Of a structure whose `threshold_m` must not be exceeded; none where it must not overturn.
+    fn from_own(of: &OwnModel, threshold_m: Option<f64>, target_per_year: f64) -> Self {
         let (risk, bands) = match (threshold_m, of.beyond_capacity) {
             (Some(_), Some(risk)) => (risk, of.bands.and_then(|bands| bands.beyond_capacity_per_year)),
             _ => (of.overturning, of.bands.and_then(|bands| bands.overturning_per_year)),
         };
-        Self::new((of.model, of.restitution), of.demand_m, (risk, bands), target_per_year)
-    }
-
-    fn new(
-        (model, restitution): (&'static str, f64),
-        demand_m: f64,
-        (risk, bands): (EventRisk, Option<Bands>),
-        target_per_year: f64,
-    ) -> Self {
         let is_met = risk.per_year <= target_per_year;
+        let OwnModel { model, restitution, demand_m, .. } = *of;
         let mut own = Self { model, restitution, demand_m, risk, bands, is_met, is_safe: false };
         own.is_safe = own.upper_per_year() <= target_per_year;
         own
@@ -175,7 +164,7 @@ impl TargetModel {
 }
 
 impl TargetOwn {
-    /// Whether the wobbling frame passes its limit more often than the target, which is of overturning alone.
+    /// Whether it passes its limit more often than the target, which is of overturning alone.
     pub fn passes_limit_above(&self, target_per_year: f64) -> bool {
         self.limit.is_some() && self.beyond_limit.is_some_and(|beyond| beyond.risk.per_year > target_per_year)
     }
@@ -203,41 +192,45 @@ impl Judge<'_> {
         [least, most]: [f64; 2],
     ) -> Result<(Option<TargetOwn>, Option<String>), DesignError> {
         let value = if safe.is_finite() { safe } else { best };
-        match trials.components.take() {
-            Some(pairs) => self.judge_frame(trials, pairs, [value, most]),
-            None => self.judge_block(trials, value, [least, most]),
+        let pairs = trials.components.take();
+        if pairs.is_none() {
+            if self.structure.block.is_none() || self.options.proxy {
+                return Ok((None, None));
+            }
+            let is_block = self.structure.description.kind == Kind::Block;
+            if !is_block && self.options.event() != TargetEvent::Overturning {
+                return Ok((None, Some(NO_EVENT.to_owned())));
+            }
         }
-    }
-
-    fn judge_frame(
-        &self,
-        trials: &mut Trials<'_>,
-        pairs: Pairs,
-        [value, most]: [f64; 2],
-    ) -> Result<(Option<TargetOwn>, Option<String>), DesignError> {
+        // that a frame needs less is not worth its many analyses
+        let range = [if pairs.is_some() { value } else { least }, most];
         let Some(first) = self.structure_at(value)? else { return Ok((None, Some(OF_SIZE.to_owned()))) };
-        let mut frame = OwnFrame::from_structure(&first, pairs)?;
-        let levels = frame.levels(&trials.records.set, self.place.measure);
+        let mut itself = match OwnStructure::from_structure(&first, pairs)? {
+            Ok(itself) => itself,
+            Err(reason) => return Ok((None, Some(reason))),
+        };
+        let levels = itself.levels(&trials.records.set, self.place.measure);
         let at = (self.place.measure.measure(), &levels);
-        if let Some(reason) = frame.leaves_the_ground(&trials.records.set, at)? {
+        if let Some(reason) = itself.leaves_the_ground(&trials.records.set, at)? {
             return Ok((None, Some(reason)));
         }
-        let (report, models) = self.shaken(trials, (&frame, &first), &levels, true)?;
+        let (report, models) = self.shaken(trials, (&itself, &first), &levels, true)?;
         let mut analyses = report.analyses;
-        let limit_of = |report: &FrameReport| (report.governing_limit(), report.wobbling().beyond_limit);
+        let limit_of = |report: &OwnReport| (report.governing_limit(), report.decisive().beyond_limit);
         let mut limits = vec![(value, limit_of(&report))];
-        // that a frame needs less is not worth its many analyses
-        let tried = self.searched((value, models[0].clone()), [value, most], |next| {
+        let tried = self.searched((value, models[0].clone()), range, |next| {
             let Some(structure) = self.structure_at(next)? else { return Ok(None) };
-            frame.change(&structure)?;
-            let levels = frame.levels(&trials.records.set, self.place.measure);
-            let (own, models) = self.shaken(trials, (&frame, &structure), &levels, false)?;
+            if itself.change(&structure)?.is_some() {
+                return Ok(None);
+            }
+            let levels = itself.levels(&trials.records.set, self.place.measure);
+            let (own, models) = self.shaken(trials, (&itself, &structure), &levels, false)?;
             analyses += own.analyses;
             limits.push((next, limit_of(&own)));
             Ok(models.into_iter().next())
         })?;
         let own = TargetOwn::new((levels.values, report.levels_of_study), analyses, (value, models), &tried);
-        // at what the frame needs, where that is known
+        // at what it needs, where that is known
         let at_safe = limits.iter().find(|(at, _)| at.total_cmp(&own.safe_value).is_eq());
         let (limit_at, (limit, beyond)) = *at_safe.unwrap_or(&limits[0]);
         let beyond_limit = beyond.filter(|_| limit.is_some());
@@ -261,67 +254,6 @@ impl Judge<'_> {
         Ok(tried)
     }
 
-    /// The block where overturning is asked for; anything else is measured at another point of it.
-    fn judge_block(
-        &self,
-        trials: &mut Trials<'_>,
-        value: f64,
-        range: [f64; 2],
-    ) -> Result<(Option<TargetOwn>, Option<String>), DesignError> {
-        if self.structure.block.is_none() || self.options.proxy {
-            return Ok((None, None));
-        }
-        if self.options.event() != TargetEvent::Overturning {
-            return Ok((None, Some(NO_EVENT.to_owned())));
-        }
-        let mut notes = Vec::new();
-        let Some(first) = self.models_at(value, &trials.study, &mut notes)? else {
-            return Ok((None, Some(OF_SIZE.to_owned())));
-        };
-        if let Some(reason) =
-            block_leaves_the_ground(&first, &trials.study, &[self.place.measure], &trials.records.set)?
-        {
-            return Ok((None, Some(reason)));
-        }
-        let Some((model, mut analyses)) = self.rocked(trials, &first)? else { return Ok((None, notes.pop())) };
-        let tried = self.searched((value, model.clone()), range, |next| {
-            let Some(models) = self.models_at(next, &trials.study, &mut Vec::new())? else { return Ok(None) };
-            let Some((model, own)) = self.rocked(trials, &models)? else { return Ok(None) };
-            analyses += own;
-            Ok(Some(model))
-        })?;
-        let levels = self.place.measure.plan.levels.to_vec();
-        let of_study = levels.len();
-        Ok((Some(TargetOwn::new((levels, of_study), analyses, (value, vec![model]), &tried)), None))
-    }
-
-    /// Oscillator and block at a value, with why there is no block in `notes`; none where a value does not change it.
-    fn models_at(
-        &self,
-        value: f64,
-        study: &UniformRiskStudy,
-        notes: &mut Vec<String>,
-    ) -> Result<Option<Vec<(System, &'static str)>>, DesignError> {
-        let Some(structure) = self.structure_at(value)? else { return Ok(None) };
-        models(&structure, study, None, notes).map(Some)
-    }
-
-    /// The block among `models`, shaken, and how many analyses it took; none where no block rocks so.
-    fn rocked(
-        &self,
-        trials: &mut Trials<'_>,
-        models: &[(System, &'static str)],
-    ) -> Result<Option<(TargetModel, u64)>, DesignError> {
-        let Some((block @ System::Block(_), _)) = models.last() else { return Ok(None) };
-        let (pool, analyses) = trials.pooled_peaks(block)?;
-        let (weights, (hazard, scatter)) = (trials.weights, self.of_records);
-        let asked = (OVERTURNING_M, self.years);
-        let LimitRisk { risk, bands } = LimitRisk::new(&pool, (hazard, weights.repaired()), scatter, asked)?;
-        let demand_m = weights.curve(&pool)?.exact_ordinate(self.target_per_year)?.displacement_m;
-        let model = (block.kind(), block.restitution());
-        Ok(Some((TargetModel::new(model, demand_m, (risk, bands), self.target_per_year), analyses)))
-    }
-
     fn structure_at(&self, value: f64) -> Result<Option<Structure>, DesignError> {
         let (quantity, refused) = (self.options.quantity, super::trial::refused);
         Ok(self.structure.varied(quantity, value).map_err(|mistake| refused(quantity, value, &mistake))?)
@@ -331,19 +263,19 @@ impl Judge<'_> {
     fn shaken(
         &self,
         trials: &mut Trials<'_>,
-        (frame, structure): (&OwnFrame, &Structure),
-        levels: &FrameLevels,
+        (itself, structure): (&OwnStructure, &Structure),
+        levels: &OwnLevels,
         with_planar: bool,
-    ) -> Result<(FrameReport, Vec<TargetModel>), DesignError> {
-        let peaks = trials.shake(frame, levels, with_planar)?;
+    ) -> Result<(OwnReport, Vec<TargetModel>), DesignError> {
+        let peaks = trials.shake(itself, levels, with_planar)?;
         let threshold_m = match self.options.event() {
             TargetEvent::Overturning => None,
-            TargetEvent::BeyondLimit => frame.limit.map(|limit| limit.displacement_m),
+            TargetEvent::BeyondLimit => itself.limit.map(|limit| limit.displacement_m),
             TargetEvent::BeyondCapacity(factor) => structure.system.capacity_m().map(|own_m| own_m / factor),
             TargetEvent::Beyond(displacement_m) => Some(displacement_m),
         };
         let (hazard, scatter) = self.of_records;
-        let question = FrameQuestion {
+        let question = OwnQuestion {
             levels,
             place: self.place,
             weights: &trials.weights,
@@ -353,11 +285,11 @@ impl Judge<'_> {
             years: self.years,
             capacity_m: threshold_m,
             safety_factor: 1.0,
-            limit: frame.limit.filter(|_| threshold_m.is_none()),
+            limit: itself.limit.filter(|_| threshold_m.is_none()),
             proxy_beyond_limit: None,
         };
         let report = question.answer(&peaks)?;
-        let of = |model: &FrameModel| TargetModel::from_frame(model, threshold_m, self.target_per_year);
+        let of = |model: &OwnModel| TargetModel::from_own(model, threshold_m, self.target_per_year);
         let models = report.models.iter().map(of).collect();
         Ok((report, models))
     }
@@ -372,8 +304,8 @@ impl Judge<'_> {
     }
 }
 
-/// Why a block is left out of anything but overturning.
-const NO_EVENT: &str = "the block, or the one equivalent to a frame, is judged for overturning alone";
+/// Why the block that is equivalent to another structure is left out of anything but overturning.
+const NO_EVENT: &str = "the block equivalent to the structure is judged for overturning alone";
 /// Why the structure itself is left out where strength or capacity vary.
 pub(super) const OF_SIZE: &str = "strength and capacity follow from its size: vary width or size";
 

@@ -26,7 +26,7 @@ use crate::hazard::Hazard;
 use crate::limit::FrameLimit;
 use crate::opening::{Place, ShakenRecords, job_name, records_and_pairs, required, restitution};
 use crate::overturning::peaks_m;
-use crate::own_frame::{FrameLevels, FramePeaks, OwnFrame};
+use crate::own_structure::{OwnLevels, OwnPeaks, OwnStructure};
 use crate::pairs::Pairs;
 use crate::risk::{HAPPENS, OVERTURNING_M, bounded, happenings, risk_of_exceeding};
 use crate::uncertain::{Around, Spread};
@@ -127,28 +127,27 @@ impl<'a> Trials<'a> {
         })
     }
 
-    /// The peaks of `frame` at `levels`, of its planar model too where it is asked for.
+    /// The peaks of the structure itself at `levels`, of a frame by its planar model too where it is asked for.
     pub(super) fn shake(
         &mut self,
-        frame: &OwnFrame,
-        levels: &FrameLevels,
+        itself: &OwnStructure,
+        levels: &OwnLevels,
         with_planar: bool,
-    ) -> Result<FramePeaks, DesignError> {
-        let mut plans: Vec<_> = frame.plans(&self.records, (self.measure.measure(), levels))?.into();
+    ) -> Result<OwnPeaks, DesignError> {
+        let mut plans = itself.plans(&self.records, (self.measure.measure(), levels))?;
         plans.truncate(1 + usize::from(with_planar));
-        let analysed = self.jobs.run(plans)?;
-        Ok(frame.peaks(analysed.first().ok_or(JobError::Interrupted)?, analysed.get(1)))
+        Ok(itself.peaks(&self.jobs.run(plans)?))
     }
 
-    /// The peaks of a `system` at all levels, m, and how many analyses they took.
-    pub(super) fn pooled_peaks(&mut self, system: &System) -> Result<(PooledDemand, u64), DesignError> {
+    /// The peaks of a `system` at all levels, m.
+    fn pooled_peaks(&mut self, system: &System) -> Result<PooledDemand, DesignError> {
         let (measure, levels) = (self.measure.measure(), &self.measure.plan.levels);
         let plan = plan_levels(&self.study, (measure, levels), &self.records.set, std::slice::from_ref(system))?;
-        let (label, analyses) = (format!("{}, {}", measure.label(), system.kind()), plan.analyses());
+        let label = format!("{}, {}", measure.label(), system.kind());
         let labelled = LabelledPlan { label, remark: None, plan, motions: &self.records.motions, known: None };
         let analysed = self.jobs.run(vec![labelled])?;
         let peaks_m = peaks_m(analysed.first().ok_or(JobError::Interrupted)?, levels.len(), 0);
-        Ok((PooledDemand::new(&Stripe::new(levels, &peaks_m)?)?, analyses))
+        Ok(PooledDemand::new(&Stripe::new(levels, &peaks_m)?)?)
     }
 
     /// The bands of the frequency at `value` by the runs at it alone, as `overturning` and `risk` have them; none
@@ -159,7 +158,7 @@ impl<'a> Trials<'a> {
         }
         let candidate = self.candidate(value)?;
         let [oscillator] = &candidate.systems[..] else { return Ok(None) };
-        let (pool, _) = self.pooled_peaks(oscillator)?;
+        let pool = self.pooled_peaks(oscillator)?;
         let threshold_m = candidate.threshold_m(self.options.event(), oscillator);
         rate_bands(&pool, (self.hazard, self.weights.repaired()), self.scatter, threshold_m)
     }

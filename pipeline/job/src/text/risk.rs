@@ -37,12 +37,6 @@ pub fn risk_name(poe: f64, years: f64) -> String {
     asked_return_period(poe, years).map_or_else(|| per_cent(poe), |period| format!("{period} years"))
 }
 
-/// The options that ask for a risk: `--poe 0.02 --years 50`, or `--return-period 475` where that is what was asked for.
-pub fn risk_option(poe: f64, years: f64) -> String {
-    asked_return_period(poe, years)
-        .map_or_else(|| format!("--poe {poe} --years {years}"), |period| format!("--return-period {period}"))
-}
-
 /// A risk in words: `2 % in 50 years`, or `475 years (9.991 % in 50 years)`.
 pub fn risk_in_words(poe: f64, years: f64) -> String {
     let probability = format!("{}{}", per_cent(poe), in_years(years));
@@ -156,8 +150,6 @@ mod tests {
             assert_eq!(risk_name(poe, 50.0), per_cent(poe));
         }
         assert_eq!(risk_in_words(0.02, 50.0), "2 % in 50 years");
-        assert_eq!(risk_option(0.02, 50.0), "--poe 0.02 --years 50");
-        assert_eq!(risk_option(of_period(50.0, 475.0), 50.0), "--return-period 475");
         // neither the one nor the other is round
         assert_eq!(risk_name(0.012_345_67, 50.0), "1.235 %");
     }

@@ -6,7 +6,7 @@ mod report;
 use std::path::Path;
 
 use uplift_alarms::{Scope, alarms_of_inputs, ranked};
-use uplift_design::{DesignError, DesignOptions, DesignReport, FrameReport, design as design_by_spectrum};
+use uplift_design::{DesignError, DesignOptions, DesignReport, OwnReport, design as design_by_spectrum};
 use uplift_job::JobError;
 use uplift_job::alarm::Alarm;
 use uplift_job::events::Events;
@@ -161,7 +161,7 @@ fn with_stack(
     stack: &Candidate,
     options: &RestrainerDesignOptions,
     events: &dyn Events,
-) -> Result<(Option<FrameReport>, Option<String>), LaboratoryError> {
+) -> Result<(Option<OwnReport>, Option<String>), LaboratoryError> {
     let Some(capacity_m) = stack.capacity_m.filter(|_| options.urs.is_some()) else { return Ok((None, None)) };
     let description = StructureDescription {
         tendon_stiffness_n_m: structure.description.tendon_stiffness_for_capacity_n_m(capacity_m)?,
@@ -175,13 +175,13 @@ fn wobbling(
     structure: &Structure,
     options: &RestrainerDesignOptions,
     events: &dyn Events,
-) -> Result<(Option<FrameReport>, Option<String>), LaboratoryError> {
+) -> Result<(Option<OwnReport>, Option<String>), LaboratoryError> {
     let Some(result) = options.urs.as_ref().filter(|_| !options.proxy) else { return Ok((None, None)) };
     if structure.column_shape != ColumnShape::Cylinder {
         return Ok((None, None));
     }
     let found = design_by_spectrum(structure, result, &options.by_spectrum(), events)?;
-    Ok((found.frame, found.without_frame))
+    Ok((found.own, found.without_own))
 }
 
 /// That a structure has no tendon to put a stack behind, and what to write.

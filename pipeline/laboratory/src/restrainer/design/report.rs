@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-use uplift_design::FrameReport;
+use uplift_design::OwnReport;
 use uplift_job::alarm::Alarm;
 use uplift_statics::{Candidate, Tolerance};
 
@@ -70,7 +70,7 @@ pub struct RestrainerDesign {
     /// The structure with the first of these, or without tendons where none is needed, as a frame that wobbles; none
     /// where it cannot, by its proxy, and where the target is no spectrum's.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub frame: Option<FrameReport>,
+    pub frame: Option<OwnReport>,
     /// Whether the verdict is that of the proxy of a frame that can wobble.
     pub proxy: bool,
     /// Why, where it was not asked for.

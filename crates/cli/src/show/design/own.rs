@@ -1,55 +1,57 @@
-//! What a design says first of a frame that can wobble.
+//! What a design says first of a structure that is analysed itself: a frame that can wobble, or a block.
 
 use std::io::Write;
 use std::path::Path;
 
 use uplift::structure::{
-    DemandBands, DesignReport, EventRisk, FrameReport, LimitRisk, OSCILLATOR, ReportSource, verdict_word,
+    DemandBands, DesignReport, EventRisk, LimitRisk, OSCILLATOR, OwnReport, ReportSource, verdict_word,
 };
 use uplift::text::{Table, cell_with_band, metres_or_overturns, typed, typed_path};
 use uplift_structure::{NO_CAPACITY, NO_CAPACITY_REASON, Rule};
 
 use crate::error::CommandError;
-use crate::show::structure::{mark_of, marked_band_in_cell, measure_option, print_by_earthquake, risk_cells};
+use crate::show::structure::{
+    BLOCK, doubt, mark_of, marked_band_in_cell, measure_option, print_by_earthquake, risk_cells,
+};
 
-/// The verdicts of a wobbling frame and of its proxy, with demand and risk of each.
+/// The verdicts on a structure itself and on its proxy, with demand and risk of each.
 pub(super) fn print_verdicts(
     out: &mut impl Write,
     report: &DesignReport,
-    frame: &FrameReport,
+    itself: &OwnReport,
 ) -> Result<(), CommandError> {
     let (name, by) = (&report.structure.name, report.spectrum_words());
-    let wobbling = frame.wobbling();
+    let (own, noun) = (itself.decisive(), itself.noun());
     let unsafe_upper_limits = report.unsafe_upper_limits();
     let verdict = |whose: &str, is_satisfied: bool| {
         let word = verdict_word(is_satisfied);
         let is_unsafe = unsafe_upper_limits.iter().any(|(of, _)| *of == whose);
         if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
     };
-    let answer = match (wobbling.check, report.capacity_words()) {
+    let answer = match (own.check, report.capacity_words()) {
         (Some(check), Some(capacity)) if check.required_capacity_m.is_finite() => {
-            let (verdict, required_m) = (verdict(wobbling.model, check.satisfied), check.required_capacity_m);
-            format!("{verdict}: {} requires {required_m:.2} m, {capacity}", wobbling.model)
+            let (verdict, required_m) = (verdict(own.model, check.satisfied), check.required_capacity_m);
+            format!("{verdict}: {} requires {required_m:.2} m, {capacity}", own.model)
         }
         (Some(check), Some(capacity)) => {
             let verdict = verdict_word(check.satisfied);
-            let model = wobbling.model;
-            format!("{verdict}: {model} overturns more often than the target, {capacity}")
+            format!("{verdict}: {} overturns more often than the target, {capacity}", own.model)
         }
         _ => format!("{NO_CAPACITY}: {NO_CAPACITY_REASON}"),
     };
-    writeln!(out, "Verdict   {name} by {by}: {answer}")?;
-    print_proxy(out, report, wobbling.demand_m)?;
+    writeln!(out, "Verdict   {name} by {by}: {}{answer}", doubt(&report.alarms))?;
+    print_proxy(out, report, itself)?;
+    print_unread(out, report)?;
     if let Some(beyond) = report.beyond_tendon() {
         writeln!(out, "          {beyond}")?;
     }
     for (im, verdict) in report.verdicts_by_other_measures() {
-        writeln!(out, "          {verdict}; frame: {}", measure_option(im))?;
+        writeln!(out, "          {verdict}; {noun}: {}", measure_option(im))?;
     }
     print_own_spectrum(out, report)?;
     let dash = || "-".to_owned();
-    let limit = frame.governing_limit();
-    // where passing the limit tells how often the frame fails, that and not overturning
+    let limit = itself.governing_limit();
+    // where passing the limit tells how often the structure fails, that and not overturning
     let risk = |beyond: Option<LimitRisk>, overturning: &EventRisk, bands: Option<&DemandBands>| {
         let (risk, bands) = match beyond.filter(|_| limit.is_some()) {
             Some(beyond) => (beyond.risk, beyond.bands),
@@ -65,11 +67,16 @@ pub(super) fn print_verdicts(
             cell_with_band(demand_m, bands.map(|of| of.quoted())) + mark_of(bands)
         }
     };
+    // a block and its oscillator lose energy in the same way, and not as much
+    let model = |model: &str, restitution: Option<f64>| match restitution.filter(|_| own.model == BLOCK) {
+        Some(restitution) => format!("{model}, restitution {restitution:.3}"),
+        None => model.to_owned(),
+    };
     let mut rows: Vec<[String; 5]> = Vec::new();
-    for of in &frame.models {
+    for of in &itself.models {
         let bands = of.bands.as_ref();
         rows.push([
-            of.model.to_owned(),
+            model(of.model, Some(of.restitution)),
             demand(of.demand_m, bands),
             of.check.map_or_else(dash, |check| required(check.required_capacity_m)),
             of.check.map_or_else(dash, |check| verdict(of.model, check.satisfied)),
@@ -79,11 +86,11 @@ pub(super) fn print_verdicts(
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();
         rows.push([
-            OSCILLATOR.to_owned(),
+            model(OSCILLATOR, report.structure.restitution),
             demand(exact.demand_m, bands),
             report.own_check.map_or_else(dash, |check| required(check.required_capacity_m)),
             report.own_check.map_or_else(dash, |check| verdict(OSCILLATOR, check.satisfied)),
-            risk(frame.proxy_beyond_limit, &exact.overturning, bands),
+            risk(itself.proxy_beyond_limit, &exact.overturning, bands),
         ]);
     }
     for (rule, check) in report.rules.iter().filter_map(|outcome| Some((outcome.rule, outcome.check()?))) {
@@ -105,21 +112,26 @@ pub(super) fn print_verdicts(
         })
         .to_string();
     writeln!(out, "{table}")?;
-    if frame.models.iter().any(|of| of.demand_m == 0.0) {
-        writeln!(out, "A demand of 0: the frame does not uplift at this risk")?;
+    if itself.models.iter().any(|of| of.demand_m == 0.0) {
+        writeln!(out, "A demand of 0: the {noun} does not uplift at this risk")?;
     }
     print_by_earthquake(out, &table)?;
     print_mark(out, report)
 }
 
-/// The verdict on the proxy, and how far the frame, whose demand is `demand_m`, moves beside it.
-fn print_proxy(out: &mut impl Write, report: &DesignReport, demand_m: f64) -> Result<(), CommandError> {
-    let by = report.spectrum_words();
+/// Why the spectrum has no value for the structure, where it has none.
+pub(super) fn print_unread(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
+    Ok(report.unread.iter().try_for_each(|why| writeln!(out, "          {why}"))?)
+}
+
+/// The verdict on the proxy, and how far the structure itself moves beside it.
+fn print_proxy(out: &mut impl Write, report: &DesignReport, itself: &OwnReport) -> Result<(), CommandError> {
+    let (by, demand_m, noun) = (report.spectrum_words(), itself.decisive().demand_m, itself.noun());
     let of_proxy = report.verdict_on_proxy().map(|verdict| format!("{OSCILLATOR} by {by}: {verdict}"));
-    let how_far = match report.frame_over_proxy() {
-        Some(ratio) => Some(format!("frame moves {ratio:.1} times as far")),
+    let how_far = match report.own_over_proxy() {
+        Some(ratio) => Some(format!("{noun} moves {ratio:.1} times as far")),
         None if demand_m.is_infinite() => None,
-        None if demand_m == 0.0 => Some("the frame does not uplift".to_owned()),
+        None if demand_m == 0.0 => Some(format!("the {noun} does not uplift")),
         None => Some("the oscillator has no demand to compare with".to_owned()),
     };
     let second: Vec<String> = of_proxy.into_iter().chain(how_far).collect();

@@ -1,15 +1,18 @@
-//! The frame of a structure itself, wobbling and in a plane, beside the oscillator that stands for it.
+//! The structure itself beside the oscillator that stands for it: a frame that can wobble, in space and in a plane, or
+//! the block that rotates as it does.
 //!
 //! `uplift risk` shakes a frame at every level of the study. Where it stands beside its oscillator it is shaken at
 //! [`LEVELS`] levels at most, evenly spaced in the logarithm of the intensity, from the highest at which the horizontal
-//! components of no record lift it: the same ones whatever is asked, so that a frame has one rate.
+//! components of no record lift it: the same ones whatever is asked, so that a frame has one rate. A block takes a
+//! small part of the time, and is shaken at all of them.
 
 use serde::Serialize;
 use uplift_alarms::OwnRisk;
+use uplift_block::RockingBlock;
 use uplift_engine::analysis::{Analysed, LabelledPlan};
 use uplift_fragility::Stripes as Stripe;
 use uplift_frame::{ColumnShape, Model, RockingFrame};
-use uplift_ida::{Peaks, Plan, ShakenFrame, StripeRecord, System};
+use uplift_ida::{Plan, ShakenFrame, StripeRecord, System, WOBBLING_FRAME};
 use uplift_inputs::{Record, RecordSet, rocking_frame};
 use uplift_job::text::{cost_in_words, counted};
 use uplift_motion::{Accelerogram, IntensityMeasure, RecordPair};
@@ -21,8 +24,9 @@ use uplift_uniform_risk::{EventRisk, SpectraOfResult, plan_motions, with_compone
 use super::certainty::{DemandBands, Scatter, demand_bands};
 use super::hazard::Hazard;
 use super::limit::{FrameLimit, LimitRisk};
+use super::models::block;
 use super::opening::{Place, ShakenRecords};
-use super::pairs::Pairs;
+use super::pairs::{Pairs, verticals};
 use super::risk::{OVERTURNING_M, bounded, own_risk, risk_of_exceeding};
 use super::rules::OwnCheck;
 use crate::error::DesignError;
@@ -63,9 +67,9 @@ pub(super) fn falls(falling: &[String]) -> Option<String> {
     })
 }
 
-/// The frame itself, as a design or the overturning of a structure shows it.
+/// The structure itself, as a design shows it: a frame that can wobble, or a block.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FrameReport {
+pub struct OwnReport {
     /// Levels at which it was shaken, in the unit of the measure.
     pub levels: Vec<f64>,
     /// Levels of the study.
@@ -77,24 +81,25 @@ pub struct FrameReport {
     pub proxy_beyond_limit: Option<LimitRisk>,
     /// Nonlinear time histories.
     pub analyses: u64,
-    /// Wobbling under both components, then in the plane of the study's component.
-    pub models: Vec<FrameModel>,
+    /// Wobbling under both components, then in the plane of the study's component; or the block alone.
+    pub models: Vec<OwnModel>,
 }
 
-/// One model of the frame.
+/// One model of the structure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FrameModel {
-    /// `wobbling frame` or `planar frame`.
+pub struct OwnModel {
+    /// `wobbling frame`, `planar frame` or `block`.
     pub model: &'static str,
     /// Velocity after over before an impact.
     pub restitution: f64,
-    /// Travel of the deck at the target rate, m; infinite where it overturns more often.
+    /// Travel of the deck, or of the point of a block that its file follows, at the target rate, m; infinite where it
+    /// overturns more often.
     pub demand_m: f64,
     /// 90 % bands; none of a single record.
     pub bands: Option<DemandBands>,
     /// The displacement capacity is exceeded; none for a structure without one.
     pub beyond_capacity: Option<EventRisk>,
-    /// It passes the limit of the frame; none of one without.
+    /// It passes its limit; none of one without.
     pub beyond_limit: Option<LimitRisk>,
     /// It overturns.
     pub overturning: EventRisk,
@@ -102,21 +107,35 @@ pub struct FrameModel {
     pub check: Option<OwnCheck>,
 }
 
-impl FrameReport {
-    /// The wobbling frame.
-    pub fn wobbling(&self) -> &FrameModel {
+impl OwnReport {
+    /// The model that decides: the wobbling frame, or the block.
+    pub fn decisive(&self) -> &OwnModel {
         &self.models[0]
     }
 
-    /// The limit, where passing it and not overturning tells how often the frame fails.
+    /// What it is in a word: `frame` or `block`.
+    pub fn noun(&self) -> &'static str {
+        if self.decisive().model == WOBBLING_FRAME { "frame" } else { self.decisive().model }
+    }
+
+    /// The limit, where passing it and not overturning tells how often the structure fails.
     pub fn governing_limit(&self) -> Option<FrameLimit> {
-        let wobbling = self.wobbling();
-        self.limit.filter(|_| wobbling.beyond_limit.is_some_and(|limit| limit.governs(&wobbling.overturning)))
+        let own = self.decisive();
+        self.limit.filter(|_| own.beyond_limit.is_some_and(|limit| limit.governs(&own.overturning)))
     }
 }
 
-/// Planar frames under the records of a study, as these see their pairs.
+/// What moves in a plane under the records of a study, as these see their pairs.
 pub(super) fn in_the_plane_of_records<'a>(
+    set: &'a RecordSet,
+    at: (IntensityMeasure, &[f64]),
+    planar: &'a [System],
+) -> Result<Plan<'a>, DesignError> {
+    Ok(with_components(along_records(set, at, planar)?, set)?)
+}
+
+/// The same along each record alone.
+fn along_records<'a>(
     set: &'a RecordSet,
     (measure, levels): (IntensityMeasure, &[f64]),
     planar: &'a [System],
@@ -126,8 +145,7 @@ pub(super) fn in_the_plane_of_records<'a>(
         accelerogram: &record.accelerogram,
         intensity: measure.amplitude(record.intensity(measure)),
     };
-    let stripes = plan_motions((measure, levels), set.records.iter().map(record).collect(), planar, true)?;
-    Ok(with_components(stripes, set)?)
+    Ok(plan_motions((measure, levels), set.records.iter().map(record).collect(), planar, true)?)
 }
 
 /// The wobbling frame of `structure`, with the rest and the loss that its file has.
@@ -150,21 +168,25 @@ pub(super) fn planar(frame: &RockingFrame, restitution: f64) -> System {
     }))
 }
 
-/// The frame of a structure that can wobble, by both models.
+/// The structure itself: a frame that can wobble, by both models, or the block that rotates as it does.
 #[derive(Debug)]
-pub(super) struct OwnFrame {
-    wobbling: Vec<System>,
-    planar: Vec<System>,
-    /// Where the restitution of the wobbling model comes from, and that of the planar one.
-    restitution_from: [&'static str; 2],
+pub(super) struct OwnStructure {
+    /// The frame in space; none of a block.
+    in_space: Vec<System>,
+    in_plane: Vec<System>,
+    /// Where the restitution of each comes from, in this order.
+    restitution_from: Vec<&'static str>,
+    /// How far the structure goes where its model goes 1 m: of a block whose centre is followed half as far.
+    factor: f64,
     /// What it must not pass before it overturns.
     pub(super) limit: Option<FrameLimit>,
-    pub(super) pairs: Pairs,
+    /// What shakes it in space; none of a block.
+    pairs: Option<Pairs>,
 }
 
-impl OwnFrame {
+impl OwnStructure {
     /// Whether a structure is a frame that can wobble: on cylinders.
-    pub(super) fn is_described(structure: &Structure) -> bool {
+    pub(super) fn wobbles(structure: &Structure) -> bool {
         let frame = structure.rocking_frame().and_then(Result::ok);
         frame.is_some_and(|frame| frame.shape() == ColumnShape::Cylinder)
     }
@@ -172,130 +194,168 @@ impl OwnFrame {
     /// Whether it is one that can be shaken to the end: flat springs that stop the columns end its motion.
     pub(super) fn can_be_shaken(structure: &Structure) -> bool {
         let stops = |columns: &RestrainedColumns| columns.restrainer().is_some_and(|held| held.limit_m().is_some());
-        Self::is_described(structure) && !structure.columns.as_ref().is_some_and(stops)
+        Self::wobbles(structure) && !structure.columns.as_ref().is_some_and(stops)
+    }
+
+    /// The frame of `structure` where there are `pairs` to shake it, else the block; or why no block rotates as it
+    /// does.
+    pub(super) fn from_structure(
+        structure: &Structure,
+        pairs: Option<Pairs>,
+    ) -> Result<Result<Self, String>, DesignError> {
+        match pairs {
+            Some(pairs) => Ok(Ok(Self::frame(structure, pairs)?)),
+            None => Ok(block(structure, None)?.map(|(block, origin)| Self::block(structure, block, origin))),
+        }
     }
 
     /// The frame of `structure`, to be shaken by `pairs`.
-    pub(super) fn from_structure(structure: &Structure, pairs: Pairs) -> Result<Self, DesignError> {
+    pub(super) fn frame(structure: &Structure, pairs: Pairs) -> Result<Self, DesignError> {
         let frame = rocking_frame(structure)?;
         let own = structure.description.restitution;
         let (restitution, restitution_from) =
             own.map_or_else(|| (frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
         Ok(Self {
-            limit: FrameLimit::from_frame(structure, &frame),
-            wobbling: vec![wobbling(&frame, structure)],
-            planar: vec![planar(&frame, restitution)],
-            restitution_from: [
+            limit: FrameLimit::from_structure(structure, Some(frame.columns())),
+            in_space: vec![wobbling(&frame, structure)],
+            in_plane: vec![planar(&frame, restitution)],
+            restitution_from: vec![
                 structure.wobbling_restitution.map_or("the model loses no energy", |_| "the structure file"),
                 restitution_from,
             ],
-            pairs,
+            factor: 1.0,
+            pairs: Some(pairs),
         })
     }
 
-    /// Becomes the frame of another structure, to be shaken by the same pairs.
-    pub(super) fn change(&mut self, structure: &Structure) -> Result<(), DesignError> {
-        *self = Self::from_structure(structure, std::mem::take(&mut self.pairs))?;
-        Ok(())
+    fn block(structure: &Structure, block: RockingBlock, origin: &'static str) -> Self {
+        // both are about to fall there
+        let factor = structure.system.capacity_m().map_or(1.0, |own_m| own_m / (2.0 * block.half_width_m()));
+        Self {
+            limit: FrameLimit::from_structure(structure, None),
+            in_space: Vec::new(),
+            in_plane: vec![System::Block(block)],
+            restitution_from: vec![origin],
+            factor,
+            pairs: None,
+        }
     }
 
     /// Why it cannot be shaken by a measure at `levels`: its records, scaled, let it leave the ground.
     pub(super) fn leaves_the_ground(
         &self,
         set: &RecordSet,
-        (measure, levels): (IntensityMeasure, &FrameLevels),
+        (measure, levels): (IntensityMeasure, &OwnLevels),
     ) -> Result<Option<String>, DesignError> {
-        let verticals = self.pairs.verticals(set, 1);
-        let (System::Frame(shaken), false) = (&self.wobbling[0], verticals.is_empty()) else { return Ok(None) };
-        let stripes = self.pairs.level(set, (measure, &levels.values), &self.wobbling)?;
-        Ok(falls(&stripes.falling(&verticals, shaken.frame.gravity_m_s2())))
+        let at = (measure, &levels.values[..]);
+        let (stripes, verticals) = match &self.pairs {
+            Some(pairs) => (pairs.level(set, at, &self.in_space)?, pairs.verticals(set, 1)),
+            None => (along_records(set, at, &self.in_plane)?, verticals(set, 1).collect()),
+        };
+        let gravity_m_s2 = self.in_plane.iter().find_map(System::gravity_m_s2).filter(|_| !verticals.is_empty());
+        Ok(gravity_m_s2.and_then(|gravity_m_s2| falls(&stripes.falling(&verticals, gravity_m_s2))))
     }
 
-    /// Its models, each with the origin of its restitution.
-    pub(super) fn models(&self) -> [(&System, &'static str); 2] {
-        let [wobbling, planar] = self.restitution_from;
-        [(&self.wobbling[0], wobbling), (&self.planar[0], planar)]
+    /// Its models, each with the origin of its restitution; the one that decides first.
+    pub(super) fn models(&self) -> impl Iterator<Item = (&System, &'static str)> {
+        self.in_space.iter().chain(&self.in_plane).zip(self.restitution_from.iter().copied())
     }
 
-    /// The levels at which it is shaken: from the last one on at which no pair of components lifts it.
-    pub(super) fn levels(&self, set: &RecordSet, measure: &SpectraOfResult) -> FrameLevels {
-        let System::Frame(shaken) = &self.wobbling[0] else { return FrameLevels::default() };
+    /// The levels at which it is shaken: a block at all, a frame from the last one on at which no pair of components
+    /// lifts it.
+    pub(super) fn levels(&self, set: &RecordSet, measure: &SpectraOfResult) -> OwnLevels {
+        let levels = &measure.plan.levels;
+        let (Some(System::Frame(shaken)), Some(pairs)) = (self.in_space.first(), &self.pairs) else {
+            return OwnLevels { places: (0..levels.len()).collect(), values: levels.to_vec() };
+        };
         let (of, threshold_m_s2) = (measure.measure(), shaken.frame.uplift_acceleration_m_s2());
         let largest = |pair: &RecordPair| {
             let [one, other] = [&pair.h1, &pair.h2].map(Accelerogram::acceleration_m_s2);
             one.iter().zip(other).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max)
         };
-        let per_amplitude = |(index, pair): (usize, &RecordPair)| largest(pair) / self.pairs.amplitude(set, of, index);
-        let most = self.pairs.all.iter().enumerate().map(per_amplitude).fold(0.0, f64::max);
-        let levels = &measure.plan.levels;
+        let per_amplitude = |(index, pair): (usize, &RecordPair)| largest(pair) / pairs.amplitude(set, of, index);
+        let most = pairs.all.iter().enumerate().map(per_amplitude).fold(0.0, f64::max);
         let stands = |level: &f64| most * of.amplitude(*level) < threshold_m_s2;
         let places = sparse(levels, levels.iter().rposition(stands).unwrap_or(0));
-        FrameLevels { values: places.iter().map(|&place| levels[place]).collect(), places }
+        OwnLevels { values: places.iter().map(|&place| levels[place]).collect(), places }
     }
 
-    /// Its stripes at `levels` of a measure: wobbling, then planar.
+    /// The stripes of each of its [models](Self::models) at `levels` of a measure.
     pub(super) fn plans<'a>(
         &'a self,
         records: &'a ShakenRecords,
-        (measure, levels): (IntensityMeasure, &FrameLevels),
-    ) -> Result<[LabelledPlan<'a>; 2], DesignError> {
+        (measure, levels): (IntensityMeasure, &OwnLevels),
+    ) -> Result<Vec<LabelledPlan<'a>>, DesignError> {
         let at = (measure, &levels.values[..]);
-        let wobbling = self.pairs.shaking(&records.set, at, &self.wobbling)?;
-        let planar = in_the_plane_of_records(&records.set, at, &self.planar)?;
         let of = |plan: Plan<'a>, what: &str, motions: &'a [String]| {
             let label = format!("{}, {}", measure.label(), plan.systems().first().map_or("", System::kind));
             let axes = plan.axes();
             let factors = [counted(axes.motions, what), counted(axes.scales, "level")];
-            let text = cost_in_words(&factors, plan.analyses());
-            LabelledPlan { remark: Some((label.clone(), text)), label, plan, motions, known: None }
+            // a block costs next to nothing
+            let remark = self.pairs.as_ref().map(|_| (label.clone(), cost_in_words(&factors, plan.analyses())));
+            LabelledPlan { remark, label, plan, motions, known: None }
         };
-        Ok([of(wobbling, "pair", &self.pairs.keys), of(planar, "record", &records.motions)])
+        let mut plans = Vec::new();
+        if let Some(pairs) = &self.pairs {
+            plans.push(of(pairs.shaking(&records.set, at, &self.in_space)?, "pair", &pairs.keys));
+        }
+        plans.push(of(in_the_plane_of_records(&records.set, at, &self.in_plane)?, "record", &records.motions));
+        Ok(plans)
     }
 
-    /// What the stripes of [`plans`](Self::plans) came to, of the wobbling model alone where the planar one was not
-    /// shaken: the peaks, m, `[record, level]`.
-    pub(super) fn peaks(&self, wobbling: &Analysed, planar: Option<&Analysed>) -> FramePeaks {
-        let records = wobbling.peaks.axes().motions * self.pairs.per_pair;
-        let of = |peaks: &Peaks, motion_of: &dyn Fn(usize) -> usize| -> Vec<f64> {
-            (0..records).flat_map(|record| peaks.row_m(motion_of(record), 0).iter().copied()).collect()
+    /// What the stripes of [`plans`](Self::plans) came to, of the first models alone where the others were not shaken:
+    /// the peaks, m, `[record, level]`.
+    pub(super) fn peaks(&self, analysed: &[Analysed]) -> OwnPeaks {
+        let per_pair = self.pairs.as_ref().map_or(1, |pairs| pairs.per_pair);
+        let of = |(place, (system, analysed)): (usize, (&System, &Analysed))| {
+            // all records of a pair are one run in space
+            let per_motion = if place < self.in_space.len() { per_pair } else { 1 };
+            let records = 0..analysed.peaks.axes().motions * per_motion;
+            let peaks_m = records.flat_map(|record| analysed.peaks.row_m(record / per_motion, 0));
+            (system.kind(), system.restitution(), peaks_m.map(|peak_m| self.factor * peak_m).collect())
         };
-        let in_space = (&self.wobbling[0], of(&wobbling.peaks, &|record| record / self.pairs.per_pair));
-        let in_plane = planar.map(|planar| (&self.planar[0], of(&planar.peaks, &|record| record)));
-        let models = std::iter::once(in_space).chain(in_plane);
-        FramePeaks {
-            analyses: wobbling.analyses + planar.map_or(0, |planar| planar.analyses),
-            models: models.map(|(system, peaks_m)| (system.kind(), system.restitution(), peaks_m)).collect(),
+        let models = self.models().map(|(system, _)| system).zip(analysed);
+        OwnPeaks { analyses: analysed.iter().map(|of| of.analyses).sum(), models: models.enumerate().map(of).collect() }
+    }
+
+    /// Becomes what another structure is, to be shaken by the same pairs; stays as it is where no block rotates as that
+    /// does, and says why.
+    pub(super) fn change(&mut self, structure: &Structure) -> Result<Option<String>, DesignError> {
+        match Self::from_structure(structure, self.pairs.take())? {
+            Ok(other) => *self = other,
+            Err(reason) => return Ok(Some(reason)),
         }
+        Ok(None)
     }
 }
 
-/// Peaks of the models of a frame, the wobbling one first.
+/// Peaks of the models of a structure, the one that decides first.
 #[derive(Debug)]
-pub(super) struct FramePeaks {
+pub(super) struct OwnPeaks {
     analyses: u64,
     /// Each with its restitution, m, `[record, level]`.
     models: Vec<(&'static str, f64, Vec<f64>)>,
 }
 
-impl FramePeaks {
+impl OwnPeaks {
     /// Those of each model.
     pub(super) fn each(&self) -> impl Iterator<Item = (&'static str, &[f64])> {
         self.models.iter().map(|(model, _, peaks_m)| (*model, &peaks_m[..]))
     }
 }
 
-/// Levels at which a frame is shaken.
+/// Levels at which a structure is shaken itself.
 #[derive(Debug, Clone, Default)]
-pub(super) struct FrameLevels {
+pub(super) struct OwnLevels {
     /// Their positions among those of the study.
     pub(super) places: Vec<usize>,
     /// In the unit of the measure.
     pub(super) values: Vec<f64>,
 }
 
-/// What is asked of the peaks of a frame at one site.
-pub(super) struct FrameQuestion<'a> {
-    pub(super) levels: &'a FrameLevels,
+/// What is asked of the peaks of a structure at one site.
+pub(super) struct OwnQuestion<'a> {
+    pub(super) levels: &'a OwnLevels,
     pub(super) place: Place<'a>,
     pub(super) weights: &'a SiteWeights<'a>,
     pub(super) hazard: &'a Hazard<'a>,
@@ -311,10 +371,10 @@ pub(super) struct FrameQuestion<'a> {
     pub(super) proxy_beyond_limit: Option<LimitRisk>,
 }
 
-impl FrameQuestion<'_> {
-    /// Demand, verdict and risks by both models.
-    pub(super) fn answer(&self, peaks: &FramePeaks) -> Result<FrameReport, DesignError> {
-        let FrameLevels { places, values: levels } = self.levels;
+impl OwnQuestion<'_> {
+    /// Demand, verdict and risks by each model.
+    pub(super) fn answer(&self, peaks: &OwnPeaks) -> Result<OwnReport, DesignError> {
+        let OwnLevels { places, values: levels } = self.levels;
         let mean: StripeWeights = self.hazard.mean.at_levels(places)?;
         let hazard = self.hazard.at_levels(&mean, places)?;
         let repaired = self.weights.repaired().map(|runs| runs.at_levels(places)).transpose()?;
@@ -332,7 +392,7 @@ impl FrameQuestion<'_> {
                 let asked = (limit.displacement_m, self.years);
                 LimitRisk::new(&pool, (&hazard, repaired.as_ref()), self.scatter, asked)
             };
-            Ok(FrameModel {
+            Ok(OwnModel {
                 model,
                 restitution: *restitution,
                 demand_m,
@@ -344,7 +404,7 @@ impl FrameQuestion<'_> {
             })
         };
         let models = peaks.models.iter().map(model).collect::<Result<_, DesignError>>()?;
-        Ok(FrameReport {
+        Ok(OwnReport {
             levels: levels.clone(),
             levels_of_study: self.place.measure.plan.levels.len(),
             limit: self.limit,
@@ -355,11 +415,11 @@ impl FrameQuestion<'_> {
     }
 }
 
-impl FrameReport {
+impl OwnReport {
     /// Risks of it that may come from outside the levels.
     pub(super) fn own_risks(&self, place: Place<'_>, scatter: &Scatter) -> Vec<OwnRisk> {
         let counts = (scatter.pairs.iter().map(Vec::len).sum(), scatter.pairs.len());
-        let of = |model: &FrameModel| {
+        let of = |model: &OwnModel| {
             let event = format!("overturning of the {}", model.model);
             own_risk((&event, model.overturning), (place.name, place.measure), counts)
         };
