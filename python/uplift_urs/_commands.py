@@ -65,7 +65,7 @@ class StructureCommands:
         spectrum_only : bool
             Whether to apply the rules without analysing the structure.
         proxy : bool
-            Whether to judge the proxy alone, without the wobbling frame.
+            Whether to leave out the structure itself, a frame that can wobble or a block.
         manifest : str or os.PathLike, optional
             The records' manifest, if it was moved.
         report : str or os.PathLike, optional
@@ -74,7 +74,8 @@ class StructureCommands:
         Returns
         -------
         dict
-            Demands in m, rates in 1/yr, with "notes" and "alarms".
+            Demands in m, rates in 1/yr, of the oscillator in "exact" and of the structure itself in "own", with "notes"
+            and "alarms".
 
         Raises
         ------
