@@ -120,7 +120,9 @@ impl DesignReport {
         if let Some(spectrum) = &self.spectrum {
             rows.push(row("zero stiffness, spectrum".to_owned(), spectrum.zero_stiffness_demand_m, "m"));
         }
-        rows.extend(self.exact.iter().flat_map(|exact| exact_demands(exact, at)));
+        // beside the structure itself its oscillator has demand and overturning; all else is in the document
+        let is_alone = self.own.is_none();
+        rows.extend(self.exact.iter().flat_map(|exact| exact_demands(exact, at, is_alone)));
         for (rule, check) in self.rules.iter().filter_map(|outcome| Some((outcome.rule.words(), outcome.check()?))) {
             rows.push(row(format!("demand by {rule}"), check.demand_m, "m"));
             rows.push(row(format!("required capacity by {rule}"), check.required_capacity_m, "m"));
@@ -130,13 +132,14 @@ impl DesignReport {
             }
         }
         let times = format!("{} times the demand", self.required_safety_factor);
-        rows.extend(self.own_check.map(|own| row(times, own.required_capacity_m, "m")));
+        rows.extend(self.own_check.filter(|_| is_alone).map(|own| row(times, own.required_capacity_m, "m")));
         if let Some(exact) = self.exact.as_ref().filter(|_| self.structure.capacity_m.is_some()) {
             let [beyond, overturning] = [
                 exact.bands.and_then(|bands| bands.beyond_capacity_per_year),
                 exact.bands.and_then(|bands| bands.overturning_per_year),
             ];
-            rows.extend(exact.beyond_capacity.iter().flat_map(|risk| rate(EXCEEDING, risk, beyond, at)));
+            let exceeding = exact.beyond_capacity.iter().filter(|_| is_alone);
+            rows.extend(exceeding.flat_map(|risk| rate(EXCEEDING, risk, beyond, at)));
             rows.extend(rate("overturning", &exact.overturning, overturning, at));
         }
         if let Some(own) = &self.own {
@@ -163,17 +166,17 @@ fn own_rows(of: &OwnModel, limit: Option<FrameLimit>, at: [&str; 2]) -> Vec<Find
     rows
 }
 
-/// The demand on the structure's own oscillator, and what is left of its capacity.
-fn exact_demands(exact: &ExactDemand, [site, im]: [&str; 2]) -> Vec<FindingRow> {
+/// The demand on the structure's own oscillator, and what is left of its capacity where that stands alone.
+fn exact_demands(exact: &ExactDemand, [site, im]: [&str; 2], is_alone: bool) -> Vec<FindingRow> {
     let row = |what: &str, demand_m: f64| FindingRow::new(what, demand_m, "m").at(site, im);
     let own_m = exact.zero_stiffness_demand_m;
     let mut rows = vec![row("zero stiffness, exact", exact.zero_stiffness_demand_of_spectrum_m)];
     if own_m.to_bits() != exact.zero_stiffness_demand_of_spectrum_m.to_bits() {
-        rows.push(row("zero stiffness, exact, uplift and impacts of the structure", own_m));
+        rows.push(row("zero stiffness, exact, of the structure", own_m));
     }
     let demand_m = row("demand on its oscillator", exact.demand_m);
     rows.extend(banded(&demand_m, exact.bands.map(|bands| bands.demand_m)));
-    if let Some(left_m) = exact.capacity_less_demand_m {
+    if let Some(left_m) = exact.capacity_less_demand_m.filter(|_| is_alone) {
         let left_m = row("capacity less demand on its oscillator", left_m);
         rows.extend(banded(&left_m, exact.bands.and_then(|bands| bands.capacity_less_demand_m)));
     }
