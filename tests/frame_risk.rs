@@ -544,7 +544,9 @@ fn a_case_known_by_hand() {
     let line = run.stdout.lines().find(|line| line.starts_with("Overturning")).unwrap();
     assert!(line.contains(" per year (") && line.contains(" to "), "{line}");
     assert_eq!(report["direction"]["wobbling_overturns"], 0);
-    assert!(report["alarms"].to_string().contains("of the risk lies above the last level, 0.8 g"));
+    // were it all motions above the last level in place of two thirds, the rate would rise by less than a tenth
+    assert!(0.5 * share * rate(0.8) / expected < 0.1, "{expected}");
+    assert!(!report["alarms"].to_string().contains("above the last level"), "{report}");
 }
 
 #[test]

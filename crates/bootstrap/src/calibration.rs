@@ -52,7 +52,9 @@ impl Calibration {
             }
             let rest = length(&own);
             if rest > NOTHING * whole {
-                own.iter_mut().for_each(|own| *own /= rest);
+                for own in &mut own {
+                    *own /= rest;
+                }
                 directions.push(own);
             }
         }

@@ -50,7 +50,7 @@ pub(crate) struct SharedRates {
     /// That of the skewness.
     adjustment: f64,
     /// What weights hold; none where they hold nothing.
-    calibration: Option<Calibration>,
+    calibration: Option<Box<Calibration>>,
     instructions: Instructions,
 }
 
@@ -90,7 +90,7 @@ impl SharedRates {
     /// there are, and is what the repair leaves of it.
     pub(crate) fn of_weights(units: &[Vec<usize>], weights: &RunWeights) -> Self {
         let rates = Self::new(units, weights.shares());
-        let calibration = Calibration::new(units, weights.calibration(), rates.deviations.len());
+        let calibration = Calibration::new(units, weights.calibration(), rates.deviations.len()).map(Box::new);
         Self { is_carried: true, calibration, ..rates }
     }
 

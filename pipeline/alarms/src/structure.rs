@@ -33,7 +33,7 @@ pub struct OwnRisk {
 }
 
 /// By how much of itself a rate may be off before that is told: bands of 105 records are wider.
-const WITHIN_BAND: f64 = 0.5;
+const WITHIN_BAND: f64 = 0.1;
 
 impl OwnRisk {
     /// By how much of itself the rate is off at most for motions outside the levels: above the last one all may do what
@@ -155,10 +155,10 @@ mod tests {
         let [above] = &own_risk_alarms(&[own(EventRisk { upper_tail_share: 0.078, ..RISK })])[..] else { panic!() };
         assert_eq!(above.severity, Severity::Note);
         assert!(above.what == "rate too low (7.8 % of the risk lies above the last level, 200 cm/s)", "{above}");
-        let [below] = &own_risk_alarms(&[own(EventRisk { lower_tail_share: 0.6, ..RISK })])[..] else { panic!() };
+        let [below] = &own_risk_alarms(&[own(EventRisk { lower_tail_share: 0.5, ..RISK })])[..] else { panic!() };
         assert!(
             below.severity == Severity::Caution
-                && below.what.ends_with("too high (60 % of the risk lies below the first level, 1 cm/s)"),
+                && below.what.ends_with("too high (50 % of the risk lies below the first level, 1 cm/s)"),
             "{below}"
         );
     }
@@ -172,7 +172,7 @@ mod tests {
         };
         // a third of the records overturn at the last level: by all above it the rate would rise by 3 %
         assert_eq!([1.0, 0.35, 0.02].map(told), [0, 0, 1]);
-        assert_eq!(own_risk_alarms(&[own(EventRisk { lower_tail_share: 0.4, ..RISK })]), []);
+        assert_eq!(own_risk_alarms(&[own(EventRisk { lower_tail_share: 0.08, ..RISK })]), []);
     }
 
     #[test]
