@@ -135,6 +135,9 @@ fn a_branch_in_another_unit_is_converted() {
         &text.replace("[sites.pgv]\n", "[sites.pgv]\nunit = \"cm/s\"\n").replace("b.csv", "b_m.csv"),
     );
     study.uplift(&["check", "said.toml"]).fails(4, &["b_m.csv", "m/s"]);
+    // one file has one unit
+    study.write("twice.toml", &text.replace("file = \"b.csv\"", "file = \"a.csv\"\nunit = \"m/s\""));
+    study.uplift(&["check", "twice.toml"]).fails(3, &["a.csv is given in two units"]);
 }
 
 #[test]

@@ -31,7 +31,7 @@ fn demands(folder: &Path, text: &str, [impacts, wobbling]: [&str; 2]) -> Demands
     let said = uplift(folder, &[&ask[..], &["--json", "-q"]].concat()).ok().stdout;
     let design: Value = serde_json::from_str(&said).unwrap();
     let demand_m = |of: &Value| of["demand_m"].as_f64().unwrap_or(f64::INFINITY);
-    let models = &design["frame"]["models"];
+    let models = &design["own"]["models"];
     Demands {
         oscillator_m: demand_m(&design["exact"]),
         planar_m: demand_m(&models[1]),

@@ -17,7 +17,7 @@ use crate::unit_rates::unit_of;
 /// Shares that are all alike give the deviations of [`inferred_mean`](crate::inferred_mean).
 ///
 /// [Of weights](Self::of_weights) the scatter counts as known from as many units as carry λ alike
-/// ([`SkewedMean::carried_by`]), and is at most what these leave of it ([`Calibration`]). A unit that has more of a
+/// ([`SkewedMean::carried_by`]), and is what these leave of it ([`Calibration`]). A unit that has more of a
 /// level than others hides its own deviation, since F follows it. With [`with_leverage`](Self::with_leverage) it
 /// deviates by (1 − 1/U)/(1 − h) of that, h its share: what λ becomes without it (the jackknife of clusters).
 ///

@@ -29,7 +29,7 @@ pub(super) fn models(
     }
     match block(structure, for_both)? {
         Ok((block, origin)) => models.push((System::Block(block), origin)),
-        Err(reason) => notes.push(reason),
+        Err(reason) => notes.push(format!("no block is analysed: {reason}")),
     }
     Ok(models)
 }
@@ -41,13 +41,13 @@ pub(super) fn block(
 ) -> Result<Result<(RockingBlock, &'static str), String>, DesignError> {
     let Some(block) = structure.block else {
         let kind = structure.description.kind.name();
-        return Ok(Err(format!("a {kind} is not a solitary block: no block is analysed")));
+        return Ok(Err(format!("a {kind} is not a solitary block")));
     };
     let (restitution, origin) = chosen(structure, for_both).unwrap_or((block.restitution, "angular momentum"));
     let rocking = match RockingBlock::new(block.size_m, block.slenderness_rad) {
         Ok(rocking) => rocking,
         Err(error) => {
-            return Ok(Err(format!("only the equivalent oscillator is analysed, for no block rocks so: {error}")));
+            return Ok(Err(format!("no block of these dimensions rocks: {error}")));
         }
     };
     let rocking = rocking

@@ -125,7 +125,9 @@ fn finish_files(
             AnyStudy::ShakeTable(_) => shake_table::csv_tables(file)?,
         };
         let is_site_table = |path: &PathBuf| written.iter().all(|(own, _)| own != path);
-        if matches!(study, AnyStudy::UniformRisk(_)) && missing.iter().any(|path| is_site_table(path)) {
+        let of_sites = missing.iter().find(|path| is_site_table(path));
+        if let (AnyStudy::UniformRisk(_), Some(table)) = (study, of_sites) {
+            events.remark("tables", &format!("{} is missing: its sites are computed again", table.display()));
             return Ok(false);
         }
         check_outputs(study, options)?;

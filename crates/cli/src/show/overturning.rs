@@ -7,6 +7,7 @@ use uplift::structure::{
 };
 use uplift::text::{self, Table, share, two_digits};
 use uplift_spectra::Noisy;
+use uplift_structure::NO_CAPACITY;
 
 use super::alarms::print_in_parts;
 use super::shown_path;
@@ -171,14 +172,17 @@ fn print_rate(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
     let Some((at, worst)) = rates.max_by(|(_, a), (_, b)| a.risk.per_year.total_cmp(&b.risk.per_year)) else {
         return Ok(());
     };
-    let [per_year, ..] = risk_cells(&worst.risk);
+    let overturns = match worst.risk {
+        EventRisk { per_year: 0.0, at_most_per_year: None, .. } => format!("does not overturn ({NO_CAPACITY})"),
+        risk => format!("overturns {} per year", risk_cells(&risk)[0]),
+    };
     let others = by_measure.map(|of| format!("; {} by {}", risk_cells(&of.sites[at].risk)[0], of.im));
     let (name, model) = (&report.structure.name, noun(found.model, report.structure.kind));
     let most =
         if found.sites.len() > 1 { format!(", the most of {} sites,", found.sites.len()) } else { String::new() };
     writeln!(
         out,
-        "{name}: the {model} overturns {per_year} per year at {}{most} by {}{}; annual rates (90 % band)",
+        "{name}: the {model} {overturns} at {}{most} by {}{}; annual rates (90 % band)",
         worst.site,
         found.im,
         others.collect::<String>()

@@ -93,10 +93,10 @@ fn print_details(out: &mut impl Write, plan: &Plan) -> Result<(), CommandError> 
 /// Whether it can be run.
 fn verdict(plan: &Plan) -> &'static str {
     let head = plan.head();
-    if !head.room.cannot.is_empty() {
-        "There is no room for a run, see below"
-    } else if head.would_replace.is_some() {
+    if head.would_replace.is_some() {
         "A run would be refused, since its result file belongs to another study, see below"
+    } else if !head.room.cannot.is_empty() {
+        "There is no room for a run, see below"
     } else if is_doubted(&head.alarms) {
         "The study can be run, subject to the mistake? below"
     } else {

@@ -16,7 +16,7 @@ const WEIGHT: Key<Number> = number("weight", "", ABOVE_0_BELOW_1).meaning("its w
 const NAME: Key<Text> = text("name").without_default("`branch 1` and so on").meaning("name").note("each once");
 
 const UNIT: Key<Special> = special("unit", || json!({ "type": "string", "minLength": 1 }))
-    .without_default("as the file says, else that of the curve")
+    .without_default("the curve's `unit` if given, else as the file says")
     .meaning("unit of its levels");
 
 /// Most branches of one curve; each is carried through the risk of every resample.

@@ -132,7 +132,21 @@ pub(super) fn read(field: &Field<'_>, measure: IntensityMeasure, paths: &Paths) 
         let own = branch.unit.or_else(|| unit_in(&branch.file, units).filter(|_| !is_given));
         branch.unit = own.filter(|own| *own != unit);
     }
+    if let Some(twice) = in_two_units(file.as_deref(), unit, &branches) {
+        let file = twice.file.display();
+        return field.refuse(format!("{file} is given in two units"), "write one unit for all branches of a file");
+    }
     Some(CurveFile { measure, file, unit, kind: kind?, branches })
+}
+
+/// A branch whose file is given in another unit elsewhere in the curve.
+fn in_two_units<'a>(file: Option<&Path>, unit: CurveUnit, branches: &'a [Branch]) -> Option<&'a Branch> {
+    let of = |branch: &Branch| branch.unit.unwrap_or(unit);
+    let is_other = |own: &Branch, path: &Path, unit: CurveUnit| own.file == path && of(own) != unit;
+    branches.iter().find(|own| {
+        file.is_some_and(|file| is_other(own, file, unit))
+            || branches.iter().any(|other| is_other(own, &other.file, of(other)))
+    })
 }
 
 /// Unit and kind that a file says itself, else the unit of the measure and annual rates; what is wrong with the file is

@@ -38,7 +38,7 @@ pub struct DesignOptions {
     /// Apply the rules to the spectrum without analysing the structure
     #[arg(long, conflicts_with_all = ["shard", "shards"])]
     pub spectrum_only: bool,
-    /// Judge the equivalent oscillator alone, not the frame or block itself
+    /// Judge only the equivalent oscillator
     #[arg(long)]
     pub proxy: bool,
     /// Say what a small change of the strength and rounding make of the numbers, with 16 times the analyses.

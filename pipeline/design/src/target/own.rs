@@ -66,7 +66,8 @@ pub struct TargetModel {
     pub model: &'static str,
     /// Velocity after over before an impact.
     pub restitution: f64,
-    /// Travel of the deck, or of the block's top, at the target rate, m; infinite where it overturns more often.
+    /// Travel of the deck, or of the point of a block that its file follows, at the target rate, m; infinite where it
+    /// overturns more often.
     pub demand_m: f64,
     /// How often it happens.
     pub risk: EventRisk,
