@@ -284,6 +284,30 @@ proptest! {
         prop_assert!((2.0 * half - rate).abs() <= 1e-15, "{half} {rate}");
     }
 
+    // weights that hold the rate itself leave 0.4 of its variance, and those that hold nothing of it all
+    #[test]
+    fn what_weights_hold_scatters_less(parts in prop::collection::vec(0.0..1.0_f64, 8..30)) {
+        let count = parts.len();
+        let alike = RunWeights::new(&weights(), &vec![1.0 / count as f64; count * LEVELS.len()]).unwrap();
+        let (units, n): (Vec<Vec<usize>>, f64) = ((0..count).map(|record| vec![record]).collect(), count as f64);
+        let happens: Vec<f64> = parts.iter().flat_map(|part| [*part; LEVELS.len()]).collect();
+        let per_year: f64 = weights().per_year().iter().sum();
+        let rate = per_year * parts.iter().sum::<f64>() / n;
+        let deviations: Vec<f64> = parts.iter().map(|part| per_year * part - rate).collect();
+        let moment = |power: i32| deviations.iter().map(|own| own.powi(power)).sum::<f64>() / n;
+        let mean = SkewedMean::new(rate, [2, 3, 4].map(moment), count);
+        for (held, left) in [(deviations.clone(), 0.4), (vec![0.0; count], 1.0)] {
+            let weights = alike.clone().with_calibration(vec![held]).unwrap();
+            let (_, found) = inferred_weighted_rate(&happens, &weights, &units, 0.9).unwrap();
+            let expected = SkewedMean { deviation: mean.deviation * f64::sqrt(left), ..mean };
+            let expected = expected.interval(&StudentQuantiles::new(0.9, count));
+            for (found, expected) in found.iter().zip(expected) {
+                prop_assert!((found - expected).abs() < 1e-6 * per_year, "{found} {expected}");
+            }
+        }
+        prop_assert!(alike.with_calibration(vec![vec![0.0; count + 1]]).is_err());
+    }
+
     #[test]
     fn one_curve_given_twice_has_the_band_of_one(edp_m in demands(), target in 0.002..0.3_f64, share in 0.1..0.9) {
         let units: Vec<Vec<usize>> = (0..edp_m.len() / LEVELS.len()).map(|record| vec![record]).collect();
