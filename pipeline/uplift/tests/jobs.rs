@@ -300,7 +300,9 @@ fn a_design_starts_from_the_spectrum_in_the_file() {
     let exact = report.exact.unwrap();
     // the study's oscillator and two of the structure's
     assert_eq!((exact.analyses, exact.sensitivity), (4 * 5 * 3, None));
-    assert_eq!((events.phases(), events.steps()), (vec![("PGV".to_owned(), "analyses", 4 * 5 * 3)], 4 * 5 * 3));
+    // and the block itself
+    let phases = vec![("PGV".to_owned(), "analyses", 4 * 5 * 3), ("PGV, block".to_owned(), "analyses", 4 * 5)];
+    assert_eq!((events.phases(), events.steps()), (phases, 4 * 5 * 4));
     // ten strengths more of two oscillators, and eight roundings of three
     let options = DesignOptions { sensitivity: true, ..options };
     let of_neighbours = design(&folder.block(), &folder.result(), &options, &Silent).unwrap().exact.unwrap();
