@@ -177,6 +177,9 @@ fn print_demands(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         }
         row("the structure's oscillator, exact".to_owned(), exact.demand_m, rounding.map(|of| &of.demand_m));
     }
+    for model in report.own.iter().flat_map(|own| &own.models) {
+        rows.push(vec![format!("{} itself", model.model), "-".to_owned(), metres_or_overturns(model.demand_m)]);
+    }
     if rows.is_empty() {
         writeln!(out, "\nThere is no demand to show.")?;
         return Ok(());
@@ -248,17 +251,25 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
     if rows.is_empty() {
         return Ok(());
     }
-    if let (Some(own), Some(exact), Some(capacity_m)) = (report.own_check, &report.exact, report.structure.capacity_m) {
-        let if_stands = |text: String| if exact.overturns { "-".to_owned() } else { text };
-        rows.push(vec![
-            "its own demand".to_owned(),
-            metres_or_overturns(exact.demand_m),
-            if_stands(format!("{:.4}", own.required_capacity_m)),
-            format!("{capacity_m:.4}"),
-            if_stands(format!("{:+.4}", capacity_m - own.required_capacity_m)),
-            if_stands(format!("{:.2}", own.safety_factor)),
-            verdict_word(own.satisfied).to_owned(),
-        ]);
+    if let Some(capacity_m) = report.structure.capacity_m {
+        let of_oscillator = report.own_check.zip(report.exact.as_ref()).map(|(own, exact)| {
+            let what = if report.own.is_some() { "the oscillator's own demand" } else { "its own demand" };
+            (what.to_owned(), own, exact.demand_m)
+        });
+        let models = report.own.iter().flat_map(|own| &own.models);
+        let of_models = models.filter_map(|of| Some((format!("{} itself", of.model), of.check?, of.demand_m)));
+        for (what, own, demand_m) in of_oscillator.into_iter().chain(of_models) {
+            let if_stands = |text: String| if demand_m.is_infinite() { "-".to_owned() } else { text };
+            rows.push(vec![
+                what,
+                metres_or_overturns(demand_m),
+                if_stands(format!("{:.4}", own.required_capacity_m)),
+                format!("{capacity_m:.4}"),
+                if_stands(format!("{:+.4}", capacity_m - own.required_capacity_m)),
+                if_stands(format!("{:.2}", own.safety_factor)),
+                verdict_word(own.satisfied).to_owned(),
+            ]);
+        }
     }
     let header = ["by", "demand, m", "required capacity, m", "capacity, m", "margin, m", "safety factor", "verdict"];
     writeln!(
@@ -300,6 +311,12 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
         row(format!("u > {capacity_m:.4} m, the capacity"), risk, rounding);
     }
     row("overturning".to_owned(), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
+    for model in report.own.iter().flat_map(|own| &own.models) {
+        if let Some(risk) = &model.beyond_capacity {
+            row(format!("{} itself, u > capacity", model.model), risk, None);
+        }
+        row(format!("{} itself, overturning", model.model), &model.overturning, None);
+    }
     let in_years = format!("in {} years", report.years);
     let header = ["the structure's oscillator", "per year", &in_years, "return period, years"];
     writeln!(out, "\n{}", Table::new(header, rows))?;
