@@ -123,7 +123,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
 
 fn print_details(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
     print_structure(out, &report.structure)?;
-    for of in report.own.iter().flat_map(|own| &own.models) {
+    for of in report.own_models() {
         writeln!(out, "{}", restitution_line(of.model, of.restitution))?;
     }
     writeln!(
@@ -177,7 +177,7 @@ fn print_demands(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         }
         row("the structure's oscillator, exact".to_owned(), exact.demand_m, rounding.map(|of| &of.demand_m));
     }
-    for model in report.own.iter().flat_map(|own| &own.models) {
+    for model in report.own_models() {
         rows.push(vec![format!("{} itself", model.model), "-".to_owned(), metres_or_overturns(model.demand_m)]);
     }
     if rows.is_empty() {
@@ -256,7 +256,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
             let what = if report.own.is_some() { "the oscillator's own demand" } else { "its own demand" };
             (what.to_owned(), own, exact.demand_m)
         });
-        let models = report.own.iter().flat_map(|own| &own.models);
+        let models = report.own_models();
         let of_models = models.filter_map(|of| Some((format!("{} itself", of.model), of.check?, of.demand_m)));
         for (what, own, demand_m) in of_oscillator.into_iter().chain(of_models) {
             let if_stands = |text: String| if demand_m.is_infinite() { "-".to_owned() } else { text };
@@ -311,7 +311,7 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
         row(format!("u > {capacity_m:.4} m, the capacity"), risk, rounding);
     }
     row("overturning".to_owned(), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
-    for model in report.own.iter().flat_map(|own| &own.models) {
+    for model in report.own_models() {
         if let Some(risk) = &model.beyond_capacity {
             row(format!("{} itself, u > capacity", model.model), risk, None);
         }

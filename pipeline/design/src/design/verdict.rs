@@ -5,9 +5,15 @@ use uplift_job::text::{spectrum_words, to_the_centimetre, two_digits};
 
 use super::DesignReport;
 use crate::certainty::DemandBands;
+use crate::own_structure::OwnModel;
 use crate::rules::{OwnCheck, RuleOutcome, verdict_word, verdicts_in_words};
 
 impl DesignReport {
+    /// The models of the structure itself, the one that decides first; none where it is not analysed.
+    pub fn own_models(&self) -> impl Iterator<Item = &OwnModel> {
+        self.own.iter().flat_map(|own| &own.models)
+    }
+
     /// How many times as far as its proxy, the equivalent oscillator, the structure itself goes; none where it is not
     /// analysed, or where either overturns more often than the target.
     pub fn own_over_proxy(&self) -> Option<f64> {
@@ -88,7 +94,7 @@ impl DesignReport {
     /// the demand's band, 0.50 m (requires 1.25 m)`.
     pub fn unsafe_upper_limits(&self) -> Vec<(&'static str, String)> {
         let oscillator = if self.own.is_some() { OSCILLATOR } else { "own demand" };
-        let itself = self.own.iter().flat_map(|own| &own.models);
+        let itself = self.own_models();
         let all = itself
             .map(|of| (of.model, of.check, of.bands.as_ref()))
             .chain(self.exact.iter().map(|exact| (oscillator, self.own_check, exact.bands.as_ref())));
