@@ -236,7 +236,7 @@ fn event(
         risk.at_most_per_year = Some(at_most_per_year(weights, units.len() as f64));
     }
     let band = inferred_rate(demand, weights, units, (threshold_m, CONFIDENCE)).map_err(refused)?;
-    let alarm = risk.outside_levels((first, last), unit, per_cent).map(|(_, told)| told);
+    let alarm = risk.outside_levels((first, last), unit, weights.upper_tail_per_year(), per_cent).map(|(_, told)| told);
     let mut told = serde_json::to_value(risk).map_err(refused)?;
     told["alarm"] = json!(alarm);
     told["may_happen"] = may_happen.into();

@@ -41,25 +41,34 @@ impl EventRisk {
     }
 
     /// The larger of both shares outside the levels, and what it does to the rate: `rate too low (3 % of the risk lies
-    /// above the last level, 200 cm/s)`; none where it is at most [`TAIL_SHARE_LIMIT`].
+    /// above the last level, 200 cm/s)`; none where the rate is off by at most a tenth, since bands of 105 records are
+    /// wider, or the share is at most [`TAIL_SHARE_LIMIT`].
     ///
     /// - `levels`: the first and the last, in `unit`.
+    /// - `beyond_per_year`: how often motions are stronger than the last level, 1/yr; infinite where it is not known.
     /// - `in_words`: a share in words.
     pub fn outside_levels(
         &self,
         (first, last): (f64, f64),
         unit: &str,
+        beyond_per_year: f64,
         in_words: impl Fn(f64) -> String,
     ) -> Option<(f64, String)> {
-        let (share, error, beyond) = if self.upper_tail_share >= self.lower_tail_share {
-            (self.upper_tail_share, "too low", format!("above the last level, {last}"))
+        let (share, most_off, error, beyond) = if self.upper_tail_share >= self.lower_tail_share {
+            // all motions above the last level may do what a share of those at it do
+            let most_off = beyond_per_year / self.per_year - self.upper_tail_share;
+            (self.upper_tail_share, most_off, "too low", format!("above the last level, {last}"))
         } else {
-            (self.lower_tail_share, "too high", format!("below the first level, {first}"))
+            let share = self.lower_tail_share;
+            (share, share, "too high", format!("below the first level, {first}"))
         };
         let told = || format!("rate {error} ({} of the risk lies {beyond} {unit})", in_words(share));
-        (share > TAIL_SHARE_LIMIT).then(|| (share, told()))
+        (share > TAIL_SHARE_LIMIT && most_off > WITHIN_BAND).then(|| (share, told()))
     }
 }
+
+/// By how much of itself a rate may be off before that is told.
+const WITHIN_BAND: f64 = 0.1;
 
 /// Confidence of the bound on the share of motions at the last level.
 pub const BOUND_CONFIDENCE: f64 = 0.95;

@@ -32,22 +32,6 @@ pub struct OwnRisk {
     pub beyond_per_year: f64,
 }
 
-/// By how much of itself a rate may be off before that is told: bands of 105 records are wider.
-const WITHIN_BAND: f64 = 0.1;
-
-impl OwnRisk {
-    /// By how much of itself the rate is off at most for motions outside the levels: above the last one all may do what
-    /// a share of those at it do, below the first one none.
-    fn most_off(&self) -> f64 {
-        let EventRisk { per_year, lower_tail_share, upper_tail_share, .. } = self.risk;
-        if upper_tail_share >= lower_tail_share {
-            self.beyond_per_year / per_year - upper_tail_share
-        } else {
-            lower_tail_share
-        }
-    }
-}
-
 /// Numbers of the structure file that are probably in another unit, or exchanged.
 pub fn structure_alarms(structure: &Structure) -> Vec<Alarm> {
     let unlikely = structure.warnings.iter().map(|warning| warning_alarm(&structure.name(), warning));
@@ -87,8 +71,8 @@ pub fn own_risk_alarms(risks: &[OwnRisk]) -> Vec<Alarm> {
 }
 
 fn outside_levels(own: &OwnRisk) -> Option<Case> {
-    let (share, what) = own.risk.outside_levels(own.levels, own.measure.unit(), share_in_words)?;
-    (own.most_off() > WITHIN_BAND).then(|| Case {
+    let (share, what) = own.risk.outside_levels(own.levels, own.measure.unit(), own.beyond_per_year, share_in_words)?;
+    Some(Case {
         severity: if share > DECISIVE_SHARE { Severity::Caution } else { Severity::Note },
         badness: share,
         subject: own.subject.clone(),
