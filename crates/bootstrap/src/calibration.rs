@@ -4,10 +4,6 @@ use uplift_instructions::{Instructions, Vectors, Work};
 
 use crate::skewed_mean::sums;
 
-/// The share of the variance that is left at least: weights hold the known rates within some per cent, and few of them.
-/// Without it, displacements that the known rates decide nearly alone are held least often (`make coverage`).
-const LEAST_LEFT: f64 = 0.4;
-
 /// What is left of a direction that the others have, as a share of it.
 const NOTHING: f64 = 1e-9;
 
@@ -16,8 +12,9 @@ const NOTHING: f64 = 1e-9;
 /// A rate by weights that are solved anew for every sample deviates less than its units do: what moves the known rates
 /// as well is taken back. What is left is the residual of the deviations after their regression on how the units move
 /// those (Deville and Särndal), over 1 − h with the leverage h of the unit: what the residual is without it (the
-/// jackknife). The residual of a sample by itself is too small. All is left at most, since weights take nothing away
-/// where the regression is that of chance.
+/// jackknife). Units that do not count alike tell of a regression on p combinations what G that do would tell: the
+/// share of the variance that is left is (G − 1)/(G − 1 − p) times that of the residuals, as R² is adjusted, and all of
+/// it at most.
 ///
 /// # Source
 /// J.-C. Deville, C.-E. Särndal, J. Am. Stat. Assoc. 87 (1992), 376–382; J. G. `MacKinnon`, H. White, J. Econometrics
@@ -72,11 +69,22 @@ impl Calibration {
         (!directions.is_empty()).then_some(Self { directions, leverage, levered, products })
     }
 
-    /// The share of their variance that is left of the `deviations` of units, with the sum of their squares.
-    pub(crate) fn variance_left(&self, instructions: Instructions, (deviations, squares): (&[f64], f64)) -> f64 {
-        let left = self.squares_left(instructions, deviations) / squares;
+    /// The share of their variance that is left of the `deviations` of units, with the sum of their squares and to how
+    /// many units that count alike they amount.
+    pub(crate) fn variance_left(
+        &self,
+        instructions: Instructions,
+        (deviations, squares): (&[f64], f64),
+        effective_units: f64,
+    ) -> f64 {
+        let freedom = effective_units - 1.0 - self.directions.len() as f64;
+        // that many combinations fit so few units whatever they do
+        if freedom <= 0.0 {
+            return 1.0;
+        }
+        let left = self.squares_left(instructions, deviations) / squares * (effective_units - 1.0) / freedom;
         // of units that do not deviate all is left
-        if left.is_nan() { 1.0 } else { left.clamp(LEAST_LEFT, 1.0) }
+        if left.is_nan() { 1.0 } else { left.min(1.0) }
     }
 
     /// Σ of the squares of what is left of the `deviations` of units.
@@ -166,6 +174,21 @@ mod tests {
         let more = [&calibration[..], &[CALIBRATION[0].map(|own: f64| 980.665 * own).to_vec()]].concat();
         let [one, two] = [&calibration[..], &more].map(|own| left_of(own, &alone(), &DEVIATIONS).unwrap());
         assert!((one - two).abs() < 1e-9 * one, "{one} {two}");
+    }
+
+    // one combination: of 6 units 5/4 of what is left, of 3 twice that, of 2 all
+    #[test]
+    fn few_units_that_count_alike_tell_little_of_what_is_left() {
+        let deviations: [f64; 6] = std::array::from_fn(|unit| 3.0 * CALIBRATION[0][unit] + 0.1 * DEVIATIONS[unit]);
+        let found = Calibration::new(&alone(), &[CALIBRATION[0].to_vec()], 6).unwrap();
+        let squares = dot(&deviations, &deviations);
+        let of_residuals = found.squares_left(Instructions::chosen(), &deviations) / squares;
+        let left = |units: f64| found.variance_left(Instructions::chosen(), (&deviations, squares), units);
+        for (units, times) in [(6.0, 1.25), (3.0, 2.0)] {
+            assert!((left(units) - times * of_residuals).abs() < 1e-15, "{units}: {of_residuals}");
+        }
+        assert_eq!([left(2.0), left(1.2)], [1.0; 2]);
+        assert_eq!(found.variance_left(Instructions::chosen(), (&[0.0; 6], 0.0), 6.0), 1.0);
     }
 
     #[test]

@@ -153,7 +153,7 @@ impl SharedRates {
         let mean = SkewedMean::with_adjustment(self.per_year, moments, (self.units, self.adjustment));
         let mean = if self.is_carried { mean.carried_by(carried) } else { mean };
         let Some(calibration) = &self.calibration else { return mean };
-        let left = calibration.variance_left(self.instructions, (&self.deviations, second));
+        let left = calibration.variance_left(self.instructions, (&self.deviations, second), mean.effective_units);
         SkewedMean { deviation: mean.deviation * left.sqrt(), ..mean }
     }
 }
