@@ -237,16 +237,8 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
                 if rule == Rule::EqualEnergy { " (Eq. 3.14)" } else { "" }
             )?;
         }
-        let infinite = check.capacity_m.is_infinite();
-        rows.push(vec![
-            rule_cell(rule),
-            metres_or_overturns(check.demand_m),
-            format!("{:.4}", check.required_capacity_m),
-            if infinite { "∞".to_owned() } else { format!("{:.4}", check.capacity_m) },
-            if infinite { "-".to_owned() } else { format!("{:+.4}", check.margin_m) },
-            if infinite { "-".to_owned() } else { format!("{:.2}", check.safety_factor) },
-            verdict_word(check.satisfied).to_owned(),
-        ]);
+        let held = [check.required_capacity_m, check.capacity_m, check.margin_m, check.safety_factor];
+        rows.push(check_row(rule_cell(rule), (check.demand_m, held), check.satisfied));
     }
     if rows.is_empty() {
         return Ok(());
@@ -259,16 +251,9 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         let models = report.own_models();
         let of_models = models.filter_map(|of| Some((format!("{} itself", of.model), of.check?, of.demand_m)));
         for (what, own, demand_m) in of_oscillator.into_iter().chain(of_models) {
-            let if_stands = |text: String| if demand_m.is_infinite() { "-".to_owned() } else { text };
-            rows.push(vec![
-                what,
-                metres_or_overturns(demand_m),
-                if_stands(format!("{:.4}", own.required_capacity_m)),
-                format!("{capacity_m:.4}"),
-                if_stands(format!("{:+.4}", capacity_m - own.required_capacity_m)),
-                if_stands(format!("{:.2}", own.safety_factor)),
-                verdict_word(own.satisfied).to_owned(),
-            ]);
+            let margin_m = capacity_m - own.required_capacity_m;
+            let held = [own.required_capacity_m, capacity_m, margin_m, own.safety_factor];
+            rows.push(check_row(what, (demand_m, held), own.satisfied));
         }
     }
     let header = ["by", "demand, m", "required capacity, m", "capacity, m", "margin, m", "safety factor", "verdict"];
@@ -294,9 +279,31 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
     Ok(())
 }
 
+/// A capacity held against a demand, m: what is required, what there is, the margin between them, and the safety
+/// factor. Of what overturns nothing is required, and what has no end has no margin.
+fn check_row(
+    by: String,
+    (demand_m, [required_m, capacity_m, margin_m, factor]): (f64, [f64; 4]),
+    satisfied: bool,
+) -> Vec<String> {
+    let dash = |hidden: bool, shown: String| if hidden { "-".to_owned() } else { shown };
+    let (overturns, endless) = (demand_m.is_infinite(), capacity_m.is_infinite());
+    vec![
+        by,
+        metres_or_overturns(demand_m),
+        dash(overturns, format!("{required_m:.4}")),
+        if endless { "∞".to_owned() } else { format!("{capacity_m:.4}") },
+        dash(overturns || endless, format!("{margin_m:+.4}")),
+        dash(overturns || endless, format!("{factor:.2}")),
+        verdict_word(satisfied).to_owned(),
+    ]
+}
+
 fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) -> Result<(), CommandError> {
     let Some(capacity_m) = report.structure.capacity_m else { return Ok(()) };
     let rounding = exact.sensitivity.as_ref().map(|of| &of.rounding);
+    let (whose, of_oscillator) =
+        if report.own.is_some() { ("risk", "oscillator, ") } else { ("the structure's oscillator", "") };
     let mut rows = Vec::new();
     let mut row = |what: String, risk, rounding: Option<&Noisy>| {
         let mut cells = vec![what];
@@ -308,9 +315,9 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
     };
     if let Some(risk) = &exact.beyond_capacity {
         let rounding = rounding.and_then(|of| of.beyond_capacity_per_year.as_ref());
-        row(format!("u > {capacity_m:.4} m, the capacity"), risk, rounding);
+        row(format!("{of_oscillator}u > {capacity_m:.4} m, the capacity"), risk, rounding);
     }
-    row("overturning".to_owned(), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
+    row(format!("{of_oscillator}overturning"), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
     for model in report.own_models() {
         if let Some(risk) = &model.beyond_capacity {
             row(format!("{} itself, u > capacity", model.model), risk, None);
@@ -318,7 +325,7 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
         row(format!("{} itself, overturning", model.model), &model.overturning, None);
     }
     let in_years = format!("in {} years", report.years);
-    let header = ["the structure's oscillator", "per year", &in_years, "return period, years"];
+    let header = [whose, "per year", &in_years, "return period, years"];
     writeln!(out, "\n{}", Table::new(header, rows))?;
     if let Some(bands) = &exact.bands {
         print_bands(out, exact, bands)?;
