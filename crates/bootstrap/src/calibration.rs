@@ -12,9 +12,10 @@ const NOTHING: f64 = 1e-9;
 /// A rate by weights that are solved anew for every sample deviates less than its units do: what moves the known rates
 /// as well is taken back. What is left is the residual of the deviations after their regression on how the units move
 /// those (Deville and Särndal), over 1 − h with the leverage h of the unit: what the residual is without it (the
-/// jackknife). Units that do not count alike tell of a regression on p combinations what G that do would tell: the
-/// share of the variance that is left is (G − 1)/(G − 1 − p) times that of the residuals, as R² is adjusted, and all of
-/// it at most.
+/// jackknife). Where units do not count alike, G of them that did would tell as much, and a regression on k
+/// combinations leaves these G − 1 − k degrees of freedom: the variance of the residuals is multiplied by
+/// (G − 1)/(G − 1 − k). It is at most that of the deviations. Measured coverage asks for both corrections together
+/// (`make coverage`).
 ///
 /// # Source
 /// J.-C. Deville, C.-E. Särndal, J. Am. Stat. Assoc. 87 (1992), 376–382; J. G. `MacKinnon`, H. White, J. Econometrics
@@ -78,7 +79,7 @@ impl Calibration {
         effective_units: f64,
     ) -> f64 {
         let freedom = effective_units - 1.0 - self.directions.len() as f64;
-        // that many combinations fit so few units whatever they do
+        // so many combinations fit any deviations of so few units
         if freedom <= 0.0 {
             return 1.0;
         }
@@ -176,7 +177,7 @@ mod tests {
         assert!((one - two).abs() < 1e-9 * one, "{one} {two}");
     }
 
-    // one combination: of 6 units 5/4 of what is left, of 3 twice that, of 2 all
+    // one combination: by 6 units 5/4 of the residuals' share, by 3 twice that, by 2 all
     #[test]
     fn few_units_that_count_alike_tell_little_of_what_is_left() {
         let deviations: [f64; 6] = std::array::from_fn(|unit| 3.0 * CALIBRATION[0][unit] + 0.1 * DEVIATIONS[unit]);
