@@ -86,3 +86,32 @@ pub fn at_most_per_year(weights: &StripeWeights, pairs: f64) -> f64 {
     let last = weights.per_year().last().copied().unwrap_or(beyond);
     beyond + share_at_most(pairs) * (last - beyond)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(lower_tail_share: f64, upper_tail_share: f64, share_at_last_level: f64) -> Option<(f64, String)> {
+        let per_year = 1e-5;
+        let risk =
+            EventRisk { per_year, probability: 5e-4, lower_tail_share, upper_tail_share, at_most_per_year: None };
+        let beyond_per_year = upper_tail_share * per_year / share_at_last_level;
+        risk.outside_levels((1.0, 200.0), "cm/s", beyond_per_year, |share| format!("{:.1} %", 100.0 * share))
+    }
+
+    #[test]
+    fn what_a_band_holds_is_not_told() {
+        // a third of the records do it at the last level: with all motions above it the rate would rise by 3 %
+        let of_last = [1.0, 0.35, 0.02].map(|share| told(0.0, 0.016, share).map(|(share, _)| share));
+        assert_eq!(of_last, [None, None, Some(0.016)]);
+        assert_eq!(told(0.08, 0.0, 1.0), None);
+    }
+
+    #[test]
+    fn the_larger_share_says_which_way_the_rate_is_wrong() {
+        let above = "rate too low (30.0 % of the risk lies above the last level, 200 cm/s)".to_owned();
+        assert_eq!(told(0.02, 0.3, 0.5), Some((0.3, above)));
+        let below = "rate too high (50.0 % of the risk lies below the first level, 1 cm/s)".to_owned();
+        assert_eq!(told(0.5, 0.3, 0.5), Some((0.5, below)));
+    }
+}

@@ -148,18 +148,6 @@ mod tests {
     }
 
     #[test]
-    fn what_a_band_holds_is_not_told() {
-        let risk = EventRisk { upper_tail_share: 0.016, ..RISK };
-        let told = |share_at_last_level: f64| {
-            let beyond_per_year = risk.upper_tail_share * risk.per_year / share_at_last_level;
-            own_risk_alarms(&[OwnRisk { beyond_per_year, ..own(risk) }]).len()
-        };
-        // a third of the records overturn at the last level: by all above it the rate would rise by 3 %
-        assert_eq!([1.0, 0.35, 0.02].map(told), [0, 0, 1]);
-        assert_eq!(own_risk_alarms(&[own(EventRisk { lower_tail_share: 0.08, ..RISK })]), []);
-    }
-
-    #[test]
     fn none_of_thirty_is_not_never() {
         let [none] = &own_risk_alarms(&[own(EventRisk { per_year: 0.0, at_most_per_year: Some(2.3e-5), ..RISK })])[..]
         else {

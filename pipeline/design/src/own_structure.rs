@@ -14,10 +14,10 @@ use uplift_study::Structure;
 pub(super) use self::report::OwnQuestion;
 pub use self::report::{OwnModel, OwnReport};
 pub(super) use self::shaking::{OwnLevels, OwnPeaks, falls, in_the_plane_of_records};
-use super::limit::FrameLimit;
-use super::models::block;
-use super::pairs::Pairs;
 use crate::error::DesignError;
+use crate::limit::FrameLimit;
+use crate::models::block;
+use crate::pairs::Pairs;
 
 /// What the models of a frame leave out.
 pub(super) fn what_frames_leave_out(structure: &Structure) -> String {

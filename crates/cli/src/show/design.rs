@@ -279,22 +279,22 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
     Ok(())
 }
 
-/// A capacity held against a demand, m: what is required, what there is, the margin between them, and the safety
-/// factor. Of what overturns nothing is required, and what has no end has no margin.
+/// A capacity held against a demand, m: the required one, the structure's, the margin between them and the safety
+/// factor. No capacity is enough for what overturns, and an infinite one leaves no margin to tell.
 fn check_row(
     by: String,
     (demand_m, [required_m, capacity_m, margin_m, factor]): (f64, [f64; 4]),
     satisfied: bool,
 ) -> Vec<String> {
     let dash = |hidden: bool, shown: String| if hidden { "-".to_owned() } else { shown };
-    let (overturns, endless) = (demand_m.is_infinite(), capacity_m.is_infinite());
+    let (overturns, infinite) = (demand_m.is_infinite(), capacity_m.is_infinite());
     vec![
         by,
         metres_or_overturns(demand_m),
         dash(overturns, format!("{required_m:.4}")),
-        if endless { "∞".to_owned() } else { format!("{capacity_m:.4}") },
-        dash(overturns || endless, format!("{margin_m:+.4}")),
-        dash(overturns || endless, format!("{factor:.2}")),
+        if infinite { "∞".to_owned() } else { format!("{capacity_m:.4}") },
+        dash(overturns || infinite, format!("{margin_m:+.4}")),
+        dash(overturns || infinite, format!("{factor:.2}")),
         verdict_word(satisfied).to_owned(),
     ]
 }
@@ -302,8 +302,7 @@ fn check_row(
 fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) -> Result<(), CommandError> {
     let Some(capacity_m) = report.structure.capacity_m else { return Ok(()) };
     let rounding = exact.sensitivity.as_ref().map(|of| &of.rounding);
-    let (whose, of_oscillator) =
-        if report.own.is_some() { ("risk", "oscillator, ") } else { ("the structure's oscillator", "") };
+    let beyond = |whose: &str| format!("{whose}, u > {capacity_m:.4} m, the capacity");
     let mut rows = Vec::new();
     let mut row = |what: String, risk, rounding: Option<&Noisy>| {
         let mut cells = vec![what];
@@ -315,17 +314,17 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
     };
     if let Some(risk) = &exact.beyond_capacity {
         let rounding = rounding.and_then(|of| of.beyond_capacity_per_year.as_ref());
-        row(format!("{of_oscillator}u > {capacity_m:.4} m, the capacity"), risk, rounding);
+        row(beyond("oscillator"), risk, rounding);
     }
-    row(format!("{of_oscillator}overturning"), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
+    row("oscillator, overturning".to_owned(), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
     for model in report.own_models() {
         if let Some(risk) = &model.beyond_capacity {
-            row(format!("{} itself, u > capacity", model.model), risk, None);
+            row(beyond(&format!("{} itself", model.model)), risk, None);
         }
         row(format!("{} itself, overturning", model.model), &model.overturning, None);
     }
     let in_years = format!("in {} years", report.years);
-    let header = [whose, "per year", &in_years, "return period, years"];
+    let header = ["risk", "per year", &in_years, "return period, years"];
     writeln!(out, "\n{}", Table::new(header, rows))?;
     if let Some(bands) = &exact.bands {
         print_bands(out, exact, bands)?;
@@ -343,7 +342,11 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
 
 /// How sure demand and risks are, a sentence each.
 fn print_bands(out: &mut impl Write, exact: &ExactDemand, bands: &DemandBands) -> Result<(), CommandError> {
-    writeln!(out, "\nWith 90 % confidence, by all records like these {} (docs/method.md, section 9):", bands.records)?;
+    writeln!(
+        out,
+        "\nThe oscillator with 90 % confidence, by all records like these {} (docs/method.md, section 9):",
+        bands.records
+    )?;
     let limits = |[lower, upper]: [f64; 2], shown: fn(f64) -> String| format!("{} to {}", shown(lower), shown(upper));
     let of = |what: &str, of: Option<Bands>, shown: fn(f64) -> String, unit: &str| {
         let [own, by_event, with_hazard] = of?.each();

@@ -28,14 +28,20 @@ pub(super) fn print_verdicts(
         let is_unsafe = unsafe_upper_limits.iter().any(|(of, _)| *of == whose);
         if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
     };
+    // what the oscillator needs, so that the first line says by how much the two differ
+    let by_oscillator =
+        report.own_check.map(|check| check.required_capacity_m).filter(|required_m| required_m.is_finite());
     let answer = match (own.check, report.capacity_words()) {
         (Some(check), Some(capacity)) if check.required_capacity_m.is_finite() => {
             let (verdict, required_m) = (verdict(own.model, check.satisfied), check.required_capacity_m);
-            format!("{verdict}: {} requires {required_m:.2} m, {capacity}", own.model)
+            let oscillator = by_oscillator.map_or_else(String::new, |m| format!(", its {OSCILLATOR} {m:.2} m"));
+            format!("{verdict}: {} requires {required_m:.2} m{oscillator}; {capacity}", own.model)
         }
         (Some(check), Some(capacity)) => {
             let verdict = verdict_word(check.satisfied);
-            format!("{verdict}: {} overturns more often than the target, {capacity}", own.model)
+            let oscillator =
+                by_oscillator.map_or_else(String::new, |m| format!(", its {OSCILLATOR} requires {m:.2} m"));
+            format!("{verdict}: {} overturns more often than the target{oscillator}; {capacity}", own.model)
         }
         _ => format!("{NO_CAPACITY}: {NO_CAPACITY_REASON}"),
     };
@@ -124,11 +130,13 @@ pub(super) fn print_unread(out: &mut impl Write, report: &DesignReport) -> Resul
     Ok(report.unread.iter().try_for_each(|why| writeln!(out, "          {why}"))?)
 }
 
-/// The verdict on the proxy, and how far the structure itself moves beside it.
+/// The verdict on the proxy; where the first line does not tell what both need, how far the structure itself moves
+/// beside it.
 fn print_proxy(out: &mut impl Write, report: &DesignReport, itself: &OwnReport) -> Result<(), CommandError> {
     let (by, demand_m, noun) = (report.spectrum_words(), itself.decisive().demand_m, itself.noun());
     let of_proxy = report.verdict_on_proxy().map(|verdict| format!("{OSCILLATOR} by {by}: {verdict}"));
     let how_far = match report.own_over_proxy() {
+        Some(_) if report.own_check.is_some() => None,
         Some(ratio) => Some(format!("{noun} moves {ratio:.1} times as far")),
         None if demand_m.is_infinite() => None,
         None if demand_m == 0.0 => Some(format!("the {noun} does not uplift")),
