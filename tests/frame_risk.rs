@@ -155,7 +155,10 @@ fn a_design_has_the_frame_beside_its_proxy() {
     assert!(rest.contains("\n‡ rises with capacity\n") && !rest.contains('†'), "{rest}");
     let settings = design["own_oscillator"].as_str().unwrap();
     let command = format!("run study.toml {settings} -o r-free.h5");
-    assert!(rest.contains(&format!("          own oscillator's spectrum: uplift {command}\n")), "{rest}");
+    assert!(rest.contains("\nAssumed   uplift displacement 0.5 mm: not in the structure file\n"), "{rest}");
+    let details = ["design", "free.toml", "--urs", "r.h5", "--site", "Here", "--details"];
+    let details = study.uplift(&details).ok().stdout;
+    assert!(details.contains(&format!("          own oscillator's spectrum: uplift {command}\n")), "{details}");
     study.uplift(&command.split(' ').collect::<Vec<_>>()).ok();
     let own = ["design", "free.toml", "--urs", "r-free.h5", "--site", "Here", "--spectrum-only", "--json"];
     assert_eq!(study.uplift(&own).json()["other_oscillator"], false);
@@ -711,6 +714,26 @@ fn a_structure_that_does_not_uplift_is_said_to() {
         assert_eq!(said.matches("does not uplift at this risk").count(), 1, "{said}");
         assert!(command == "design" || said.starts_with("Demand       0 m (0 to 0) on "), "{said}");
         assert!(!said.contains("(error"), "of nothing: {said}");
+    }
+}
+
+/// So is one that yields below the required capacity, which the capacity of elastic tendons satisfies.
+#[test]
+fn a_required_capacity_beyond_the_yield_of_a_tendon_is_mentioned() {
+    let study = SmallStudy::new();
+    study.uplift(&["run", "study.toml", "-o", "r.h5", "-q"]).ok();
+    let footbridge = std::fs::read_to_string(repository().join("configs/structures/footbridge.toml")).unwrap();
+    let elastic = footbridge.lines().filter(|line| !line.starts_with("tendon_yield")).collect::<Vec<_>>().join("\n");
+    for (yield_n, is_told) in [("2e5", true), ("4e6", false)] {
+        study.write("bridge.toml", &format!("{elastic}\ntendon_yield_n = {yield_n}\n"));
+        let asked = "design bridge.toml --urs r.h5 --site Here --proxy --poe 0.1 --safety-factor 12";
+        let asked: Vec<&str> = asked.split(' ').collect();
+        let design = study.uplift(&[&asked[..], &["--json", "-q"]].concat()).json();
+        assert_eq!(design["own_check"]["satisfied"], true);
+        let required = number(&design["own_check"]["required_capacity_m"]);
+        let words = format!("          the required {required:.2} m are beyond the tendon yield at 0.4");
+        let said = study.uplift(&asked).ok().stdout;
+        assert_eq!(said.contains(&words), is_told, "{yield_n}: {words}\n{said}");
     }
 }
 

@@ -35,7 +35,7 @@ use super::risk::{at_place, own_risk};
 use super::rules::{MeasureVerdict, OwnCheck, RuleDemands, apply_rules, verdicts_by_curve};
 use super::spectrum::SpectrumDemand;
 use crate::error::DesignError;
-use analysis::{DesignAnalysis, OwnAnalysis, Question, is_judged_as_block};
+use analysis::{DesignAnalysis, OwnAnalysis, Question};
 pub use options::DesignOptions;
 pub use report::DesignReport;
 pub(super) use words::without_uncertainty;
@@ -143,7 +143,7 @@ pub fn design(
         spectrum,
         exact,
         own_check,
-        by_proxy: (wobbles || is_judged_as_block(structure)) && itself.is_none(),
+        by_proxy: OwnStructure::has_model(structure) && itself.is_none(),
         own: itself,
         without_own,
         uncertainty,

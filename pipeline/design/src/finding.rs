@@ -100,7 +100,11 @@ impl DesignReport {
     /// # Errors
     /// None for the reports of this program.
     pub fn finding(&self, structure: &Structure) -> Result<Finding, DesignError> {
-        let analysed = if self.exact.is_some() { "its own analysis" } else { "the spectrum alone" };
+        let analysed = match (&self.own, &self.exact) {
+            (Some(_), _) => "its own analysis",
+            (None, Some(_)) => "its oscillator",
+            (None, None) => "the spectrum alone",
+        };
         let request = vec![
             ("site", self.site.clone()),
             ("measure", self.spectrum_words()),

@@ -84,6 +84,11 @@ impl OwnStructure {
         frame.is_some_and(|frame| frame.shape() == ColumnShape::Cylinder)
     }
 
+    /// Whether a model of it is analysed by some command beside its oscillator.
+    pub(super) fn has_model(structure: &Structure) -> bool {
+        structure.block.is_some() || structure.rocking_frame().is_some()
+    }
+
     /// Whether it is one that can be shaken to the end: flat springs that stop the columns end its motion.
     pub(super) fn can_be_shaken(structure: &Structure) -> bool {
         let stops = |columns: &RestrainedColumns| columns.restrainer().is_some_and(|held| held.limit_m().is_some());

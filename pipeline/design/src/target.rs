@@ -128,7 +128,7 @@ pub fn target(
     let judge = Judge { structure, options, place, of_records, target_per_year, years };
     let (own, falls) = judge.judge(&mut trials, [safe_value, value], range)?;
     notes.extend(own.as_ref().filter(|_| wobbles).map(|_| what_frames_leave_out(structure)));
-    let by_proxy = (wobbles || structure.block.is_some()) && own.is_none();
+    let by_proxy = OwnStructure::has_model(structure) && own.is_none();
     notes.extend(assumptions(&file, by_proxy));
     notes.extend(trials.without_uncertainty(&source));
     let at_return_periods = trials.at_return_periods(found, curve.as_ref(), &mut notes)?;
@@ -256,7 +256,13 @@ fn alarms_of_answer(structure: &Structure, quantity: Quantity, value: f64) -> Ve
     let before = structure_alarms(structure);
     let found = if value.is_finite() { structure.varied(quantity, value).ok().flatten() } else { None };
     let of_found = found.map_or_else(Vec::new, |found| structure_alarms(&found));
-    of_found.into_iter().filter(|alarm: &Alarm| before.iter().all(|own| own.kind != alarm.kind)).collect()
+    let is_new = |alarm: &Alarm| before.iter().all(|own| own.kind != alarm.kind);
+    // the file's own value is sound
+    let at_value = |alarm: Alarm| {
+        let subject = format!("{} with {} {} {}", alarm.subject, quantity.key(), rounded(value, 4), quantity.unit());
+        Alarm { subject, ..alarm }
+    };
+    of_found.into_iter().filter(is_new).map(at_value).collect()
 }
 
 /// What a search has tried.

@@ -5,7 +5,8 @@ mod own;
 use std::io::Write;
 
 use uplift::structure::{
-    Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome, Sensitivity, verdict_word,
+    Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, OSCILLATOR, RuleCheck, RuleOutcome, Sensitivity,
+    verdict_word,
 };
 use uplift::text::{
     self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short, two_digits,
@@ -135,6 +136,9 @@ fn print_details(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         text::rate(report.target_per_year)
     )?;
     writeln!(out, "           {}, {}", shown_path(&report.source.result).display(), report.source.record_set)?;
+    if report.own.is_some() {
+        print_own_spectrum(out, report)?;
+    }
     print_notes(out, &report.notes)?;
     print_demands(out, report)?;
     print_rules(out, report)?;
@@ -238,22 +242,26 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
             )?;
         }
         let held = [check.required_capacity_m, check.capacity_m, check.margin_m, check.safety_factor];
-        rows.push(check_row(rule_cell(rule), (check.demand_m, held), check.satisfied));
+        rows.push(check_row(rule_cell(rule), (check.demand_m, held), verdict_word(check.satisfied).to_owned()));
     }
     if rows.is_empty() {
         return Ok(());
     }
     if let Some(capacity_m) = report.structure.capacity_m {
         let of_oscillator = report.own_check.zip(report.exact.as_ref()).map(|(own, exact)| {
-            let what = if report.own.is_some() { "the oscillator's own demand" } else { "its own demand" };
-            (what.to_owned(), own, exact.demand_m)
+            let (what, model) = match report.own {
+                Some(_) => ("the oscillator's own demand", OSCILLATOR),
+                None => ("its own demand", "own demand"),
+            };
+            ((what.to_owned(), model), own, exact.demand_m)
         });
         let models = report.own_models();
-        let of_models = models.filter_map(|of| Some((format!("{} itself", of.model), of.check?, of.demand_m)));
-        for (what, own, demand_m) in of_oscillator.into_iter().chain(of_models) {
+        let of_models =
+            models.filter_map(|of| Some(((format!("{} itself", of.model), of.model), of.check?, of.demand_m)));
+        for ((what, model), own, demand_m) in of_oscillator.into_iter().chain(of_models) {
             let margin_m = capacity_m - own.required_capacity_m;
             let held = [own.required_capacity_m, capacity_m, margin_m, own.safety_factor];
-            rows.push(check_row(what, (demand_m, held), own.satisfied));
+            rows.push(check_row(what, (demand_m, held), report.verdict_by(model, own.satisfied)));
         }
     }
     let header = ["by", "demand, m", "required capacity, m", "capacity, m", "margin, m", "safety factor", "verdict"];
@@ -284,7 +292,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
 fn check_row(
     by: String,
     (demand_m, [required_m, capacity_m, margin_m, factor]): (f64, [f64; 4]),
-    satisfied: bool,
+    verdict: String,
 ) -> Vec<String> {
     let dash = |hidden: bool, shown: String| if hidden { "-".to_owned() } else { shown };
     let (overturns, infinite) = (demand_m.is_infinite(), capacity_m.is_infinite());
@@ -295,7 +303,7 @@ fn check_row(
         if infinite { "∞".to_owned() } else { format!("{capacity_m:.4}") },
         dash(overturns || infinite, format!("{margin_m:+.4}")),
         dash(overturns || infinite, format!("{factor:.2}")),
-        verdict_word(satisfied).to_owned(),
+        verdict,
     ]
 }
 

@@ -98,7 +98,9 @@ pub(super) fn spectra(source: &FigureSource) -> Vec<Figure> {
                 let by = band_of.words();
                 let size = bands.sizes[bands.place_of_set(source.stored.records.len())];
                 if own.inferred.is_some() {
-                    format!(" Areas: {confidence} confidence bands{by}, from {size} records.")
+                    let records = source.stored.records.len();
+                    let of = if usize::try_from(size) == Ok(records) { "from" } else { "as of sets of" };
+                    format!(" Areas: {confidence} confidence bands{by}, {of} {size} records.")
                 } else {
                     format!(" Areas: {confidence} of the spectra of {}, {size} records in each.", bands.drawn_words())
                 }

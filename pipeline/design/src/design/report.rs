@@ -41,7 +41,7 @@ pub struct DesignReport {
     pub exact: Option<ExactDemand>,
     /// Whether its capacity is at least the safety factor times that demand; none without a capacity.
     pub own_check: Option<OwnCheck>,
-    /// Whether a frame that can wobble, or a block, is judged by its oscillator alone.
+    /// Whether it is judged by its oscillator alone, though a frame or block models it itself.
     pub by_proxy: bool,
     /// What a frame that can wobble, or a block, says itself; none by its proxy, and without an analysis.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -101,9 +101,16 @@ impl DesignReport {
         all.filter_map(|(whose, check, bands)| Some((whose, self.unsafe_upper_limit(check?, bands?)?))).collect()
     }
 
-    /// That the upper limit of the demand, on the structure itself where it is analysed, is beyond the yield of the
-    /// tendons: `the demand's band reaches 0.50 m, beyond the tendon yield at 0.42 m`. None where the demand is not
-    /// satisfied anyway.
+    /// The verdict on the demand by a model, or by the oscillator: `satisfied, not at the upper limit`.
+    pub fn verdict_by(&self, model: &str, satisfied: bool) -> String {
+        let word = verdict_word(satisfied);
+        let is_unsafe = self.unsafe_upper_limits().iter().any(|(whose, _)| *whose == model);
+        if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
+    }
+
+    /// What of the verdict, on the structure itself where it is analysed, lies beyond the yield of the tendons: the
+    /// upper limit of the demand, `the demand's band reaches 0.50 m, beyond the tendon yield at 0.42 m`, or else the
+    /// required capacity. None where the demand is not satisfied anyway.
     pub fn beyond_tendon(&self) -> Option<String> {
         let limit = self.structure.tendon_limit?;
         let (check, bands) = match &self.own {
@@ -113,10 +120,21 @@ impl DesignReport {
         if check.is_some_and(|check| !check.satisfied) {
             return None;
         }
-        let [_, upper_m] = bands?.demand_m.quoted();
-        let reached = if upper_m.is_finite() { format!("{} m", two_digits(upper_m)) } else { "overturning".to_owned() };
-        let is_beyond = upper_m > limit.displacement_m;
-        is_beyond.then(|| format!("the demand's band reaches {reached}, beyond the {}", limit.in_words()))
+        let metres = |value_m: f64| {
+            if value_m.is_finite() { format!("{} m", two_digits(value_m)) } else { "overturning".to_owned() }
+        };
+        let upper_m = bands.map(|bands| bands.demand_m.quoted()[1]);
+        if let Some(upper_m) = upper_m.filter(|&upper_m| upper_m > limit.displacement_m) {
+            return Some(format!("the demand's band reaches {}, beyond the {}", metres(upper_m), limit.in_words()));
+        }
+        let required_m = check?.required_capacity_m;
+        (required_m > limit.displacement_m).then(|| {
+            format!(
+                "the required {} are beyond the {}: the capacity takes tendons as elastic",
+                metres(required_m),
+                limit.in_words()
+            )
+        })
     }
 
     fn unsafe_upper_limit(&self, check: OwnCheck, bands: &DemandBands) -> Option<String> {

@@ -41,7 +41,7 @@ pub struct TargetReport {
     pub own_value: Option<f64>,
     /// What must not happen more often: `overturning`, or which displacement is exceeded.
     pub event: String,
-    /// Whether it is a frame that can wobble or a block, and all numbers are those of its proxy, the oscillator.
+    /// Whether all numbers are those of its oscillator, though a frame or block models it itself.
     pub by_proxy: bool,
     /// What the structure itself says, a frame that can wobble or a block; none of any other, and by its proxy.
     #[serde(skip_serializing_if = "Option::is_none")]

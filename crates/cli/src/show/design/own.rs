@@ -22,18 +22,12 @@ pub(super) fn print_verdicts(
 ) -> Result<(), CommandError> {
     let (name, by) = (&report.structure.name, report.spectrum_words());
     let (own, noun) = (itself.decisive(), itself.noun());
-    let unsafe_upper_limits = report.unsafe_upper_limits();
-    let verdict = |whose: &str, is_satisfied: bool| {
-        let word = verdict_word(is_satisfied);
-        let is_unsafe = unsafe_upper_limits.iter().any(|(of, _)| *of == whose);
-        if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
-    };
     // what the oscillator needs, so that the first line says by how much the two differ
     let by_oscillator =
         report.own_check.map(|check| check.required_capacity_m).filter(|required_m| required_m.is_finite());
     let answer = match (own.check, report.capacity_words()) {
         (Some(check), Some(capacity)) if check.required_capacity_m.is_finite() => {
-            let (verdict, required_m) = (verdict(own.model, check.satisfied), check.required_capacity_m);
+            let (verdict, required_m) = (report.verdict_by(own.model, check.satisfied), check.required_capacity_m);
             let oscillator = by_oscillator.map_or_else(String::new, |m| format!(", its {OSCILLATOR} {m:.2} m"));
             format!("{verdict}: {} requires {required_m:.2} m{oscillator}; {capacity}", own.model)
         }
@@ -54,7 +48,9 @@ pub(super) fn print_verdicts(
     for (im, verdict) in report.verdicts_by_other_measures() {
         writeln!(out, "          {verdict}; {noun}: {}", measure_option(im))?;
     }
-    print_own_spectrum(out, report)?;
+    if !report.assumed.is_empty() {
+        writeln!(out, "Assumed   {}: not in the structure file", report.assumed.join(", "))?;
+    }
     let dash = || "-".to_owned();
     let limit = itself.governing_limit();
     // where passing the limit tells how often the structure fails, that and not overturning
@@ -85,7 +81,7 @@ pub(super) fn print_verdicts(
             model(of.model, Some(of.restitution)),
             demand(of.demand_m, bands),
             of.check.map_or_else(dash, |check| required(check.required_capacity_m)),
-            of.check.map_or_else(dash, |check| verdict(of.model, check.satisfied)),
+            of.check.map_or_else(dash, |check| report.verdict_by(of.model, check.satisfied)),
             risk(of.beyond_limit, &of.overturning, bands),
         ]);
     }
@@ -95,7 +91,7 @@ pub(super) fn print_verdicts(
             model(OSCILLATOR, report.structure.restitution),
             demand(exact.demand_m, bands),
             report.own_check.map_or_else(dash, |check| required(check.required_capacity_m)),
-            report.own_check.map_or_else(dash, |check| verdict(OSCILLATOR, check.satisfied)),
+            report.own_check.map_or_else(dash, |check| report.verdict_by(OSCILLATOR, check.satisfied)),
             risk(itself.proxy_beyond_limit, &exact.overturning, bands),
         ]);
     }
