@@ -5,8 +5,7 @@ mod own;
 use std::io::Write;
 
 use uplift::structure::{
-    Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, OSCILLATOR, RuleCheck, RuleOutcome, Sensitivity,
-    verdict_word,
+    Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome, Sensitivity, verdict_word,
 };
 use uplift::text::{
     self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short, two_digits,
@@ -249,11 +248,8 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
     }
     if let Some(capacity_m) = report.structure.capacity_m {
         let of_oscillator = report.own_check.zip(report.exact.as_ref()).map(|(own, exact)| {
-            let (what, model) = match report.own {
-                Some(_) => ("the oscillator's own demand", OSCILLATOR),
-                None => ("its own demand", "own demand"),
-            };
-            ((what.to_owned(), model), own, exact.demand_m)
+            let what = if report.own.is_some() { "the oscillator's own demand" } else { "its own demand" };
+            ((what.to_owned(), report.of_oscillator()), own, exact.demand_m)
         });
         let models = report.own_models();
         let of_models =
@@ -352,7 +348,7 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
 fn print_bands(out: &mut impl Write, exact: &ExactDemand, bands: &DemandBands) -> Result<(), CommandError> {
     writeln!(
         out,
-        "\nThe oscillator with 90 % confidence, by all records like these {} (docs/method.md, section 9):",
+        "\nBands of the oscillator, with 90 % confidence by all records like these {} (docs/method.md, section 9):",
         bands.records
     )?;
     let limits = |[lower, upper]: [f64; 2], shown: fn(f64) -> String| format!("{} to {}", shown(lower), shown(upper));

@@ -93,15 +93,20 @@ impl DesignReport {
     /// Whose demand is satisfied, and is not at the upper limit of its band, with `not satisfied at the upper limit of
     /// the demand's band, 0.50 m (requires 1.25 m)`.
     pub fn unsafe_upper_limits(&self) -> Vec<(&'static str, String)> {
-        let oscillator = if self.own.is_some() { OSCILLATOR } else { "own demand" };
         let itself = self.own_models();
         let all = itself
             .map(|of| (of.model, of.check, of.bands.as_ref()))
-            .chain(self.exact.iter().map(|exact| (oscillator, self.own_check, exact.bands.as_ref())));
+            .chain(self.exact.iter().map(|exact| (self.of_oscillator(), self.own_check, exact.bands.as_ref())));
         all.filter_map(|(whose, check, bands)| Some((whose, self.unsafe_upper_limit(check?, bands?)?))).collect()
     }
 
-    /// The verdict on the demand by a model, or by the oscillator: `satisfied, not at the upper limit`.
+    /// By what the oscillator's demand goes in verdicts: its name beside the structure itself.
+    pub fn of_oscillator(&self) -> &'static str {
+        if self.own.is_some() { OSCILLATOR } else { "own demand" }
+    }
+
+    /// The verdict on the demand by a model, or [of the oscillator](Self::of_oscillator): `satisfied, not at the upper
+    /// limit`.
     pub fn verdict_by(&self, model: &str, satisfied: bool) -> String {
         let word = verdict_word(satisfied);
         let is_unsafe = self.unsafe_upper_limits().iter().any(|(whose, _)| *whose == model);
