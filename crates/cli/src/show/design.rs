@@ -13,7 +13,7 @@ use uplift::text::{
 use uplift_spectra::Noisy;
 use uplift_structure::{NO_CAPACITY, NO_CAPACITY_REASON, Rule};
 
-use self::own::{print_mark, print_own_spectrum, print_unread, print_verdicts, rule_cell};
+use self::own::{print_assumed, print_mark, print_own_spectrum, print_unread, print_verdicts, rule_cell};
 use super::alarms::{is_doubted, print_in_parts};
 use super::shown_path;
 use super::structure::{
@@ -80,9 +80,7 @@ fn print_verdict(out: &mut impl Write, report: &DesignReport) -> Result<(), Comm
         writeln!(out, "          {difference}")?;
     }
     print_own_spectrum(out, report)?;
-    if !report.assumed.is_empty() {
-        writeln!(out, "Assumed   {}: not in the structure file", report.assumed.join(", "))?;
-    }
+    print_assumed(out, report)?;
     if let Some(exact) = &report.exact {
         let bands = exact.bands.as_ref();
         let by_whom = bands.map_or("", |bands| bands.demand_m.by_whom());

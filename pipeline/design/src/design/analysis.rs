@@ -158,18 +158,13 @@ impl<'a> DesignAnalysis<'a> {
     }
 }
 
-/// Whether a structure that is no frame on cylinders is shaken itself.
-pub(super) fn is_judged_as_block(structure: &Structure) -> bool {
-    structure.description.kind == Kind::Block
-}
-
 /// The structure itself, where it is to be shaken: a frame by its `pairs`; or why a block is left out.
 fn itself(
     structure: &Structure,
     pairs: Option<Pairs>,
     options: &DesignOptions,
 ) -> Result<Result<OwnStructure, Option<String>>, DesignError> {
-    if pairs.is_none() && (options.proxy || !is_judged_as_block(structure)) {
+    if pairs.is_none() && (options.proxy || structure.description.kind != Kind::Block) {
         return Ok(Err(None));
     }
     Ok(OwnStructure::from_structure(structure, pairs)?.map_err(Some))

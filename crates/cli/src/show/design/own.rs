@@ -23,18 +23,18 @@ pub(super) fn print_verdicts(
     let (name, by) = (&report.structure.name, report.spectrum_words());
     let (own, noun) = (itself.decisive(), itself.noun());
     // what the oscillator needs, so that the first line says by how much the two differ
-    let by_oscillator =
-        report.own_check.map(|check| check.required_capacity_m).filter(|required_m| required_m.is_finite());
+    let of_oscillator = |verb: &str| match report.own_check.map(|check| check.required_capacity_m) {
+        Some(required_m) if required_m.is_finite() => format!(", its {OSCILLATOR} {verb}{required_m:.2} m"),
+        _ => String::new(),
+    };
     let answer = match (own.check, report.capacity_words()) {
         (Some(check), Some(capacity)) if check.required_capacity_m.is_finite() => {
             let (verdict, required_m) = (report.verdict_by(own.model, check.satisfied), check.required_capacity_m);
-            let oscillator = by_oscillator.map_or_else(String::new, |m| format!(", its {OSCILLATOR} {m:.2} m"));
-            format!("{verdict}: {} requires {required_m:.2} m{oscillator}; {capacity}", own.model)
+            format!("{verdict}: {} requires {required_m:.2} m{}; {capacity}", own.model, of_oscillator(""))
         }
         (Some(check), Some(capacity)) => {
             let verdict = verdict_word(check.satisfied);
-            let oscillator =
-                by_oscillator.map_or_else(String::new, |m| format!(", its {OSCILLATOR} requires {m:.2} m"));
+            let oscillator = of_oscillator("requires ");
             format!("{verdict}: {} overturns more often than the target{oscillator}; {capacity}", own.model)
         }
         _ => format!("{NO_CAPACITY}: {NO_CAPACITY_REASON}"),
@@ -48,9 +48,7 @@ pub(super) fn print_verdicts(
     for (im, verdict) in report.verdicts_by_other_measures() {
         writeln!(out, "          {verdict}; {noun}: {}", measure_option(im))?;
     }
-    if !report.assumed.is_empty() {
-        writeln!(out, "Assumed   {}: not in the structure file", report.assumed.join(", "))?;
-    }
+    print_assumed(out, report)?;
     let dash = || "-".to_owned();
     let limit = itself.governing_limit();
     // where passing the limit tells how often the structure fails, that and not overturning
@@ -119,6 +117,14 @@ pub(super) fn print_verdicts(
     }
     print_by_earthquake(out, &table)?;
     print_mark(out, report)
+}
+
+/// What the structure file does not have, and was assumed.
+pub(super) fn print_assumed(out: &mut impl Write, report: &DesignReport) -> Result<(), CommandError> {
+    if !report.assumed.is_empty() {
+        writeln!(out, "Assumed   {}: not in the structure file", report.assumed.join(", "))?;
+    }
+    Ok(())
 }
 
 /// Why the spectrum has no value for the structure, where it has none.
