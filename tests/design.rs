@@ -279,6 +279,10 @@ fn limits_of_size() {
     assert_eq!(tiny["rules"][0]["from_spectrum"]["satisfied"], false);
     let tiny = ["design", "tiny.toml", "--urs", "r.h5"];
     let shown = study.uplift(&tiny).ok().stdout;
+    let verdict =
+        "Verdict   tiny by PGV: NOT satisfied: equivalent block overturns more often than the target; capacity";
+    assert!(shown.starts_with(verdict), "{shown}");
+    let shown = study.uplift(&[&tiny[..], &["--proxy"]].concat()).ok().stdout;
     let verdict = "Verdict   tiny, by its oscillator alone, capacity 0.01 m: NOT satisfied";
     for words in [verdict, "Demand    overturns on the equivalent", "synthetic"] {
         assert!(shown.contains(words), "{words}: {shown}");

@@ -257,6 +257,61 @@ fn a_design_has_the_block_beside_its_proxy() {
     assert_eq!(here("design", &["--shards", files[0], files[1]])["own"], design["own"]);
 }
 
+/// A frame that does not wobble is judged in its plane, and what rotates as a block by that block: by every command
+/// with the numbers of `risk`.
+#[test]
+fn what_does_not_wobble_is_judged_itself() {
+    let study = study(STUDY);
+    let ask = |command: &str, more: &[&str]| {
+        json(&study, &[&[command, "own.toml", "--site", "Here", "--no-keep"], more].concat())
+    };
+    let of_model = |overturning: &Value, model: &str| {
+        let all = overturning["overturning"].as_array().unwrap();
+        all.iter().find(|of| of["model"] == model).map(|of| of["sites"][0].clone()).unwrap()
+    };
+    let square = FRAME.replace("column_shape = \"cylinder\"\n", "");
+    let free = square.split("[restrainer]").next().unwrap().replace("restrained-frame", "frame");
+    for (text, model, in_overturning) in
+        [(&square, "planar frame", "planar frame"), (&free, "equivalent block", "block")]
+    {
+        study.write("own.toml", text);
+        let (design, risk) = (ask("design", &[]), ask("risk", &[]));
+        let [own] = &design["own"]["models"].as_array().unwrap()[..] else { panic!("{design}") };
+        assert_eq!((&own["model"], &design["by_proxy"]), (&model.into(), &false.into()));
+        let (demand, of_risk) = (number(&own["demand_m"]), number(&row(&risk, "planar frame")["demand_m"]["value"]));
+        // a block by another solver, a frame to the bit
+        let tolerance = if model == "planar frame" { 0.0 } else { 1e-6 };
+        assert!((demand - of_risk).abs() <= tolerance * of_risk, "{demand} {of_risk}");
+        assert_eq!(own["overturning"]["per_year"], risk["overturning"]["per_year"]);
+        let site = of_model(&ask("overturning", &[]), in_overturning);
+        assert_eq!(own["overturning"]["per_year"], site["per_year"]);
+        assert_eq!(own["bands"]["overturning_per_year"], site["bands"]);
+
+        let said = study.uplift(&["design", "own.toml", "--urs", "r.h5", "--site", "Here", "--no-keep"]).ok().stdout;
+        let [required, of_oscillator] = [own, &design["own_check"]]
+            .map(|of| number(of.get("check").unwrap_or(of).get("required_capacity_m").unwrap()));
+        let needs = format!("{model} requires {required:.2} m, its oscillator {of_oscillator:.2} m; capacity ");
+        assert!(said.lines().next().unwrap().contains(&needs), "{said}");
+        assert!(said.contains(&format!("\n{model}, restitution 0.900 ")), "{said}");
+
+        // what a target needs has the rate of `overturning`, at every width
+        let target = ask("target", &["--vary", "width", "--overturning", "1e-4", "--tolerance", "0.05"]);
+        assert_eq!(target["own"]["models"][0]["model"], model);
+        for tried in target["own"]["tried"].as_array().unwrap() {
+            study.write("own.toml", &text.replace("width_m = 1\n", &format!("width_m = {}\n", tried["value"])));
+            let site = of_model(&ask("overturning", &[]), in_overturning);
+            assert_eq!(tried["per_year"], site["per_year"], "{tried}");
+        }
+    }
+    // two shards give the same answer
+    study.write("own.toml", &square);
+    for part in ["1/2", "2/2"] {
+        study.uplift(&["design", "own.toml", "--urs", "r.h5", "--site", "Here", "--shard", part, "-q"]).ok();
+    }
+    let files = ["r.h5.design-own.shard-1-of-2", "r.h5.design-own.shard-2-of-2"];
+    assert_eq!(ask("design", &["--shards", files[0], files[1]])["own"], ask("design", &[])["own"]);
+}
+
 /// The first line is the verdict on the block, the second that on its oscillator, on the terminal and the sheet.
 #[test]
 fn a_design_says_first_what_the_block_needs() {

@@ -270,8 +270,9 @@ fn it_is_reported_in_sentences_and_refused_in_words() {
     let [mean, lower, upper] =
         [&of["by_structure"]["mean"], &of["by_all"]["percentiles"][0], &of["by_all"]["percentiles"][4]]
             .map(|value| value.as_f64().unwrap());
-    let short =
-        format!("Uncertain overturning, Here, PGA: {mean:.1e} per year (90 % band {lower:.1e} to {upper:.1e})\n");
+    let short = format!(
+        "Uncertain oscillator, overturning, Here, PGA: {mean:.1e} per year (90 % band {lower:.1e} to {upper:.1e})\n"
+    );
     assert!(answer.contains(&short), "{short}{answer}");
     for words in [
         "Uncertain structure (epistemic, every structure a branch): 64 structures, sobol, seed 1, 2,304 \
@@ -320,7 +321,8 @@ fn zero_counts_are_reported_as_a_bound() {
             let line = told.lines().find(|line| line.starts_with("overturning, Here, PGA: ")).unwrap();
             let bound = format!("at most {:.1e} per year: no run shows it", plain.as_f64().unwrap());
             assert_eq!(line.matches(&bound).count(), 2, "{line}");
-            let short = format!("Uncertain overturning, Here, PGA: < {:.1e} per year\n", plain.as_f64().unwrap());
+            let short =
+                format!("Uncertain oscillator, overturning, Here, PGA: < {:.1e} per year\n", plain.as_f64().unwrap());
             assert!(answer.contains(&short), "{short}{answer}");
             assert!(!told.contains("0.000e0"), "{told}");
         }
@@ -349,7 +351,7 @@ fn what_cannot_overturn_has_no_bound() {
     let told = study.uplift(&asked).ok().stdout;
     assert!(told.contains("overturning, Here, PGA: no displacement capacity"), "{told}");
     let row = told.lines().nth(3).map(|line| line.split_whitespace().collect::<Vec<_>>());
-    assert_eq!(row.as_deref(), Some(&["Here", "no", "displacement", "capacity"][..]), "{told}");
+    assert_eq!(row.as_deref(), Some(&["Here", "oscillator", "no", "displacement", "capacity"][..]), "{told}");
 }
 
 /// The rows of the oscillator have the answer, with bands and shares, in columns of their own.

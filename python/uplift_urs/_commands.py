@@ -65,7 +65,7 @@ class StructureCommands:
         spectrum_only : bool
             Whether to apply the rules without analysing the structure.
         proxy : bool
-            Whether to leave out the structure itself, a frame that can wobble or a block.
+            Whether to leave out the structure itself, a frame or a block.
         manifest : str or os.PathLike, optional
             The records' manifest, if it was moved.
         report : str or os.PathLike, optional
@@ -190,7 +190,7 @@ class StructureCommands:
         repaired : bool
             Whether the records have the weights of a repair, after ``compute_consistency(repair=True)``.
         proxy : bool
-            Whether to leave out the structure itself, a frame that can wobble or a block.
+            Whether to leave out the structure itself, a frame or a block.
         site, measure, manifest
             As for `compute_design`.
 

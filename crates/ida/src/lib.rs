@@ -32,5 +32,5 @@ pub use estimate::{Estimate, estimate};
 pub use peaks::{Axes, Peaks};
 pub use plan::{Plan, ScaledMotion, StripeRecord};
 pub use shard::Shard;
-pub use system::{OSCILLATOR, ShakenFrame, System, WOBBLING_FRAME};
+pub use system::{OSCILLATOR, PLANAR_FRAME, ShakenFrame, System, WOBBLING_FRAME};
 pub use watch::{Unwatched, Watch};

@@ -42,6 +42,8 @@ pub struct ShakenFrame {
 pub const OSCILLATOR: &str = "oscillator";
 /// The kind of a frame that wobbles under both components, in tables.
 pub const WOBBLING_FRAME: &str = "wobbling frame";
+/// The kind of a frame that rocks in a plane, in tables.
+pub const PLANAR_FRAME: &str = "planar frame";
 
 impl System {
     /// Its kind, a word for tables.
@@ -50,7 +52,7 @@ impl System {
             Self::Oscillator(_) => OSCILLATOR,
             Self::Block(_) => "block",
             Self::Frame(shaken) => match shaken.model {
-                Model::Planar => "planar frame",
+                Model::Planar => PLANAR_FRAME,
                 Model::Wobbling => WOBBLING_FRAME,
             },
         }

@@ -29,7 +29,7 @@ use uplift_uniform_risk::{EventRisk, OneRisk, SpectraOfResult, StudyOfResult, at
 use super::certainty::Scatter;
 use super::demand::ExactDemand;
 use super::opening::{Place, Repair, job_name, records_and_pairs, restitution};
-use super::own_structure::{OwnStructure, STOPPED, what_frames_leave_out};
+use super::own_structure::{OwnMotion, OwnStructure, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{at_place, own_risk};
 use super::rules::{MeasureVerdict, OwnCheck, RuleDemands, apply_rules, verdicts_by_curve};
@@ -76,11 +76,10 @@ pub fn design(
     notes.extend(if options.repaired { None } else { beside(plain, repaired) });
     let unread = spectrum.is_none().then(|| beyond_spectrum(structure, &source));
     notes.extend(unread.clone());
-    let [wobbles, is_shaken] = [OwnStructure::wobbles(structure), OwnStructure::can_be_shaken(structure)];
-    let mut without_own = (wobbles && !is_shaken && !options.proxy).then(|| STOPPED.to_owned());
+    let wobbles = OwnMotion::from_structure(structure, options.proxy) == Ok(Some(OwnMotion::InSpace));
     let mut own = None;
     if !options.spectrum_only {
-        match records_and_pairs(&source, options.manifest.as_deref(), is_shaken && !options.proxy)? {
+        match records_and_pairs(&source, options.manifest.as_deref(), wobbles)? {
             Ok(records) => {
                 let question = Question { place, weights: &weights, target_per_year };
                 let analysed = (options, records);
@@ -91,12 +90,9 @@ pub fn design(
             }
         }
     }
-    let (exact, uncertainty, itself, checkpoint) = match own {
-        Some(own) => {
-            without_own = without_own.or(own.without_own);
-            (Some(own.exact), own.uncertainty, own.itself, Some(own.checkpoint))
-        }
-        None => (None, None, None, None),
+    let (exact, uncertainty, itself, without_own, checkpoint) = match own {
+        Some(own) => (Some(own.exact), own.uncertainty, own.itself, own.without_own, Some(own.checkpoint)),
+        None => (None, None, None, None, None),
     };
     notes.extend(itself.as_ref().filter(|_| wobbles).map(|_| what_frames_leave_out(structure)));
     if structure.uncertainty.is_some() && uncertainty.is_none() {
@@ -175,7 +171,7 @@ pub fn design_shard(
     // one shard serves every site
     let site = options.site.as_ref().or(source.sites.first()).map(String::as_str);
     let Place { measure, .. } = Place::choose(&source, site, options.measure)?;
-    let with_pairs = OwnStructure::can_be_shaken(structure) && !options.proxy;
+    let with_pairs = OwnMotion::from_structure(structure, options.proxy) == Ok(Some(OwnMotion::InSpace));
     let records = records_and_pairs(&source, options.manifest.as_deref(), with_pairs)?.map_err(JobError::input)?;
     let analysis = DesignAnalysis::from_structure(structure, (&source, measure), (records, options))?;
     let work = analysis.work(&source, &job_name("design", structure))?;

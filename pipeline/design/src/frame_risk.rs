@@ -17,7 +17,7 @@ use clap::Args;
 use uplift_bootstrap::{ResamplingPlan, Unit};
 use uplift_fragility::Stripes;
 use uplift_frame::Model;
-use uplift_ida::{Shard, WOBBLING_FRAME};
+use uplift_ida::{PLANAR_FRAME, Shard, WOBBLING_FRAME};
 use uplift_motion::IntensityMeasure;
 use uplift_risk::PooledDemand;
 use uplift_structure::{Kind, Rule};
@@ -255,7 +255,7 @@ fn rows(
     let oscillator = question.ask(&demands.oscillator_m, factor)?;
     let mut rows = Vec::new();
     if demands.wobbling_m.is_some() {
-        rows.push(question.row("planar frame", question.ask(&demands.planar_m, 1.0)?, Some(&own)));
+        rows.push(question.row(PLANAR_FRAME, question.ask(&demands.planar_m, 1.0)?, Some(&own)));
     }
     rows.push(question.row("equivalent oscillator", oscillator, Some(&own)));
     if let Some(spectrum) = &design.spectrum {
@@ -277,7 +277,7 @@ fn rows(
         };
         rows.push(question.row(model, zero.through(check.demand_m, rule)?, Some(&own)));
     }
-    let model = if demands.wobbling_m.is_some() { WOBBLING_FRAME } else { "planar frame" };
+    let model = if demands.wobbling_m.is_some() { WOBBLING_FRAME } else { PLANAR_FRAME };
     rows.insert(0, question.row(model, own, None));
     Ok(rows)
 }

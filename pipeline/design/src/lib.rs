@@ -56,4 +56,4 @@ pub use uncertain::{
     AleatoryResult, EpistemicResult, QuantityReport, Spread, UncertainFinding, UncertainResult, UncertaintyReport,
     VarianceShare,
 };
-pub use uplift_ida::{OSCILLATOR, WOBBLING_FRAME};
+pub use uplift_ida::{OSCILLATOR, PLANAR_FRAME, WOBBLING_FRAME};

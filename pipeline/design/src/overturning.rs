@@ -91,7 +91,8 @@ pub fn overturning(
     let of_frame = peaks.iter().zip(&weighed).map(|(peaks, at)| at.frame_collapses(peaks, limit));
     let of_frame = of_frame.collect::<Result<Vec<_>, _>>()?;
     notes.extend(notes_on(models, &found));
-    notes.extend(analysis.frame.as_ref().map(|_| what_frames_leave_out(structure)));
+    notes
+        .extend(analysis.frame.as_ref().filter(|(frame, _)| frame.wobbles()).map(|_| what_frames_leave_out(structure)));
     let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
     let uncertainty = uncertain
         .as_ref()

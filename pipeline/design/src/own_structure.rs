@@ -1,5 +1,5 @@
-//! The structure itself beside the oscillator that stands for it: a frame that can wobble, in space and in a plane, or
-//! the block that rotates as it does.
+//! The structure itself beside the oscillator that stands for it: a frame that can wobble, in space and in a plane, one
+//! that rocks in a plane alone, or the block that rotates as the structure does.
 
 mod report;
 mod shaking;
@@ -9,6 +9,7 @@ use uplift_frame::{ColumnShape, Model, RockingFrame};
 use uplift_ida::{ShakenFrame, System};
 use uplift_inputs::rocking_frame;
 use uplift_statics::RestrainedColumns;
+use uplift_structure::Kind;
 use uplift_study::Structure;
 
 pub(super) use self::report::OwnQuestion;
@@ -38,8 +39,8 @@ pub(super) fn loss(structure: &Structure) -> String {
     }
 }
 
-/// Why a frame that can wobble is left out.
-pub(super) const STOPPED: &str = "its motion ends where flat springs stop the columns (when_flat = \"stop\")";
+/// Why a frame is left out.
+const STOPPED: &str = "its motion ends where flat springs stop the columns (when_flat = \"stop\")";
 
 /// The wobbling frame of `structure`, with the rest and the loss that its file has.
 pub(super) fn wobbling(frame: &RockingFrame, structure: &Structure) -> System {
@@ -61,10 +62,46 @@ pub(super) fn planar(frame: &RockingFrame, restitution: f64) -> System {
     }))
 }
 
-/// The structure itself: a frame that can wobble, by both models, or the block that rotates as it does.
+/// The kind of the block that rotates as another structure does.
+const EQUIVALENT_BLOCK: &str = "equivalent block";
+
+/// How a structure is shaken itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum OwnMotion {
+    /// As a frame on cylinders, under both components of every pair.
+    InSpace,
+    /// As a frame whose columns do not wobble, under each record.
+    InPlane,
+    /// As the block that it is, or that rotates as it does.
+    AsBlock,
+}
+
+impl OwnMotion {
+    /// Of `structure`, unless its oscillator is to be analysed `alone`; none where that is all there is.
+    ///
+    /// # Errors
+    /// Why a frame cannot be shaken to the end.
+    pub(super) fn from_structure(structure: &Structure, alone: bool) -> Result<Option<Self>, &'static str> {
+        if alone {
+            return Ok(None);
+        }
+        let shape = structure.rocking_frame().and_then(Result::ok).map(|frame| frame.shape());
+        let motion = match (shape, &structure.block) {
+            (Some(ColumnShape::Cylinder), _) => Self::InSpace,
+            (_, Some(_)) => return Ok(Some(Self::AsBlock)),
+            (Some(ColumnShape::Rectangle), None) => Self::InPlane,
+            (None, None) => return Ok(None),
+        };
+        // flat springs that stop the columns end the motion
+        let stops = |columns: &RestrainedColumns| columns.restrainer().is_some_and(|held| held.limit_m().is_some());
+        if structure.columns.as_ref().is_some_and(stops) { Err(STOPPED) } else { Ok(Some(motion)) }
+    }
+}
+
+/// The structure itself: a frame, by one model or two, or the block that rotates as it does.
 #[derive(Debug)]
 pub(super) struct OwnStructure {
-    /// The frame in space; none of a block.
+    /// The frame in space; none of what moves in a plane alone.
     in_space: Vec<System>,
     in_plane: Vec<System>,
     /// Where the restitution of each comes from, in this order.
@@ -73,56 +110,47 @@ pub(super) struct OwnStructure {
     factor: f64,
     /// What it must not pass before it overturns.
     pub(super) limit: Option<FrameLimit>,
-    /// What shakes it in space; none of a block.
+    /// What shakes it in space; none of what moves in a plane alone.
     pairs: Option<Pairs>,
+    /// Whether its block stands for another structure.
+    is_equivalent: bool,
 }
 
 impl OwnStructure {
-    /// Whether a structure is a frame that can wobble: on cylinders.
-    pub(super) fn wobbles(structure: &Structure) -> bool {
-        let frame = structure.rocking_frame().and_then(Result::ok);
-        frame.is_some_and(|frame| frame.shape() == ColumnShape::Cylinder)
-    }
-
     /// Whether a model of it is analysed by some command beside its oscillator.
     pub(super) fn has_model(structure: &Structure) -> bool {
         structure.block.is_some() || structure.rocking_frame().is_some()
     }
 
-    /// Whether it is one that can be shaken to the end: flat springs that stop the columns end its motion.
-    pub(super) fn can_be_shaken(structure: &Structure) -> bool {
-        let stops = |columns: &RestrainedColumns| columns.restrainer().is_some_and(|held| held.limit_m().is_some());
-        Self::wobbles(structure) && !structure.columns.as_ref().is_some_and(stops)
-    }
-
-    /// The frame of `structure` where there are `pairs` to shake it, else the block; or why no block rotates as it
-    /// does.
+    /// Of `structure`, to be shaken in space by `pairs`; or why no block rotates as it does.
     pub(super) fn from_structure(
         structure: &Structure,
-        pairs: Option<Pairs>,
+        (motion, pairs): (OwnMotion, Option<Pairs>),
     ) -> Result<Result<Self, String>, DesignError> {
-        match pairs {
-            Some(pairs) => Ok(Ok(Self::frame(structure, pairs)?)),
-            None => Ok(block(structure, None)?.map(|(block, origin)| Self::block(structure, block, origin))),
+        match motion {
+            OwnMotion::InSpace | OwnMotion::InPlane => Ok(Ok(Self::frame(structure, pairs)?)),
+            OwnMotion::AsBlock => {
+                Ok(block(structure, None)?.map(|(block, origin)| Self::block(structure, block, origin)))
+            }
         }
     }
 
-    /// The frame of `structure`, to be shaken by `pairs`.
-    pub(super) fn frame(structure: &Structure, pairs: Pairs) -> Result<Self, DesignError> {
+    /// The frame of `structure`, to be shaken by `pairs` too.
+    fn frame(structure: &Structure, pairs: Option<Pairs>) -> Result<Self, DesignError> {
         let frame = rocking_frame(structure)?;
         let own = structure.description.restitution;
         let (restitution, restitution_from) =
             own.map_or_else(|| (frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
+        let of_wobbling = structure.wobbling_restitution.map_or("the model loses no energy", |_| "the structure file");
+        let in_space = pairs.as_ref().map(|_| wobbling(&frame, structure));
         Ok(Self {
             limit: FrameLimit::from_structure(structure, Some(frame.columns())),
-            in_space: vec![wobbling(&frame, structure)],
+            restitution_from: in_space.iter().map(|_| of_wobbling).chain([restitution_from]).collect(),
+            in_space: in_space.into_iter().collect(),
             in_plane: vec![planar(&frame, restitution)],
-            restitution_from: vec![
-                structure.wobbling_restitution.map_or("the model loses no energy", |_| "the structure file"),
-                restitution_from,
-            ],
             factor: 1.0,
-            pairs: Some(pairs),
+            pairs,
+            is_equivalent: false,
         })
     }
 
@@ -136,6 +164,20 @@ impl OwnStructure {
             restitution_from: vec![origin],
             factor,
             pairs: None,
+            is_equivalent: structure.description.kind != Kind::Block,
+        }
+    }
+
+    /// Whether it is a frame under both components.
+    pub(super) fn wobbles(&self) -> bool {
+        !self.in_space.is_empty()
+    }
+
+    /// The kind of a model of it, a word for tables.
+    fn kind(&self, model: &System) -> &'static str {
+        match model {
+            System::Block(_) if self.is_equivalent => EQUIVALENT_BLOCK,
+            _ => model.kind(),
         }
     }
 
@@ -144,10 +186,10 @@ impl OwnStructure {
         self.in_space.iter().chain(&self.in_plane).zip(self.restitution_from.iter().copied())
     }
 
-    /// Becomes what another structure is, to be shaken by the same pairs; stays as it is where no block rotates as that
-    /// does, and says why.
-    pub(super) fn change(&mut self, structure: &Structure) -> Result<Option<String>, DesignError> {
-        match Self::from_structure(structure, self.pairs.take())? {
+    /// Becomes what another structure of the same motion is, to be shaken by the same pairs; stays as it is where no
+    /// block rotates as that does, and says why.
+    pub(super) fn change(&mut self, structure: &Structure, motion: OwnMotion) -> Result<Option<String>, DesignError> {
+        match Self::from_structure(structure, (motion, self.pairs.take()))? {
             Ok(other) => *self = other,
             Err(reason) => return Ok(Some(reason)),
         }

@@ -1,5 +1,5 @@
-//! The least strength, size, width, capacity or tendon stiffness with which a structure meets a target risk; a frame
-//! that can wobble, or a block, is then shaken itself, at the value that its oscillator needs.
+//! The least strength, size, width, capacity or tendon stiffness with which a structure meets a target risk; a frame or
+//! a block is then shaken itself, at the value that its oscillator needs.
 //!
 //! The risk of each value that is tried is that of the structure's own oscillator under the records and the hazard of a
 //! result, from exact stripes. Counts of records step, and a chaotic system may step back: the best estimate is the
@@ -34,7 +34,7 @@ pub use trial::LevelShare;
 use super::certainty::Scatter;
 use super::hazard::Hazard;
 use super::opening::{Place, Repair, check_tables};
-use super::own_structure::{OwnStructure, STOPPED, what_frames_leave_out};
+use super::own_structure::{OwnMotion, OwnStructure, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{at_place, own_risk};
 use crate::error::DesignError;
@@ -100,9 +100,9 @@ pub fn target(
     let (others, unchecked) = others(&file, &source, place, &repair)?;
     let scatter = Scatter::from_file(&file)?;
     let of_records = (&hazard, &scatter);
-    let wobbles = OwnStructure::wobbles(structure);
-    let without_frame = why_left_out(structure, options);
-    let asked = (options, years, wobbles && !options.proxy && without_frame.is_none());
+    let motion = own_motion(structure, options);
+    let wobbles = motion == Ok(Some(OwnMotion::InSpace));
+    let asked = (options, years, wobbles);
     let mut trials = Trials::from_structure(structure, &source, (place, weights), of_records, asked, events)?;
     trials.refuse_untellable(place.name, target_per_year)?;
 
@@ -125,8 +125,8 @@ pub fn target(
     let mut notes = words.notes(&crossings, &tried, &noise);
     // where the safe value itself misses the target
     let safe_value = safe_value.max(value);
-    let judge = Judge { structure, options, place, of_records, target_per_year, years };
-    let (own, falls) = judge.judge(&mut trials, [safe_value, value], range)?;
+    let judge = Judge { structure, motion, options, place, of_records, target_per_year, years };
+    let (own, without_own) = judge.judge(&mut trials, [safe_value, value], range)?;
     notes.extend(own.as_ref().filter(|_| wobbles).map(|_| what_frames_leave_out(structure)));
     let by_proxy = OwnStructure::has_model(structure) && own.is_none();
     notes.extend(assumptions(&file, by_proxy));
@@ -152,7 +152,7 @@ pub fn target(
         event,
         by_proxy,
         own,
-        without_own: without_frame.or(falls),
+        without_own,
         unrepaired: if options.repaired { None } else { place.unrepaired(&file)? },
         target_per_year,
         years,
@@ -240,15 +240,14 @@ fn alarms_before(
     Ok(alarms)
 }
 
-/// Why a frame that can wobble is left out although no `--proxy` asks for that.
-fn why_left_out(structure: &Structure, options: &TargetOptions) -> Option<String> {
-    let is_asked = OwnStructure::wobbles(structure) && !options.proxy;
-    let has_columns = !matches!(options.quantity, Quantity::Strength | Quantity::Capacity);
-    match (OwnStructure::can_be_shaken(structure), has_columns) {
-        (true, false) if is_asked => Some(OF_SIZE.to_owned()),
-        (false, _) if is_asked => Some(STOPPED.to_owned()),
-        _ => None,
-    }
+/// How the structure is shaken itself; none where `--proxy` asks for the oscillator alone, or that is all there is.
+///
+/// # Errors
+/// Why it is left out although it is asked for.
+fn own_motion(structure: &Structure, options: &TargetOptions) -> Result<Option<OwnMotion>, &'static str> {
+    let motion = OwnMotion::from_structure(structure, options.proxy)?;
+    let has_size = !matches!(options.quantity, Quantity::Strength | Quantity::Capacity);
+    if has_size || motion.is_none() { Ok(motion) } else { Err(OF_SIZE) }
 }
 
 /// What cannot be meant of the structure that was found, though that of the file is sound; nothing beyond the range.

@@ -5,7 +5,8 @@ mod own;
 use std::io::Write;
 
 use uplift::structure::{
-    Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, RuleCheck, RuleOutcome, Sensitivity, verdict_word,
+    Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, OwnReport, RuleCheck, RuleOutcome, Sensitivity,
+    verdict_word,
 };
 use uplift::text::{
     self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short, two_digits,
@@ -42,7 +43,7 @@ fn print_answer(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         print_uncertain_answers(out, uncertainty)?;
     }
     let risk = risk_in_words(report.poe, report.years);
-    let in_space = report.own.as_ref().is_some_and(|own| own.models.len() > 1);
+    let in_space = report.own.as_ref().is_some_and(OwnReport::wobbles);
     let records = record_set(&report.source.record_set, in_space);
     let at = match &report.own {
         // by which measure stands in the first line, which is of the structure itself

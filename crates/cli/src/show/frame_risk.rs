@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use uplift::structure::{Banded, Bands, EventRisk, FrameRiskReport, ModelDemand, StateAtDemand};
+use uplift::structure::{Banded, Bands, EventRisk, FrameRiskReport, ModelDemand, PLANAR_FRAME, StateAtDemand};
 use uplift::text::{
     self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short, two_digits,
 };
@@ -113,7 +113,7 @@ fn print_details(out: &mut impl Write, report: &FrameRiskReport) -> Result<(), C
     writeln!(
         out,
         "{} ({})",
-        restitution_line("planar frame", report.planar_restitution),
+        restitution_line(PLANAR_FRAME, report.planar_restitution),
         report.planar_restitution_from
     )?;
     writeln!(

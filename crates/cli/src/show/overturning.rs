@@ -12,8 +12,8 @@ use uplift_structure::NO_CAPACITY;
 use super::alarms::print_in_parts;
 use super::shown_path;
 use super::structure::{
-    WOBBLING, band_in_cell, fewer_levels, limits, marked_band_in_cell, noun, print_by_earthquake, print_moved,
-    print_notes, print_structure, rate, record_set, risk_cells,
+    band_in_cell, fewer_levels, limits, marked_band_in_cell, noun, print_by_earthquake, print_moved, print_notes,
+    print_structure, rate, record_set, risk_cells,
 };
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
 use crate::error::CommandError;
@@ -26,7 +26,7 @@ pub(crate) fn print_overturning(report: &OverturningReport, terminal: &Terminal)
 
 /// The rate of every site by measure and model, with its band.
 fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
-    let has_frame = report.overturning.iter().any(|found| found.model == WOBBLING);
+    let has_frame = report.frame().is_some();
     let limit = report.governing_limit();
     let sites = report.overturning.first().map_or(&[][..], |found| &found.sites[..]);
     // a frame has twice as many rows: at many sites only the event that governs has its band, the others in the details
@@ -101,9 +101,9 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
     }
     // those of the oscillator are those of the study
     let levels_of = |model: &'static str| report.overturning.iter().filter(move |found| found.model == model);
-    let levels = levels_of(WOBBLING).zip(levels_of(OSCILLATOR));
+    let levels = levels_of(report.frame().unwrap_or_default()).zip(levels_of(OSCILLATOR));
     let levels = fewer_levels(levels.map(|(own, all)| (own.levels.len(), all.levels.len(), own.im)));
-    Ok(writeln!(out, "{}{levels}", record_set(&report.source.record_set, has_frame))?)
+    Ok(writeln!(out, "{}{levels}", record_set(&report.source.record_set, report.wobbles()))?)
 }
 
 /// What a row of rates is of.
@@ -139,23 +139,26 @@ fn print_headline(
     let name = &report.structure.name;
     let band = if has_bands { " (90 % band)" } else { "" };
     let of = |model: &'static str| report.overturning.iter().filter(move |found| found.model == model);
+    let Some(frame) = report.frame() else { return print_rate(out, report) };
     if let Some(limit) = limit {
         let ratio = |of: &SiteRisk| of.beyond_limit.map_or(f64::NAN, |beyond| beyond.risk.per_year) / of.risk.per_year;
-        let how_often = range_of(of(WOBBLING).flat_map(|found| &found.sites).map(ratio))
+        let how_often = range_of(of(frame).flat_map(|found| &found.sites).map(ratio))
             .map_or_else(|| "more often than".to_owned(), |times| format!("{times} times as often as"));
         let limit = limit.in_words();
         return Ok(writeln!(
             out,
-            "{name}: the wobbling frame passes its limit, {limit}, {how_often} it overturns; annual rates{band}"
+            "{name}: the {frame} passes its limit, {limit}, {how_often} it overturns; annual rates{band}"
         )?);
     }
-    let sites = of(WOBBLING).zip(of(OSCILLATOR)).flat_map(|(own, proxy)| own.sites.iter().zip(&proxy.sites));
+    let sites = of(frame).zip(of(OSCILLATOR)).flat_map(|(own, proxy)| own.sites.iter().zip(&proxy.sites));
     let over_oscillator = sites.map(|(own, proxy)| own.risk.per_year / proxy.risk.per_year);
     match range_of(over_oscillator) {
-        Some(times) => writeln!(
-            out,
-            "{name}: the wobbling frame overturns {times} times as often as its oscillator; annual rates{band}"
-        )?,
+        Some(times) => {
+            writeln!(
+                out,
+                "{name}: the {frame} overturns {times} times as often as its oscillator; annual rates{band}"
+            )?;
+        }
         None => print_rate(out, report)?,
     }
     Ok(())
@@ -164,9 +167,10 @@ fn print_headline(
 /// How often the structure itself overturns by the first measure, at the site where it does most often, and by the
 /// others there.
 fn print_rate(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
-    // a frame that wobbles, or what comes after its oscillator
+    // a frame, or what comes after its oscillator
     let of_measures = report.overturning.chunks(report.models.len().max(1));
-    let mut by_measure = of_measures.filter_map(|of| of.iter().find(|found| found.model == WOBBLING).or(of.last()));
+    let is_frame = |found: &&CollapseReport| Some(found.model) == report.frame();
+    let mut by_measure = of_measures.filter_map(|of| of.iter().find(is_frame).or(of.last()));
     let Some(found) = by_measure.next() else { return Ok(()) };
     let rates = found.sites.iter().enumerate();
     let Some((at, worst)) = rates.max_by(|(_, a), (_, b)| a.risk.per_year.total_cmp(&b.risk.per_year)) else {

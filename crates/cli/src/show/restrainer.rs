@@ -105,22 +105,22 @@ fn print_best(out: &mut impl Write, report: &RestrainerDesign, most: usize) -> R
     if table.is_empty() { Ok(()) } else { Ok(writeln!(out, "\n{table}")?) }
 }
 
-/// What the frame that wobbles says of the best stack.
+/// What the frame itself says of the best stack.
 fn frame_words(report: &RestrainerDesign) -> String {
     let Some(frame) = &report.frame else {
         return if report.proxy && report.found > 0 { ", by its oscillator alone".to_owned() } else { String::new() };
     };
-    let wobbling = frame.decisive();
-    let Some(check) = wobbling.check else { return String::new() };
+    let own = frame.decisive();
+    let Some(check) = own.check else { return String::new() };
     // each takes analyses of its own
     let others = if check.satisfied || report.found < 2 { "" } else { " (other stacks not tried)" };
     let without = if report.found == 0 { "without tendons " } else { "" };
     let verdict = format!("{without}{}", verdict_word(check.satisfied));
     if check.required_capacity_m.is_infinite() {
-        return format!("; {verdict} by the wobbling frame, which overturns more often than the target{others}");
+        return format!("; {verdict} by the {}, which overturns more often than the target{others}", own.model);
     }
-    let [demand_m, required_m] = [wobbling.demand_m, check.required_capacity_m];
-    format!("; {verdict} by the wobbling frame, which moves {demand_m:.2} m and requires {required_m:.2} m{others}")
+    let [demand_m, required_m] = [own.demand_m, check.required_capacity_m];
+    format!("; {verdict} by the {}, which moves {demand_m:.2} m and requires {required_m:.2} m{others}", own.model)
 }
 
 fn print_details(out: &mut impl Write, report: &RestrainerDesign) -> Result<(), CommandError> {

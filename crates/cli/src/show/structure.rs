@@ -5,7 +5,7 @@ use std::io::Write;
 use uplift::alarms::Alarm;
 /// The model of a frame that is held against its proxies.
 pub(super) use uplift::structure::WOBBLING_FRAME as WOBBLING;
-use uplift::structure::{Bands, EventRisk, StructureReport};
+use uplift::structure::{Bands, EventRisk, PLANAR_FRAME, StructureReport};
 use uplift::text::{self, per_cent, short, three_digits, two_digits};
 use uplift_structure::{NO_CAPACITY, NO_CAPACITY_REASON};
 
@@ -25,8 +25,8 @@ pub(super) fn noun(model: &'static str, kind: &str) -> &'static str {
 pub(super) fn restitution_line(model: &str, restitution: f64) -> String {
     let what = match model {
         WOBBLING => "wobbling restitution",
-        BLOCK => "block's restitution",
-        _ => "restitution in a plane",
+        PLANAR_FRAME => "restitution in a plane",
+        _ => "block's restitution",
     };
     format!("           {what:<24} {restitution:.4}")
 }

@@ -7,8 +7,8 @@ use uplift::text::{self, Table, per_cent, rounded, short, thousands};
 
 use super::alarms::print_warnings;
 use super::structure::{
-    BLOCK, doubt, fewer_levels, mark_of, measure_option, noun, print_by_earthquake, print_notes, print_structure, rate,
-    record_set, risk_cells,
+    doubt, fewer_levels, mark_of, measure_option, print_by_earthquake, print_notes, print_structure, rate, record_set,
+    risk_cells,
 };
 use super::uncertainty::{kind_in_words, print_quantities};
 use super::{print_more, shown_path, typed_path};
@@ -49,17 +49,13 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
             writeln!(
                 out,
                 "{what}: the {} needs {} (at most {} per year), its oscillator {safe}; {best} of the oscillator",
-                noun(own.decisive().model, report.structure.kind),
+                own.decisive().model,
                 limit(own.safe_value, report),
                 rate(own.upper_per_year_where_safe())
             )?;
         }
         Some(own) if own.decisive().is_safe => {
-            writeln!(
-                out,
-                "{what} {safe} by {} and oscillator; {best} of the oscillator",
-                noun(own.decisive().model, report.structure.kind)
-            )?;
+            writeln!(out, "{what} {safe} by {} and oscillator; {best} of the oscillator", own.decisive().model)?;
         }
         Some(own) => {
             let needs = if own.safe_value.is_finite() {
@@ -70,7 +66,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
             writeln!(
                 out,
                 "{what}: the {} {needs}, its oscillator {safe}; at {} {}",
-                noun(own.decisive().model, report.structure.kind),
+                own.decisive().model,
                 with_unit(own.value, report),
                 how_often(report, own)
             )?;
@@ -152,21 +148,23 @@ fn print_other_measures(out: &mut impl Write, report: &TargetReport) -> Result<(
 
 /// How it misses a target at the value of its oscillator, in words.
 fn how_often(report: &TargetReport, own: &TargetOwn) -> String {
-    let (noun, own) = (noun(own.decisive().model, report.structure.kind), own.decisive());
+    let own = own.decisive();
+    let model = own.model;
     if own.is_met {
-        format!("the {noun}'s rate meets the target, its upper limit does not")
+        format!("the {model}'s rate meets the target, its upper limit does not")
     } else {
-        format!("the {noun}'s rate is {:.2} times the target", own.risk.per_year / report.target_per_year)
+        format!("the {model}'s rate is {:.2} times the target", own.risk.per_year / report.target_per_year)
     }
 }
 
 /// The rates of the structure itself at the value of its oscillator, with a verdict by each model.
 fn own_table(report: &TargetReport, own: &TargetOwn) -> String {
     let value = with_unit(own.value, report);
+    // in a plane it loses energy as its oscillator does, and not as much
+    let in_plane = own.models.len() == 1;
     let table = Table::from_rows(&own.models)
-        .left("model", |own| match own.model {
-            BLOCK => format!("block, restitution {:.3}", own.restitution),
-            of_frame => of_frame.to_owned(),
+        .left("model", |own| {
+            if in_plane { format!("{}, restitution {:.3}", own.model, own.restitution) } else { own.model.to_owned() }
         })
         .right(format!("per year at {value}"), |own| {
             risk_cells(&own.risk)[0].clone() + &own.bands.map_or_else(String::new, in_brackets)
@@ -224,7 +222,7 @@ fn print_limit(out: &mut impl Write, report: &TargetReport, own: &TargetOwn) -> 
     let at = with_unit(own.limit_at, report);
     let is_more = own.passes_limit_above(report.target_per_year);
     let more = if is_more { ", more often than the target. Search for the limit:" } else { "" };
-    let (model, limit_in_words) = (noun(own.decisive().model, report.structure.kind), limit.in_words());
+    let (model, limit_in_words) = (own.decisive().model, limit.in_words());
     writeln!(out, "Limit     the {model} passes its limit, {limit_in_words}, {per_year} per year at {at}{more}")?;
     if is_more {
         let [structure, result] = [&report.structure.file, &report.source.result].map(|path| typed_path(path));
@@ -295,7 +293,7 @@ fn print_details(out: &mut impl Write, report: &TargetReport) -> Result<(), Comm
             .right("per year", |tried| rate(tried.risk.per_year))
             .right("upper limit", |tried| rate(tried.upper_per_year))
             .left("", |tried| if tried.is_safe { "safe" } else { "not safe" });
-        writeln!(out, "\nThe {} at other values\n{table}", noun(own.decisive().model, report.structure.kind))?;
+        writeln!(out, "\nThe {} at other values\n{table}", own.decisive().model)?;
     }
     print_crossings(out, report)?;
     print_beside(out, report)

@@ -40,7 +40,7 @@ pub(super) fn print_uncertain_answers(out: &mut impl Write, report: &Uncertainty
             .filter(|_| is_banded)
             .map_or_else(String::new, |[lower, upper]| format!(" (90 % band {} to {})", shown(lower), shown(upper)));
         let of = format!("{}, {}, {}", result.of, result.site, result.im);
-        writeln!(out, "Uncertain {of}: {value}{unit}{band}")?;
+        writeln!(out, "Uncertain oscillator, {of}: {value}{unit}{band}")?;
     }
     let more = report.results.len().saturating_sub(SHOWN);
     if more > 0 { Ok(writeln!(out, "          {more} more: --details")?) } else { Ok(()) }

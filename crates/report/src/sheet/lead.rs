@@ -49,7 +49,7 @@ pub(super) fn lead(report: &DesignReport) -> Vec<Sentence> {
         sentences.push(Sentence::plain(rate + &band_of_overturning(exact.bands.as_ref())));
     }
     let uncertain = report.uncertainty.iter().flat_map(|uncertainty| &uncertainty.results);
-    sentences.extend(uncertain.map(|result| Sentence::plain(format!("Uncertain properties, {}.", result.in_words()))));
+    sentences.extend(uncertain.map(|result| Sentence::plain(format!("Uncertain oscillator, {}.", result.in_words()))));
     sentences
 }
 

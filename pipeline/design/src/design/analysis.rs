@@ -7,7 +7,6 @@ use uplift_job::JobError;
 use uplift_job::events::Events;
 use uplift_result::ResultFile;
 use uplift_risk::SiteWeights;
-use uplift_structure::Kind;
 use uplift_study::Structure;
 use uplift_uniform_risk::{SpectraOfResult, Stripes, StudyOfResult, plan_stripes};
 
@@ -17,7 +16,7 @@ use crate::demand::{ExactDemand, exact_demand};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::opening::{Place, ShakenRecords, job_name, restitution};
-use crate::own_structure::{OwnLevels, OwnQuestion, OwnReport, OwnStructure};
+use crate::own_structure::{OwnLevels, OwnMotion, OwnQuestion, OwnReport, OwnStructure};
 use crate::pairs::Pairs;
 use crate::shaken::Shaken;
 use crate::sweep::Sweep;
@@ -38,7 +37,7 @@ pub(super) struct OwnAnalysis {
     pub(super) uncertainty: Option<UncertaintyReport>,
     /// The structure itself; none of one that is judged by its oscillator alone.
     pub(super) itself: Option<OwnReport>,
-    /// Why a frame that can wobble, or a block, is left out.
+    /// Why a frame or a block is left out.
     pub(super) without_own: Option<String>,
     /// To be removed when the answer is given.
     pub(super) checkpoint: Checkpoint,
@@ -107,7 +106,7 @@ pub(super) struct DesignAnalysis<'a> {
     records: ShakenRecords,
     /// The structure itself, with its levels; none of one that is judged by its oscillator alone.
     itself: Option<(OwnStructure, OwnLevels)>,
-    /// Why a frame that can wobble, or a block, is left out.
+    /// Why a frame or a block is left out.
     without_own: Option<String>,
     sweep: Sweep,
     systems: Vec<System>,
@@ -126,8 +125,14 @@ impl<'a> DesignAnalysis<'a> {
         let restitution = restitution(structure, &source.study);
         let uncertain =
             if is_asked { Uncertain::from_structure(structure, restitution, records.count())? } else { None };
-        let (itself, without_own) =
-            itself(structure, pairs, options)?.map_or_else(|why| (None, why), |of| (Some(of), None));
+        let (itself, without_own) = match OwnMotion::from_structure(structure, options.proxy) {
+            Err(reason) => (None, Some(reason.to_owned())),
+            Ok(None) => (None, None),
+            Ok(Some(motion)) => match OwnStructure::from_structure(structure, (motion, pairs))? {
+                Ok(itself) => (Some(itself), None),
+                Err(reason) => (None, Some(reason)),
+            },
+        };
         let itself = itself.map(|itself| {
             let levels = itself.levels(&records.set, measure);
             (itself, levels)
@@ -156,18 +161,6 @@ impl<'a> DesignAnalysis<'a> {
         }
         Ok(Work::new(title, plans))
     }
-}
-
-/// The structure itself, where it is to be shaken: a frame by its `pairs`; or why a block is left out.
-fn itself(
-    structure: &Structure,
-    pairs: Option<Pairs>,
-    options: &DesignOptions,
-) -> Result<Result<OwnStructure, Option<String>>, DesignError> {
-    if pairs.is_none() && (options.proxy || structure.description.kind != Kind::Block) {
-        return Ok(Err(None));
-    }
-    Ok(OwnStructure::from_structure(structure, pairs)?.map_err(Some))
 }
 
 /// What is asked of the structures that it may be, each with the answer for the structure as described.

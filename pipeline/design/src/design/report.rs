@@ -43,7 +43,7 @@ pub struct DesignReport {
     pub own_check: Option<OwnCheck>,
     /// Whether it is judged by its oscillator alone, though a frame or block models it itself.
     pub by_proxy: bool,
-    /// What a frame that can wobble, or a block, says itself; none by its proxy, and without an analysis.
+    /// What a frame or a block says itself; none of any other, by its proxy, and without an analysis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub own: Option<OwnReport>,
     /// Why such a structure is left out although no `--proxy` asks for that.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::Column;
 use uplift_fragility::quantile;
-use uplift_ida::WOBBLING_FRAME;
+use uplift_ida::{PLANAR_FRAME, WOBBLING_FRAME};
 use uplift_inputs::RecordSet;
 use uplift_job::outputs;
 use uplift_job::table::{ColumnsOf, write_table};
@@ -65,7 +65,7 @@ fn peaks(report: &FrameRiskReport, set: &RecordSet, levels: &[f64], demands: &De
 fn by_level(report: &FrameRiskReport, records: usize, levels: &[f64], demands: &Demands) -> Vec<Column> {
     let factor = report.structure.participation;
     let wobbling = demands.wobbling_m.as_ref().map(|peaks_m| (WOBBLING_FRAME, peaks_m, 1.0));
-    let planar = ("planar frame", &demands.planar_m, 1.0);
+    let planar = (PLANAR_FRAME, &demands.planar_m, 1.0);
     let oscillator = ("equivalent oscillator", &demands.oscillator_m, factor);
     let rows = wobbling.into_iter().chain([planar, oscillator]).flat_map(|(name, peaks_m, factor)| {
         levels.iter().enumerate().map(move |(place, &level)| {

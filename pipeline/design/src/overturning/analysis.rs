@@ -13,7 +13,7 @@ use super::options::OverturningOptions;
 use crate::error::DesignError;
 use crate::models::models;
 use crate::opening::{ShakenRecords, choose_measure, records_and_pairs, required};
-use crate::own_structure::{OwnLevels, OwnPeaks, OwnStructure, STOPPED, falls};
+use crate::own_structure::{OwnLevels, OwnMotion, OwnPeaks, OwnStructure, falls};
 use crate::uncertain::Uncertain;
 
 /// Place of the equivalent oscillator among the models.
@@ -34,9 +34,9 @@ pub(crate) struct OverturningAnalysis<'a> {
     pub(crate) measures: Vec<&'a SpectraOfResult>,
     /// Each with the origin of its restitution.
     pub(crate) models: Vec<(System, &'static str)>,
-    /// The frame itself, with its levels, `[measure]`; none of a structure that cannot wobble.
+    /// The frame itself, with its levels, `[measure]`; none of a structure without one.
     pub(super) frame: Option<(OwnStructure, Vec<OwnLevels>)>,
-    /// Why one that can wobble is left out.
+    /// Why it is left out.
     pub(super) without_frame: Option<String>,
     /// The structures that it may be; none where all of it is known.
     pub(crate) uncertain: Option<Uncertain<'a>>,
@@ -55,13 +55,15 @@ impl<'a> OverturningAnalysis<'a> {
             None => source.measures.iter().collect(),
         };
         let mut models = models(structure, &source.study, options.restitution, notes)?;
-        let with_pairs = OwnStructure::can_be_shaken(structure) && !options.proxy;
-        let stops = OwnStructure::wobbles(structure) && !OwnStructure::can_be_shaken(structure) && !options.proxy;
-        let mut without_frame = stops.then(|| STOPPED.to_owned());
+        let motion = OwnMotion::from_structure(structure, options.proxy);
+        let mut without_frame = motion.err().map(str::to_owned);
+        let with_pairs = motion == Ok(Some(OwnMotion::InSpace));
         let found = records_and_pairs(source, options.manifest.as_deref(), with_pairs)?;
         let (records, pairs) = required(found, "overturning")?;
-        let frame = pairs.map(|pairs| OwnStructure::frame(structure, pairs)).transpose()?;
-        let mut frame = frame.map(|frame| {
+        // a block is among the other models
+        let motion = motion.ok().flatten().filter(|motion| *motion != OwnMotion::AsBlock);
+        let frame = motion.map(|motion| OwnStructure::from_structure(structure, (motion, pairs))).transpose()?;
+        let mut frame = frame.and_then(Result::ok).map(|frame| {
             let levels = measures.iter().map(|of| frame.levels(&records.set, of)).collect::<Vec<_>>();
             (frame, levels)
         });
@@ -90,7 +92,7 @@ impl<'a> OverturningAnalysis<'a> {
     }
 
     /// The peaks of the frame by each measure, with its levels; their stripes are the next of those
-    /// `analysed`. None of a structure that cannot wobble.
+    /// `analysed`. None of a structure without one.
     pub(crate) fn frame_peaks(
         &self,
         analysed: &mut impl Iterator<Item = Analysed>,
@@ -99,14 +101,14 @@ impl<'a> OverturningAnalysis<'a> {
         let measures = self.measures.iter().zip(levels);
         measures
             .map_while(|(&measure, levels)| {
-                let both = [analysed.next()?, analysed.next()?];
-                Some((measure, levels, frame.peaks(&both)))
+                let own: Vec<_> = analysed.by_ref().take(frame.models().count()).collect();
+                (!own.is_empty()).then(|| (measure, levels, frame.peaks(&own)))
             })
             .collect()
     }
 
     /// The stripes of each model by each measure, the models running fastest, with each of the `factors` on all scale
-    /// factors in turn. After all of them those of the frame, two a measure, and those of the structures
+    /// factors in turn. After all of them those of the frame, one a measure and model, and those of the structures
     /// that it may be, one a measure.
     pub(crate) fn work(&self, title: &str, factors: &[f64]) -> Result<Work<'_>, DesignError> {
         let mut plans = Vec::new();

@@ -21,7 +21,7 @@ pub struct OverturningOptions {
     /// Coefficient of restitution of both models
     #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
     pub restitution: Option<f64>,
-    /// Count the proxy alone, without the wobbling frame
+    /// Count the oscillator and the block alone, not the frame itself
     #[arg(long)]
     pub proxy: bool,
     /// CSV file of the collapse fragility to write; the risk goes to one that ends in .risk.csv beside it.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use uplift_fragility::LognormalFit;
-use uplift_ida::{System, WOBBLING_FRAME};
+use uplift_ida::{PLANAR_FRAME, System, WOBBLING_FRAME};
 use uplift_job::alarm::Alarm;
 use uplift_motion::IntensityMeasure;
 use uplift_spectra::Noisy;
@@ -28,7 +28,7 @@ pub struct OverturningReport {
     pub years: f64,
     /// How the structure is modelled.
     pub models: Vec<ModelReport>,
-    /// What a frame must not pass before it overturns; none of a structure that cannot wobble.
+    /// What a frame must not pass before it overturns; none of a structure that is not shaken as one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<FrameLimit>,
     /// Fragility and risk, one a measure and model, in this order.
@@ -36,7 +36,7 @@ pub struct OverturningReport {
     /// The oscillator where its quantities are not known exactly; none where the structure file says that they are.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<UncertaintyReport>,
-    /// Why a frame that can wobble is left out although no `--proxy` asks for that.
+    /// Why a frame is left out although no `--proxy` asks for that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub without_frame: Option<String>,
     /// How the models differ, and what could not be done.
@@ -58,8 +58,20 @@ impl OverturningReport {
     /// The limit, where passing it and not overturning tells how often the frame fails.
     pub fn governing_limit(&self) -> Option<FrameLimit> {
         let governs = |of: &SiteRisk| of.beyond_limit.is_some_and(|limit| limit.governs(&of.risk));
-        let wobbling = self.overturning.iter().filter(|found| found.model == WOBBLING_FRAME);
-        self.limit.filter(|_| wobbling.flat_map(|found| &found.sites).any(governs))
+        let frame = self.frame()?;
+        let own = self.overturning.iter().filter(|found| found.model == frame);
+        self.limit.filter(|_| own.flat_map(|found| &found.sites).any(governs))
+    }
+
+    /// The model of a frame that decides; none of a structure that is not shaken as one.
+    pub fn frame(&self) -> Option<&'static str> {
+        let has = |frame: &&str| self.models.iter().any(|of| of.model == *frame);
+        [WOBBLING_FRAME, PLANAR_FRAME].into_iter().find(has)
+    }
+
+    /// Whether it is a frame under both components.
+    pub fn wobbles(&self) -> bool {
+        self.frame() == Some(WOBBLING_FRAME)
     }
 }
 

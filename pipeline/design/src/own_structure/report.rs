@@ -16,7 +16,7 @@ use crate::opening::Place;
 use crate::risk::{OVERTURNING_M, bounded, own_risk, risk_of_exceeding};
 use crate::rules::OwnCheck;
 
-/// The structure itself, as a design shows it: a frame that can wobble, or a block.
+/// The structure itself, as a design shows it: a frame, or a block.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OwnReport {
     /// Levels at which it was shaken, in the unit of the measure.
@@ -30,14 +30,14 @@ pub struct OwnReport {
     pub proxy_beyond_limit: Option<LimitRisk>,
     /// Nonlinear time histories.
     pub analyses: u64,
-    /// Wobbling under both components, then in the plane of the study's component; or the block alone.
+    /// Wobbling under both components, then in the plane of the study's component; or what moves in a plane alone.
     pub models: Vec<OwnModel>,
 }
 
 /// One model of the structure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OwnModel {
-    /// `wobbling frame`, `planar frame` or `block`.
+    /// `wobbling frame`, `planar frame`, `block` or `equivalent block`.
     pub model: &'static str,
     /// Velocity after over before an impact.
     pub restitution: f64,
@@ -57,14 +57,19 @@ pub struct OwnModel {
 }
 
 impl OwnReport {
-    /// The model that decides: the wobbling frame, or the block.
+    /// The model that decides: the wobbling frame, or the only one.
     pub fn decisive(&self) -> &OwnModel {
         &self.models[0]
     }
 
-    /// What it is in a word: `frame` or `block`.
+    /// Whether it is a frame under both components.
+    pub fn wobbles(&self) -> bool {
+        self.decisive().model == WOBBLING_FRAME
+    }
+
+    /// What it is in a word: `frame` where it is by two models, else the model.
     pub fn noun(&self) -> &'static str {
-        if self.decisive().model == WOBBLING_FRAME { "frame" } else { self.decisive().model }
+        if self.wobbles() { "frame" } else { self.decisive().model }
     }
 
     /// The limit, where passing it and not overturning tells how often the structure fails.

@@ -36,20 +36,30 @@ impl OwnStructure {
         Ok(gravity_m_s2.and_then(|gravity_m_s2| falls(&stripes.falling(&verticals, gravity_m_s2))))
     }
 
-    /// The levels at which it is shaken: a block at all, a frame from the last one on at which no pair of components
-    /// lifts it.
+    /// The levels at which it is shaken: a block at all, a frame from the last one on at which no record lifts it, nor
+    /// both components of a pair together.
     pub(crate) fn levels(&self, set: &RecordSet, measure: &SpectraOfResult) -> OwnLevels {
         let levels = &measure.plan.levels;
-        let (Some(System::Frame(shaken)), Some(pairs)) = (self.in_space.first(), &self.pairs) else {
+        let Some(System::Frame(shaken)) = self.models().next().map(|(system, _)| system) else {
             return OwnLevels { places: (0..levels.len()).collect(), values: levels.to_vec() };
         };
         let (of, threshold_m_s2) = (measure.measure(), shaken.frame.uplift_acceleration_m_s2());
-        let largest = |pair: &RecordPair| {
+        let largest = |samples: &mut dyn Iterator<Item = f64>| samples.fold(0.0, f64::max);
+        let of_pair = |pair: &RecordPair| {
             let [one, other] = [&pair.h1, &pair.h2].map(Accelerogram::acceleration_m_s2);
-            one.iter().zip(other).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max)
+            largest(&mut one.iter().zip(other).map(|(x, y)| x.hypot(*y)))
         };
-        let per_amplitude = |(index, pair): (usize, &RecordPair)| largest(pair) / pairs.amplitude(set, of, index);
-        let most = pairs.all.iter().enumerate().map(per_amplitude).fold(0.0, f64::max);
+        let of_record = |record: &Record| {
+            let amplitude = of.amplitude(record.intensity(of));
+            largest(&mut record.accelerogram.acceleration_m_s2().iter().map(|x| x.abs())) / amplitude
+        };
+        let most = match &self.pairs {
+            Some(pairs) => {
+                let of_pairs = pairs.all.iter().enumerate();
+                largest(&mut of_pairs.map(|(index, pair)| of_pair(pair) / pairs.amplitude(set, of, index)))
+            }
+            None => largest(&mut set.records.iter().map(of_record)),
+        };
         let stands = |level: &f64| most * of.amplitude(*level) < threshold_m_s2;
         let places = sparse(levels, levels.iter().rposition(stands).unwrap_or(0));
         OwnLevels { values: places.iter().map(|&place| levels[place]).collect(), places }
@@ -63,11 +73,12 @@ impl OwnStructure {
     ) -> Result<Vec<LabelledPlan<'a>>, DesignError> {
         let at = (measure, &levels.values[..]);
         let of = |plan: Plan<'a>, what: &str, motions: &'a [String]| {
-            let label = format!("{}, {}", measure.label(), plan.systems().first().map_or("", System::kind));
+            let system = plan.systems().first();
+            let label = format!("{}, {}", measure.label(), system.map_or("", |system| self.kind(system)));
             let axes = plan.axes();
             let factors = [counted(axes.motions, what), counted(axes.scales, "level")];
-            // a block costs next to nothing
-            let remark = self.pairs.as_ref().map(|_| (label.clone(), cost_in_words(&factors, plan.analyses())));
+            let is_costly = system.is_some_and(|system| matches!(system, System::Frame(_)));
+            let remark = is_costly.then(|| (label.clone(), cost_in_words(&factors, plan.analyses())));
             LabelledPlan { remark, label, plan, motions, known: None }
         };
         let mut plans = Vec::new();
@@ -87,7 +98,7 @@ impl OwnStructure {
             let per_motion = if place < self.in_space.len() { per_pair } else { 1 };
             let records = 0..analysed.peaks.axes().motions * per_motion;
             let peaks_m = records.flat_map(|record| analysed.peaks.row_m(record / per_motion, 0));
-            (system.kind(), system.restitution(), peaks_m.map(|peak_m| self.factor * peak_m).collect())
+            (self.kind(system), system.restitution(), peaks_m.map(|peak_m| self.factor * peak_m).collect())
         };
         let models = self.models().map(|(system, _)| system).zip(analysed);
         OwnPeaks { analyses: analysed.iter().map(|of| of.analyses).sum(), models: models.enumerate().map(of).collect() }

@@ -1,9 +1,8 @@
-//! The structure itself, a frame that can wobble or a block, at the value that its equivalent oscillator was found to
+//! The structure itself, a frame or a block, at the value that its equivalent oscillator was found to
 //! need, and the value that it needs itself.
 
 use serde::Serialize;
 use uplift_alarms::OwnRisk;
-use uplift_structure::Kind;
 use uplift_study::Structure;
 use uplift_uniform_risk::EventRisk;
 
@@ -15,7 +14,7 @@ use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::limit::{FrameLimit, LimitRisk};
 use crate::opening::Place;
-use crate::own_structure::{OwnLevels, OwnModel, OwnQuestion, OwnReport, OwnStructure};
+use crate::own_structure::{OwnLevels, OwnModel, OwnMotion, OwnQuestion, OwnReport, OwnStructure};
 use crate::risk::own_risk;
 
 /// Most values at which it is shaken.
@@ -25,7 +24,7 @@ const NEAR: f64 = 0.02;
 /// Least and largest factor from one value to the next while none is safe.
 const STEPS: [f64; 2] = [1.05, 1.5];
 
-/// The structure itself: a frame that can wobble, or a block.
+/// The structure itself: a frame or a block.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TargetOwn {
     /// The value at which its models are judged: the safe value of the proxy, or the best estimate where that is
@@ -38,7 +37,7 @@ pub struct TargetOwn {
     pub levels_of_study: usize,
     /// Nonlinear time histories.
     pub analyses: u64,
-    /// Wobbling under both components, then in the plane of the study's component; or the block alone.
+    /// Wobbling under both components, then in the plane of the study's component; or what moves in a plane alone.
     pub models: Vec<TargetModel>,
     /// The value at which the limit is looked at: the safe one, or the first where there is none.
     #[serde(skip)]
@@ -62,7 +61,7 @@ pub struct TargetOwn {
 /// One model at the value.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TargetModel {
-    /// `wobbling frame`, `planar frame` or `block`.
+    /// `wobbling frame`, `planar frame`, `block` or `equivalent block`.
     pub model: &'static str,
     /// Velocity after over before an impact.
     pub restitution: f64,
@@ -123,7 +122,7 @@ impl TargetOwn {
         }
     }
 
-    /// The model that decides: the wobbling frame, or the block.
+    /// The model that decides: the wobbling frame, or the only one.
     pub fn decisive(&self) -> &TargetModel {
         &self.models[0]
     }
@@ -174,6 +173,8 @@ impl TargetOwn {
 /// Where and by what it is judged.
 pub(super) struct Judge<'a> {
     pub(super) structure: &'a Structure,
+    /// How it is shaken itself; none where that is not asked for, and why it cannot be.
+    pub(super) motion: Result<Option<OwnMotion>, &'static str>,
     pub(super) options: &'a TargetOptions,
     pub(super) place: Place<'a>,
     /// The hazard of the place, and how records scatter.
@@ -184,8 +185,8 @@ pub(super) struct Judge<'a> {
 
 impl Judge<'_> {
     /// The structure itself at the `safe` value of its proxy, or at the `best` estimate where that is infinite, and the
-    /// value that it needs up to `most`; none where it is not asked for, and with the reason where it leaves the
-    /// ground.
+    /// value that it needs up to `most`; none where it is not asked for, and with the reason where it cannot be
+    /// shaken.
     pub(super) fn judge(
         &self,
         trials: &mut Trials<'_>,
@@ -193,20 +194,15 @@ impl Judge<'_> {
         [least, most]: [f64; 2],
     ) -> Result<(Option<TargetOwn>, Option<String>), DesignError> {
         let value = if safe.is_finite() { safe } else { best };
-        let pairs = trials.components.take();
-        if pairs.is_none() {
-            if self.structure.block.is_none() || self.options.proxy {
-                return Ok((None, None));
-            }
-            let is_block = self.structure.description.kind == Kind::Block;
-            if !is_block && self.options.event() != TargetEvent::Overturning {
-                return Ok((None, Some(NO_EVENT.to_owned())));
-            }
-        }
-        // that a frame needs less is not worth its many analyses
-        let range = [if pairs.is_some() { value } else { least }, most];
+        let motion = match self.motion {
+            Ok(Some(motion)) => motion,
+            Ok(None) => return Ok((None, None)),
+            Err(reason) => return Ok((None, Some(reason.to_owned()))),
+        };
+        // that a frame in space needs less is not worth its many analyses
+        let range = [if motion == OwnMotion::InSpace { value } else { least }, most];
         let Some(first) = self.structure_at(value)? else { return Ok((None, Some(OF_SIZE.to_owned()))) };
-        let mut itself = match OwnStructure::from_structure(&first, pairs)? {
+        let mut itself = match OwnStructure::from_structure(&first, (motion, trials.components.take()))? {
             Ok(itself) => itself,
             Err(reason) => return Ok((None, Some(reason))),
         };
@@ -221,7 +217,7 @@ impl Judge<'_> {
         let mut limits = vec![(value, limit_of(&report))];
         let tried = self.searched((value, models[0].clone()), range, |next| {
             let Some(structure) = self.structure_at(next)? else { return Ok(None) };
-            if itself.change(&structure)?.is_some() {
+            if itself.change(&structure, motion)?.is_some() {
                 return Ok(None);
             }
             let levels = itself.levels(&trials.records.set, self.place.measure);
@@ -305,8 +301,6 @@ impl Judge<'_> {
     }
 }
 
-/// Why the block that is equivalent to another structure is left out of anything but overturning.
-const NO_EVENT: &str = "the block equivalent to the structure is judged for overturning alone";
 /// Why the structure itself is left out where strength or capacity vary.
 pub(super) const OF_SIZE: &str = "strength and capacity follow from its size: vary width or size";
 

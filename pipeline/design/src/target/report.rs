@@ -43,7 +43,7 @@ pub struct TargetReport {
     pub event: String,
     /// Whether all numbers are those of its oscillator, though a frame or block models it itself.
     pub by_proxy: bool,
-    /// What the structure itself says, a frame that can wobble or a block; none of any other, and by its proxy.
+    /// What the structure itself says, a frame or a block; none of any other, and by its proxy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub own: Option<TargetOwn>,
     /// Why it is left out although no `--proxy` asks for that.

@@ -17,7 +17,7 @@ use uplift_result::ResultFile;
 use uplift_statics::selection::{select, stopper_yield_force_n};
 use uplift_statics::{Candidate, Imperfections, Limits, StaticsError, Target, TendonPath};
 use uplift_structure::{Kind, StructureDescription};
-use uplift_study::{ColumnShape, RestrainerFile, Structure};
+use uplift_study::{RestrainerFile, Structure};
 
 use super::catalogue;
 use super::options::RestrainerDesignOptions;
@@ -79,7 +79,7 @@ pub fn design(
         with_stack(structure, &with(first)?, first, options, events)?
     } else {
         let free = Some(columns.clone().with_restrained(0)?);
-        wobbling(&Structure { columns: free, ..without_restrainers(structure)? }, options, events)?
+        by_itself(&Structure { columns: free, ..without_restrainers(structure)? }, options, events)?
     };
     let (duct_gap_m, tendon_length_m) = match limits.path {
         TendonPath::Shifted { duct_gap_m, tendon_length_m } => (duct_gap_m, tendon_length_m),
@@ -113,7 +113,7 @@ pub fn design(
         found: all.len(),
         stacks,
         at_demand,
-        proxy: options.urs.is_some() && structure.column_shape == ColumnShape::Cylinder && frame.is_none(),
+        proxy: options.urs.is_some() && frame.is_none(),
         frame,
         without_frame,
         stoppers,
@@ -167,19 +167,16 @@ fn with_stack(
         tendon_stiffness_n_m: structure.description.tendon_stiffness_for_capacity_n_m(capacity_m)?,
         ..structure.description
     };
-    wobbling(&resolved(structure, &description, Some(held.clone()))?, options, events)
+    by_itself(&resolved(structure, &description, Some(held.clone()))?, options, events)
 }
 
-/// What the frame itself says of a structure that can wobble; none by its proxy alone and without a result.
-fn wobbling(
+/// What the frame itself says; none by its proxy alone and without a result.
+fn by_itself(
     structure: &Structure,
     options: &RestrainerDesignOptions,
     events: &dyn Events,
 ) -> Result<(Option<OwnReport>, Option<String>), LaboratoryError> {
     let Some(result) = options.urs.as_ref().filter(|_| !options.proxy) else { return Ok((None, None)) };
-    if structure.column_shape != ColumnShape::Cylinder {
-        return Ok((None, None));
-    }
     let found = design_by_spectrum(structure, result, &options.by_spectrum(), events)?;
     Ok((found.own, found.without_own))
 }

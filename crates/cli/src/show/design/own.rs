@@ -1,4 +1,4 @@
-//! What a design says first of a structure that is analysed itself: a frame that can wobble, or a block.
+//! What a design says first of a structure that is analysed itself: a frame or a block.
 
 use std::io::Write;
 use std::path::Path;
@@ -10,9 +10,7 @@ use uplift::text::{Table, cell_with_band, metres_or_overturns, typed, typed_path
 use uplift_structure::{NO_CAPACITY, NO_CAPACITY_REASON, Rule};
 
 use crate::error::CommandError;
-use crate::show::structure::{
-    BLOCK, doubt, mark_of, marked_band_in_cell, measure_option, print_by_earthquake, risk_cells,
-};
+use crate::show::structure::{doubt, mark_of, marked_band_in_cell, measure_option, print_by_earthquake, risk_cells};
 
 /// The verdicts on a structure itself and on its proxy, with demand and risk of each.
 pub(super) fn print_verdicts(
@@ -37,7 +35,7 @@ pub(super) fn print_verdicts(
             let oscillator = of_oscillator("requires ");
             format!("{verdict}: {} overturns more often than the target{oscillator}; {capacity}", own.model)
         }
-        _ => format!("{NO_CAPACITY}: {NO_CAPACITY_REASON}"),
+        _ => format!("{NO_CAPACITY}: {NO_CAPACITY_REASON}: no rule applies"),
     };
     writeln!(out, "Verdict   {name} by {by}: {}{answer}", doubt(&report.alarms))?;
     print_proxy(out, report, itself)?;
@@ -47,6 +45,9 @@ pub(super) fn print_verdicts(
     }
     for (im, verdict) in report.verdicts_by_other_measures() {
         writeln!(out, "          {verdict}; {noun}: {}", measure_option(im))?;
+    }
+    if report.other_oscillator {
+        writeln!(out, "          spectrum of another oscillator: --details")?;
     }
     print_assumed(out, report)?;
     let dash = || "-".to_owned();
@@ -67,8 +68,8 @@ pub(super) fn print_verdicts(
             cell_with_band(demand_m, bands.map(|of| of.quoted())) + mark_of(bands)
         }
     };
-    // a block and its oscillator lose energy in the same way, and not as much
-    let model = |model: &str, restitution: Option<f64>| match restitution.filter(|_| own.model == BLOCK) {
+    // in a plane it loses energy as its oscillator does, and not as much
+    let model = |model: &str, restitution: Option<f64>| match restitution.filter(|_| !itself.wobbles()) {
         Some(restitution) => format!("{model}, restitution {restitution:.3}"),
         None => model.to_owned(),
     };

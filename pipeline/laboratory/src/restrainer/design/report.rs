@@ -67,11 +67,11 @@ pub struct RestrainerDesign {
     pub stacks: Vec<Candidate>,
     /// Each of these at the demand; none where the target is no spectrum's.
     pub at_demand: Vec<AtDemand>,
-    /// The structure with the first of these, or without tendons where none is needed, as a frame that wobbles; none
-    /// where it cannot, by its proxy, and where the target is no spectrum's.
+    /// The structure with the first of these, or without tendons where none is needed, itself; none by its proxy, and
+    /// where the target is no spectrum's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frame: Option<OwnReport>,
-    /// Whether the verdict is that of the proxy of a frame that can wobble.
+    /// Whether the verdict is that of the proxy alone.
     pub proxy: bool,
     /// Why, where it was not asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
