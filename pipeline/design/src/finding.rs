@@ -130,7 +130,7 @@ impl DesignReport {
         for (rule, check) in self.rules.iter().filter_map(|outcome| Some((outcome.rule.words(), outcome.check()?))) {
             rows.push(row(format!("demand by {rule}"), check.demand_m, "m"));
             rows.push(row(format!("required capacity by {rule}"), check.required_capacity_m, "m"));
-            if check.capacity_m.is_finite() {
+            if check.capacity_m.is_finite() && check.demand_m.is_finite() {
                 rows.push(row(format!("margin by {rule}"), check.margin_m, "m"));
                 rows.push(row(format!("safety factor by {rule}"), check.safety_factor, "1"));
             }

@@ -48,14 +48,24 @@ impl<'a> Place<'a> {
     /// No repaired spectrum there.
     pub(super) fn weights(&self, repair: &'a Repair<'a>) -> Result<SiteWeights<'a>, DesignError> {
         let Self { site, name, measure } = *self;
-        repair.weights((measure, site)).ok_or_else(|| {
-            let (measure, result) = (measure.measure().label(), typed_path(repair.file.path()));
-            JobError::Usage(format!(
+        if let Some(weights) = repair.weights((measure, site)) {
+            return Ok(weights);
+        }
+        let found = repair.file.consistency()?;
+        let was_tried = found.iter().any(|of| of.scaled_to == measure.measure() && of.u_m.is_some());
+        let (measure, result) = (measure.measure().label(), typed_path(repair.file.path()));
+        Err(JobError::Usage(if was_tried {
+            format!(
+                "--repaired: no weights match both hazard curves of {name} by {measure}: leave --repaired out, and see \
+                 why: uplift consistency {result} --details"
+            )
+        } else {
+            format!(
                 "--repaired: the result has no repaired spectrum of {name} by {measure}: `uplift consistency {result} \
-                 --repair --details` computes it, or says why there is none"
-            ))
-            .into()
+                 --repair` computes it"
+            )
         })
+        .into())
     }
 
     /// How the records miss the hazard there, where the result has a repair that mends it.

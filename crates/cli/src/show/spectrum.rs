@@ -110,6 +110,9 @@ pub(super) fn print_displacements(out: &mut impl Write, report: &DisplacementRep
             })
         });
     writeln!(out, "{table}")?;
+    if report.repaired && report.displacements.iter().any(|own| own.u_m.is_nan()) {
+        writeln!(out, "none: no weights match both hazard curves of the site")?;
+    }
     print_below(out, report)
 }
 

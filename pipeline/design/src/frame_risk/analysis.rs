@@ -96,9 +96,10 @@ impl FrameAnalysis {
         (0..self.records.count()).map(|record| record / self.pairs.per_pair).collect()
     }
 
-    /// Whether the records of the study are no components of pairs, but pairs seen from azimuths.
-    fn is_rotated(&self) -> bool {
-        matches!(self.study.records.component, Component::Rotated(_))
+    /// Whether the planar frame is shaken by the records of the study: nothing else needs the components of pairs, or
+    /// the records are none, but pairs seen from azimuths.
+    fn is_along_records(&self) -> bool {
+        self.wobbling.is_empty() || matches!(self.study.records.component, Component::Rotated(_))
     }
 
     /// The stripes of every model by one measure.
@@ -108,18 +109,18 @@ impl FrameAnalysis {
         let mut plans = Vec::new();
         if !self.wobbling.is_empty() {
             plans.push(labelled(self.pairs.shaking(set, at, &self.wobbling)?, "pair", &self.pairs.keys));
+            let of_pair = |(index, pair): (usize, &'a RecordPair)| {
+                let intensity = self.pairs.amplitude(set, plan.measure, index);
+                [&pair.h1, &pair.h2].map(|accelerogram| StripeRecord { id: &pair.id, accelerogram, intensity })
+            };
+            let components = self.pairs.all.iter().enumerate().flat_map(of_pair).collect();
+            let stripes = plan_motions(at, components, &self.planar, true)?;
+            let stripes = with_verticals(stripes, self.pairs.verticals(set, 2))?;
+            plans.push(labelled(stripes, "component", &self.component_keys));
         }
-        let of_pair = |(index, pair): (usize, &'a RecordPair)| {
-            let intensity = self.pairs.amplitude(set, plan.measure, index);
-            [&pair.h1, &pair.h2].map(|accelerogram| StripeRecord { id: &pair.id, accelerogram, intensity })
-        };
-        let components = self.pairs.all.iter().enumerate().flat_map(of_pair).collect();
-        let stripes = plan_motions(at, components, &self.planar, true)?;
-        let stripes = with_verticals(stripes, self.pairs.verticals(set, 2))?;
-        plans.push(labelled(stripes, "component", &self.component_keys));
-        if self.is_rotated() {
+        if self.is_along_records() {
             let stripes = in_the_plane_of_records(set, at, &self.planar)?;
-            plans.push(labelled(stripes, "rotated record", &self.records.motions));
+            plans.push(labelled(stripes, "record", &self.records.motions));
         }
         let oscillators = plan_stripes(&self.study, plan, &self.records.set, &self.oscillators)?;
         plans.push(labelled(oscillators, "record", &self.records.motions));
@@ -131,8 +132,8 @@ impl FrameAnalysis {
         let analyses = analysed.iter().map(|of| of.analyses).sum();
         let mut peaks = analysed.into_iter().map(|of| of.peaks);
         let wobbling = if self.wobbling.is_empty() { None } else { peaks.next() };
-        let planar = peaks.next();
-        let rotated = if self.is_rotated() { peaks.next() } else { None };
+        let planar = if self.wobbling.is_empty() { None } else { peaks.next() };
+        let along_records = if self.is_along_records() { peaks.next() } else { None };
         let oscillators = peaks.next();
         let levels = planar.as_ref().map_or(0, |peaks| peaks.axes().scales);
         let over_records = |peaks: Option<&Peaks>, system: usize, motion_of: &dyn Fn(usize) -> usize| -> Vec<f64> {
@@ -154,8 +155,8 @@ impl FrameAnalysis {
             cells.map(|(pair, level)| direction(wobbling, planar, pair, level)).collect()
         });
         Demands {
-            planar_m: match &rotated {
-                Some(rotated) => over_records(Some(rotated), 0, &|record| record),
+            planar_m: match &along_records {
+                Some(peaks) => over_records(Some(peaks), 0, &|record| record),
                 None => over_records(planar.as_ref(), 0, &component),
             },
             zero_stiffness_m: over_records(oscillators.as_ref(), 0, &|record| record),
