@@ -15,7 +15,6 @@ use uplift_inputs::RecordSet;
 use uplift_job::events::Events;
 use uplift_result::ResultFile;
 use uplift_risk::{PooledDemand, RunWeights};
-use uplift_spectra::NUDGES;
 use uplift_study::{Structure, UniformRiskStudy};
 use uplift_uniform_risk::consistency::Reweighing;
 use uplift_uniform_risk::{EventRisk, SpectraOfResult, Stripes, StudyOfResult};
@@ -66,7 +65,8 @@ pub fn overturning(
     let mut notes = Vec::new();
     let analysis = OverturningAnalysis::from_structure(structure, &source, options, &mut notes)?;
     notes.extend(after_the_end(&source.study));
-    let work = analysis.work(&job_name("overturning", structure), &factors())?;
+    let factors = factors(options.sensitivity);
+    let work = analysis.work(&job_name("overturning", structure), &factors)?;
     let (analysed, checkpoint) = work.asked_of(result, &options.shards, events)?;
     let OverturningAnalysis { study, records, measures, models, uncertain, .. } = &analysis;
     let reweighing = Reweighing::from_motions(&file)?;
@@ -79,7 +79,7 @@ pub fn overturning(
     for (&measure, at) in measures.iter().zip(&weighed) {
         let levels = &measure.plan.levels;
         let of_model = |((model, _), analysed): (&(System, _), Analysed)| {
-            let rounded_m: Vec<_> = (1..=NUDGES).map(|nudge| peaks_m(&analysed, levels.len(), nudge)).collect();
+            let rounded_m: Vec<_> = (1..factors.len()).map(|nudge| peaks_m(&analysed, levels.len(), nudge)).collect();
             let limit_m = limit.map(|limit| limit.displacement_m / structure.system.participation());
             let limit_m = limit_m.filter(|_| matches!(model, System::Oscillator(_)));
             let peaks_m = (&peaks_m(&analysed, levels.len(), 0)[..], &rounded_m[..]);
@@ -140,7 +140,7 @@ pub fn overturning_shard(
 ) -> Result<ShardReport, DesignError> {
     let source = StudyOfResult::read(&ResultFile::open(result)?, options.manifest.as_deref())?;
     let analysis = OverturningAnalysis::from_structure(structure, &source, options, &mut Vec::new())?;
-    let work = analysis.work(&job_name("overturning", structure), &factors())?;
+    let work = analysis.work(&job_name("overturning", structure), &factors(options.sensitivity))?;
     Ok(work.shard_beside(result, shard, events)?)
 }
 

@@ -39,6 +39,7 @@ fn fragility(report: &OverturningReport) -> Vec<Column> {
     // the rows of a measure follow each other, one a model
     let of_models = report.overturning.iter().zip(report.models.iter().cycle());
     let rows = of_models.flat_map(|(found, of)| (0..found.levels.len()).map(move |at| (found, of.restitution, at)));
+    let rounding = |found: &CollapseReport, at: usize, end: usize| Some(found.overturned_rounding.as_ref()?[at][end]);
     ColumnsOf::new(rows)
         .with("im", |(found, ..)| found.im)
         .with("unit", |(found, ..)| found.unit)
@@ -49,8 +50,8 @@ fn fragility(report: &OverturningReport) -> Vec<Column> {
         .with("records", |(found, ..)| found.records)
         .with("share", |(found, _, at)| f64::from(found.overturned[at]) / f64::from(found.records))
         .with("lognormal", |(found, _, at)| found.fit.map(|fit| fit.fragility.probability(found.levels[at])))
-        .with("overturned_rounding_lowest", |(found, _, at)| found.overturned_rounding[at][0])
-        .with("overturned_rounding_highest", |(found, _, at)| found.overturned_rounding[at][1])
+        .with("overturned_rounding_lowest", |(found, _, at)| rounding(found, at, 0))
+        .with("overturned_rounding_highest", |(found, _, at)| rounding(found, at, 1))
         .build()
 }
 
@@ -68,8 +69,8 @@ fn risk(report: &OverturningReport) -> Vec<Column> {
         .with("theta", |(_, found, _)| found.theta)
         .with("beta", |(_, found, _)| found.beta)
         .with("maf_lognormal_per_year", |(site, ..)| site.lognormal_per_year)
-        .with("maf_rounding_lowest_per_year", |(site, ..)| site.per_year_rounding.lowest)
-        .with("maf_rounding_highest_per_year", |(site, ..)| site.per_year_rounding.highest);
+        .with("maf_rounding_lowest_per_year", |(site, ..)| Some(site.per_year_rounding?.lowest))
+        .with("maf_rounding_highest_per_year", |(site, ..)| Some(site.per_year_rounding?.highest));
     if rows.iter().any(|(site, ..)| site.repaired.is_some()) {
         columns = columns.with("maf_consistent_per_year", |(site, ..)| site.repaired.map(|risk| risk.per_year));
     }

@@ -356,6 +356,7 @@ fn overturning_reports_what_it_writes() {
     let folder = Folder::new();
     let options = OverturningOptions {
         measure: Some(IntensityMeasure::Pga),
+        sensitivity: true,
         table: Some(folder.path("o.csv")),
         ..OverturningOptions::default()
     };

@@ -2,10 +2,8 @@
 
 use std::io::Write;
 
-use uplift::structure::{
-    Bands, CollapseReport, EventRisk, FrameLimit, LimitRisk, OSCILLATOR, OverturningReport, SiteRisk,
-};
-use uplift::text::{self, Table, share, two_digits};
+use uplift::structure::{Bands, CollapseReport, EventRisk, FrameLimit, OSCILLATOR, OverturningReport, SiteRisk};
+use uplift::text::{Table, share, two_digits};
 use uplift_spectra::Noisy;
 use uplift_structure::NO_CAPACITY;
 
@@ -33,18 +31,12 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
     let shows_bands = !has_frame || sites.len() < 3;
     print_headline(out, report, limit, shows_bands || limit.is_some())?;
     let marked = |bands: Option<Bands>| marked_band_in_cell(bands.filter(|_| shows_bands));
-    let overturns = |of: &SiteRisk| {
-        let [per_year, ..] = risk_cells(&of.risk);
-        let per_year = if of.risk.per_year > 0.0 { of.per_year_rounding.marked(text::rate) } else { per_year };
-        per_year + &marked(of.bands)
-    };
-    let passes = |of: &LimitRisk| risk_cells(&of.risk)[0].clone() + &marked(of.bands);
-    let repaired = |of: &SiteRisk, risk: EventRisk| risk_cells(&risk)[0].clone() + &marked(of.repaired_bands);
+    let banded = |risk: &EventRisk, bands: Option<Bands>| risk_cells(risk)[0].clone() + &marked(bands);
     let cell = |of: &SiteRisk, event: Event| {
         let shown = match event {
-            Event::PassesLimit(_) => of.beyond_limit.as_ref().map(passes),
-            Event::Overturns => Some(overturns(of)),
-            Event::OverturnsRepaired => of.repaired.map(|risk| repaired(of, risk)),
+            Event::PassesLimit(_) => of.beyond_limit.as_ref().map(|of| banded(&of.risk, of.bands)),
+            Event::Overturns => Some(banded(&of.risk, of.bands)),
+            Event::OverturnsRepaired => of.repaired.map(|risk| banded(&risk, of.repaired_bands)),
         };
         shown.unwrap_or_else(|| "-".to_owned())
     };
@@ -92,9 +84,6 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
             sites.find_map(|(of, found, _)| report.source.hazard_of_repair(of.repaired.is_some(), &of.site, found.im));
         let hazard = hazard.map_or_else(String::new, |hazard| format!(", {hazard}"));
         writeln!(out, "repaired: the records weighted for the site's hazard{hazard}")?;
-    }
-    if table.contains('*') {
-        writeln!(out, "* the last digits are not significant (rounding)")?;
     }
     if let Some(uncertainty) = &report.uncertainty {
         print_uncertain_answers(out, uncertainty)?;
@@ -240,23 +229,32 @@ fn digits(value: f64) -> String {
     format!("{value:.4}")
 }
 
-fn or_dash(value: Option<Noisy>, shown: fn(f64) -> String) -> String {
-    value.map_or_else(|| "-".to_owned(), |value| value.marked(shown))
+/// A value, with an asterisk where rounding shows another.
+fn or_dash(value: Option<f64>, rounding: Option<Noisy>, shown: fn(f64) -> String) -> String {
+    match (value, rounding) {
+        (_, Some(rounding)) => rounding.marked(shown),
+        (Some(value), None) => shown(value),
+        (None, None) => "-".to_owned(),
+    }
 }
 
 /// The first level at which enough records overturn, with an asterisk where rounding decides which it is.
 fn first_level(found: &CollapseReport, enough: &dyn Fn(u32) -> bool) -> String {
     let first = |count: &dyn Fn(usize) -> u32| (0..found.levels.len()).find(|&level| enough(count(level)));
     let own = first(&|level| found.overturned[level]);
-    let [fewest, most] = [0, 1].map(|end| first(&|level| found.overturned_rounding[level][end]));
+    let counts = |end: usize| {
+        move |level: usize| found.overturned_rounding.as_ref().map_or(found.overturned[level], |of| of[level][end])
+    };
+    let [fewest, most] = [0, 1].map(|end| first(&counts(end)));
     let mark = if fewest == most { "" } else { "*" };
     own.map_or_else(|| format!("-{mark}"), |level| format!("{}{mark}", found.levels[level]))
 }
 
 fn print_fragility(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
     let at_last = |found: &CollapseReport| {
-        let last = found.overturned.iter().zip(&found.overturned_rounding).next_back();
-        let count = last.map_or_else(|| "0".to_owned(), |(&own, &range)| counted(own, range));
+        let own = found.overturned.last().copied().unwrap_or_default();
+        let range = found.overturned_rounding.as_ref().and_then(|of| of.last().copied());
+        let count = counted(own, range.unwrap_or([own; 2]));
         format!("{count} of {}", found.records)
     };
     let table = Table::from_rows(&report.overturning)
@@ -265,8 +263,8 @@ fn print_fragility(out: &mut impl Write, report: &OverturningReport) -> Result<(
         .right("first overturns", |found| first_level(found, &|overturned| overturned > 0))
         .right("half overturn", |found| first_level(found, &|overturned| 2 * overturned >= found.records))
         .right("at the last level", at_last)
-        .right("theta", |found| or_dash(found.theta_rounding, digits))
-        .right("beta", |found| or_dash(found.beta_rounding, digits));
+        .right("theta", |found| or_dash(found.theta, found.theta_rounding, digits))
+        .right("beta", |found| or_dash(found.beta, found.beta_rounding, digits));
     writeln!(
         out,
         "\nCollapse fragility: levels at which the first and half of the records overturn the structure, and the \
@@ -289,7 +287,7 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
             let shown = if place == 0 { of_site.site.clone() } else { String::new() };
             let mut row = vec![shown, found.im.to_owned(), found.model.to_owned()];
             row.extend(risk_cells(&of_site.risk));
-            if of_site.per_year_rounding.shows_otherwise(rate) {
+            if of_site.per_year_rounding.is_some_and(|of| of.shows_otherwise(rate)) {
                 row[3].push('*');
             }
             row.push(of_site.bands.map_or_else(|| "-".to_owned(), |bands| limits(bands.quoted())));
@@ -298,7 +296,8 @@ fn print_risk(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
                 row.push(repaired.map_or_else(|| "-".to_owned(), |rate| rate + &band_in_cell(of_site.repaired_bands)));
             }
             row.extend([
-                or_dash(of_site.lognormal_per_year_rounding, rate) + &band_in_cell(of_site.lognormal_bands),
+                or_dash(of_site.lognormal_per_year, of_site.lognormal_per_year_rounding, rate)
+                    + &band_in_cell(of_site.lognormal_bands),
                 percent(of_site.risk.lower_tail_share),
                 percent(of_site.risk.upper_tail_share),
             ]);
@@ -357,7 +356,7 @@ fn print_beyond_limit(out: &mut impl Write, report: &OverturningReport) -> Resul
 fn print_rounding(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
     let mut moved = Vec::new();
     for found in &report.overturning {
-        let counts: Vec<String> = (found.levels.iter().zip(&found.overturned_rounding))
+        let counts: Vec<String> = (found.levels.iter().zip(found.overturned_rounding.iter().flatten()))
             .filter(|(_, [fewest, most])| fewest < most)
             .map(|(level, [fewest, most])| format!("{fewest} to {most} at {level}"))
             .collect();
@@ -365,8 +364,7 @@ fn print_rounding(out: &mut impl Write, report: &OverturningReport) -> Result<()
             moved.push(format!("   {}, {}, {}: {}", found.im, found.unit, found.model, counts.join(", ")));
         }
         for of_site in &found.sites {
-            let of = &of_site.per_year_rounding;
-            if of.shows_otherwise(rate) {
+            if let Some(of) = of_site.per_year_rounding.filter(|of| of.shows_otherwise(rate)) {
                 let (lowest, highest) = (rate(of.lowest), rate(of.highest));
                 moved.push(format!(
                     "   {}, {}, {}: {lowest} to {highest} per year",

@@ -24,11 +24,14 @@ pub struct OverturningOptions {
     /// Count the oscillator and the block alone, not the frame itself
     #[arg(long)]
     pub proxy: bool,
+    /// Say what rounding makes of the numbers, with nine times the analyses.
+    #[arg(skip)]
+    pub sensitivity: bool,
     /// CSV file of the collapse fragility to write; the risk goes to one that ends in .risk.csv beside it.
     #[arg(skip)]
     pub table: Option<PathBuf>,
-    /// Every shard of the analyses, as [`overturning_shard`](super::overturning_shard) wrote them; none to compute them
-    /// here.
+    /// Every shard of the analyses, as [`overturning_shard`](super::overturning_shard) wrote them with the same
+    /// `sensitivity`; none to compute them here.
     #[arg(skip)]
     pub shards: Vec<PathBuf>,
     /// Whether existing files are overwritten.

@@ -104,8 +104,9 @@ pub struct CollapseReport {
     /// Records that overturn the structure at each level.
     pub overturned: Vec<u32>,
     /// Fewest and most of them with all scale factors up to 4e-15 smaller and larger: another count than the one above
-    /// hangs on runs beyond double precision (docs/method.md, section 1.5).
-    pub overturned_rounding: Vec<[u32; 2]>,
+    /// hangs on runs beyond double precision (docs/method.md, section 1.5). None where this is not asked for, and of a
+    /// frame; so are the other ranges.
+    pub overturned_rounding: Option<Vec<[u32; 2]>>,
     /// Records.
     pub records: u32,
     /// Median of the lognormal fragility of maximum likelihood; none where there is no fit.
@@ -150,7 +151,7 @@ pub struct SiteRisk {
     /// Its confidence band by the records; none without a fit, where that hangs on one record, and of a single one.
     pub lognormal_bands: Option<Bands>,
     /// The frequency from the counts with its range over scale factors up to 4e-15 smaller and larger, 1/yr.
-    pub per_year_rounding: Noisy,
+    pub per_year_rounding: Option<Noisy>,
     /// That with the lognormal fragility; NaN where one of them has no fit.
     pub lognormal_per_year_rounding: Option<Noisy>,
 }
@@ -213,10 +214,12 @@ impl CollapseReport {
         records: u32,
         sites: &[&str],
     ) -> Self {
-        let around = |value: &dyn Fn(&Collapse) -> f64| Noisy::around(value(own), rounded.iter().map(value));
+        let around = |value: &dyn Fn(&Collapse) -> f64| {
+            (!rounded.is_empty()).then(|| Noisy::around(value(own), rounded.iter().map(value)))
+        };
         let fit = own.fit.as_ref().ok();
         let of_fit = |value: &dyn Fn(&LognormalFit) -> f64| {
-            fit.map(|_| around(&|found| found.fit.as_ref().map_or(f64::NAN, value)))
+            fit.and_then(|_| around(&|found| found.fit.as_ref().map_or(f64::NAN, value)))
         };
         let site = |(index, site): (usize, &&str)| SiteRisk {
             site: (*site).to_owned(),
@@ -231,7 +234,7 @@ impl CollapseReport {
             lognormal_per_year_rounding: own
                 .fitted
                 .as_ref()
-                .map(|_| around(&|found| found.fitted.as_ref().map_or(f64::NAN, |fitted| fitted[index].per_year))),
+                .and_then(|_| around(&|found| found.fitted.as_ref().map_or(f64::NAN, |fitted| fitted[index].per_year))),
         };
         let count = |found: &Collapse, level: usize| found.counts[level].exceedances;
         let counts_at = |level: usize| {
@@ -244,7 +247,7 @@ impl CollapseReport {
             model,
             levels: own.counts.iter().map(|count| count.level).collect(),
             overturned: own.counts.iter().map(|count| count.exceedances).collect(),
-            overturned_rounding: (0..own.counts.len()).map(counts_at).collect(),
+            overturned_rounding: (!rounded.is_empty()).then(|| (0..own.counts.len()).map(counts_at).collect()),
             records,
             theta: fit.map(|fit| fit.fragility.median()),
             beta: fit.map(|fit| fit.fragility.dispersion()),

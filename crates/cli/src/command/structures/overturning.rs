@@ -37,7 +37,10 @@ pub(crate) fn overturning(arguments: &OverturningArguments, terminal: &Terminal)
         check_figure_file(figure, &arguments.structure.inputs(), arguments.overwriting.force)?;
     }
     let StructureArguments { urs, manifest, shard, shards, .. } = &arguments.structure;
+    // a shard serves every later question
+    let is_shared = shard.is_some() || !shards.is_empty();
     let options = OverturningOptions {
+        sensitivity: is_shared || arguments.json || arguments.output.is_some() || terminal.shows_details(),
         manifest: manifest.clone(),
         shards: shards.clone(),
         table: arguments.output.clone(),
