@@ -135,7 +135,7 @@ impl<'a> OverturningAnalysis<'a> {
     }
 }
 
-/// Factors on every scale factor: 1, then, for the sensitivity to rounding, those of its neighbours some roundings away.
+/// Factors on every scale factor: 1, and for the sensitivity to rounding those of its neighbours some roundings away.
 pub(super) fn factors(sensitivity: bool) -> Vec<f64> {
     let neighbours = nudges();
     [1.0].iter().chain(neighbours.iter().filter(|_| sensitivity)).copied().collect()
