@@ -303,8 +303,13 @@ fn what_does_not_wobble_is_judged_itself() {
             assert_eq!(tried["per_year"], site["per_year"], "{tried}");
         }
     }
+    study.write("own.toml", &square.replace("5e5", "1e5"));
+    let details = ["design", "own.toml", "--urs", "r.h5", "--site", "Here", "--no-keep", "--details"];
+    let details = study.uplift(&details).ok().stdout;
+    for whose in ["oscillator, tendon yield at ", "planar frame itself, tendon yield at "] {
+        assert!(details.contains(&format!("\n{whose}")), "{details}");
+    }
     // two shards give the same answer
-    study.write("own.toml", &square);
     for part in ["1/2", "2/2"] {
         study.uplift(&["design", "own.toml", "--urs", "r.h5", "--site", "Here", "--shard", part, "-q"]).ok();
     }

@@ -5,8 +5,8 @@ mod own;
 use std::io::Write;
 
 use uplift::structure::{
-    Bands, DemandBands, DemandRounding, DesignReport, ExactDemand, OwnReport, RuleCheck, RuleOutcome, Sensitivity,
-    verdict_word,
+    Bands, DemandBands, DemandRounding, DesignReport, EventRisk, ExactDemand, LimitEvent, LimitRisk, OwnReport,
+    RuleCheck, RuleOutcome, Sensitivity, verdict_word,
 };
 use uplift::text::{
     self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short, two_digits,
@@ -307,7 +307,7 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
     let rounding = exact.sensitivity.as_ref().map(|of| &of.rounding);
     let beyond = |whose: &str| format!("{whose}, u > {capacity_m:.4} m, the capacity");
     let mut rows = Vec::new();
-    let mut row = |what: String, risk, rounding: Option<&Noisy>| {
+    let mut row = |what: String, risk: &EventRisk, rounding: Option<&Noisy>| {
         let mut cells = vec![what];
         cells.extend(risk_cells(risk));
         if rounding.is_some_and(|rounding| rounding.shows_otherwise(rate)) {
@@ -320,7 +320,16 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
         row(beyond("oscillator"), risk, rounding);
     }
     row("oscillator, overturning".to_owned(), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
+    // the capacity has its row in any case
+    let limit = report.own.as_ref().and_then(|own| own.limit).filter(|limit| limit.event != LimitEvent::Capacity);
+    let beyond_limit = |whose: &str, of: Option<LimitRisk>| Some((format!("{whose}, {}", limit?.in_words()), of?.risk));
+    if let Some((what, risk)) = report.own.as_ref().and_then(|own| beyond_limit("oscillator", own.proxy_beyond_limit)) {
+        row(what, &risk, None);
+    }
     for model in report.own_models() {
+        if let Some((what, risk)) = beyond_limit(&format!("{} itself", model.model), model.beyond_limit) {
+            row(what, &risk, None);
+        }
         if let Some(risk) = &model.beyond_capacity {
             row(beyond(&format!("{} itself", model.model)), risk, None);
         }
