@@ -365,7 +365,7 @@ fn differences_from_the_study_are_reported() {
     assert!(found["assumed"].is_null(), "{found}");
     assert_eq!(
         design(&study, "block.toml", &[])["assumed"].to_string(),
-        r#"["uplift displacement 0.5 mm","restitution 0.95"]"#
+        r#"["uplift displacement 0.5 mm","restitution 0.942 of the block, 0.95 of its oscillator"]"#
     );
     let said = study.uplift(&["design", "block.toml", "--urs", "r.h5", "--spectrum-only"]).ok().stdout;
     assert!(
@@ -638,7 +638,7 @@ fn a_design_sheet_says_what_the_design_says() {
     // how sure that is, in words and drawn
     assert!(lead.contains("m (90 % band ") && lead.contains(" 90 % band: "), "{lead}");
     let drawn = rest.split_once("aria-label=\"Values (dots) with their 90 % confidence bands (bars), m\"").unwrap().1;
-    assert!(drawn.contains(">demand on its oscillator, Here, PGV: "), "{drawn}");
+    assert!(drawn.contains(">demand, oscillator, Here, PGV: "), "{drawn}");
     // the block to scale, with its dimensions
     let drawing = rest.split_once("<svg").unwrap().1.split_once("</svg>").unwrap().0;
     assert!(drawing.contains(">0.8 m</text>") && drawing.contains(">4 m</text>"), "{drawing}");

@@ -295,9 +295,11 @@ fn what_has_no_third_component_is_named_at_once() {
     let models: Vec<&str> =
         rates["models"].as_array().unwrap().iter().map(|of| of["model"].as_str().unwrap()).collect();
     assert_eq!(models, ["oscillator"]);
-    assert!(rates["without_frame"].as_str().unwrap().contains(told), "{rates}");
+    assert!(rates["without_own"].as_str().unwrap().contains(told), "{rates}");
     let rates = json(&study, &["overturning", "block.toml", "--urs", "r.h5"]);
-    assert!(rates["notes"].to_string().contains("the block is not analysed"), "{rates}");
+    assert!(rates["without_own"].as_str().unwrap().contains(told) && rates["by_proxy"] == true, "{rates}");
+    let said = study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "-q"]).ok().stdout;
+    assert!(said.contains(": its oscillator alone ") && said.contains("\nItself    not analysed: "), "{said}");
     let alone = json(&study, &["design", "frame.toml", "--urs", "r.h5", "--site", "Here", "--proxy"]);
     assert!(alone["without_own"].is_null(), "{alone}");
 }

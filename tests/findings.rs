@@ -194,9 +194,9 @@ fn report_and_exports_tell_what_was_printed() {
     assert!(told > 20, "{told}");
     let [design, overturning, target, risk] = answers.as_slice() else { panic!() };
     let exact = &design["document"]["exact"];
-    assert_eq!(row(design, "demand on its oscillator")["value"], exact["demand_m"]);
-    assert_eq!(row(design, "overturning")["value"], exact["overturning"]["per_year"]);
-    assert_eq!(row(design, "overturning")["lower"], exact["bands"]["overturning_per_year"]["by_record"][0]);
+    assert_eq!(row(design, "demand, oscillator")["value"], exact["demand_m"]);
+    assert_eq!(row(design, "overturning, oscillator")["value"], exact["overturning"]["per_year"]);
+    assert_eq!(row(design, "overturning, oscillator")["lower"], exact["bands"]["overturning_per_year"]["by_record"][0]);
     let block = &overturning["document"]["overturning"][1];
     assert_eq!(row(overturning, "overturning, block")["value"], block["sites"][0]["per_year"]);
     let least = row(target, "least size that meets the target");

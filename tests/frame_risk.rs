@@ -271,9 +271,7 @@ fn what_does_not_wobble_is_judged_itself() {
     };
     let square = FRAME.replace("column_shape = \"cylinder\"\n", "");
     let free = square.split("[restrainer]").next().unwrap().replace("restrained-frame", "frame");
-    for (text, model, in_overturning) in
-        [(&square, "planar frame", "planar frame"), (&free, "equivalent block", "block")]
-    {
+    for (text, model) in [(&square, "planar frame"), (&free, "equivalent block")] {
         study.write("own.toml", text);
         let (design, risk) = (ask("design", &[]), ask("risk", &[]));
         let [own] = &design["own"]["models"].as_array().unwrap()[..] else { panic!("{design}") };
@@ -283,7 +281,7 @@ fn what_does_not_wobble_is_judged_itself() {
         let tolerance = if model == "planar frame" { 0.0 } else { 1e-6 };
         assert!((demand - of_risk).abs() <= tolerance * of_risk, "{demand} {of_risk}");
         assert_eq!(own["overturning"]["per_year"], risk["overturning"]["per_year"]);
-        let site = of_model(&ask("overturning", &[]), in_overturning);
+        let site = of_model(&ask("overturning", &[]), model);
         assert_eq!(own["overturning"]["per_year"], site["per_year"]);
         assert_eq!(own["bands"]["overturning_per_year"], site["bands"]);
 
@@ -299,7 +297,7 @@ fn what_does_not_wobble_is_judged_itself() {
         assert_eq!(target["own"]["models"][0]["model"], model);
         for tried in target["own"]["tried"].as_array().unwrap() {
             study.write("own.toml", &text.replace("width_m = 1\n", &format!("width_m = {}\n", tried["value"])));
-            let site = of_model(&ask("overturning", &[]), in_overturning);
+            let site = of_model(&ask("overturning", &[]), model);
             assert_eq!(tried["per_year"], site["per_year"], "{tried}");
         }
     }
@@ -309,6 +307,12 @@ fn what_does_not_wobble_is_judged_itself() {
     for whose in ["oscillator, tendon yield at ", "planar frame itself, tendon yield at "] {
         assert!(details.contains(&format!("\n{whose}")), "{details}");
     }
+    // of dimensions at which no frame rocks it says so
+    study.write("own.toml", &square.replace("width_m = 1\n", "width_m = 12\n"));
+    let stocky = ask("design", &[]);
+    let reason = stocky["without_own"].as_str().unwrap();
+    assert!(stocky["by_proxy"] == true && reason.starts_with("no frame of these dimensions rocks: "), "{stocky}");
+    study.write("own.toml", &square);
     // two shards give the same answer
     for part in ["1/2", "2/2"] {
         study.uplift(&["design", "own.toml", "--urs", "r.h5", "--site", "Here", "--shard", part, "-q"]).ok();
@@ -378,6 +382,13 @@ fn a_frame_has_one_rate_by_every_command() {
         assert!(number(rate) > 0.0);
         assert_eq!(rate, &of_site["per_year"], "{site}: {of_site}");
     }
+    // what does not wobble is shaken at all of them, as by `risk`
+    study.write("square.toml", &FRAME.replace("column_shape = \"cylinder\"\n", ""));
+    let [design, risk] = ["design", "risk"].map(|ask| json(&study, &[ask, "square.toml", "--site", "Here"]));
+    let own = &design["own"]["models"][0];
+    assert_eq!(design["own"]["levels"].as_array().unwrap().len(), 52);
+    assert_eq!(own["demand_m"], row(&risk, "planar frame")["demand_m"]["value"]);
+    assert_eq!(own["overturning"]["per_year"], risk["overturning"]["per_year"]);
 }
 
 /// A tendon that is taken as elastic pulls a column back from far beyond its capacity. How often it goes there is said
@@ -450,7 +461,7 @@ fn overturning_has_the_frame_beside_its_oscillator() {
     let study = study(STUDY);
     study.write("free.toml", &FRAME.split("[restrainer]").next().unwrap().replace("restrained-frame", "frame"));
     let found = json(&study, &["overturning", "free.toml", "-o", "o.csv"]);
-    let names = ["oscillator", "block", "wobbling frame", "planar frame"];
+    let names = ["oscillator", "wobbling frame", "planar frame"];
     let rows = found["overturning"].as_array().unwrap();
     let of = |values: &Value| values.as_array().unwrap().iter().map(|of| of["model"].clone()).collect::<Vec<_>>();
     assert_eq!(
@@ -459,14 +470,25 @@ fn overturning_has_the_frame_beside_its_oscillator() {
     );
     for (place, site) in ["Here", "There"].into_iter().enumerate() {
         let risk = json(&study, &["risk", "free.toml", "--site", site]);
-        assert_eq!(rows[2]["sites"][place]["per_year"], risk["overturning"]["per_year"], "{site}");
+        assert_eq!(rows[1]["sites"][place]["per_year"], risk["overturning"]["per_year"], "{site}");
     }
     let fragility = self::rows(&study, "o.csv");
     assert!(fragility.iter().any(|row| row["model"] == "planar frame" && row["restitution"] == "0.9"), "{fragility:?}");
     let said = study.uplift(&["overturning", "free.toml", "--urs", "r.h5"]).ok().stdout;
     assert!(said.lines().next().unwrap().contains("times as often as its oscillator"), "{said}");
     let alone = study.uplift(&["overturning", "free.toml", "--urs", "r.h5", "--proxy"]).ok().stdout;
-    assert!(!alone.contains("wobbling") && alone.contains("block"), "{alone}");
+    assert!(alone.starts_with("free: its oscillator alone overturns ") && !alone.contains("frame"), "{alone}");
+    study.write("block.toml", BLOCK);
+    let alone = study.uplift(&["overturning", "block.toml", "--urs", "r.h5", "--proxy"]).ok().stdout;
+    assert!(alone.starts_with("block: its oscillator alone overturns ") && !alone.contains("block,"), "{alone}");
+    // one restitution for all that rocks in a plane
+    let same = ["overturning", "free.toml", "--restitution", "0.8"];
+    let same: Vec<f64> = of_models(&json(&study, &same), "restitution");
+    assert_eq!(same, [0.8, 1.0, 0.8]);
+}
+
+fn of_models(found: &Value, key: &str) -> Vec<f64> {
+    found["models"].as_array().unwrap().iter().map(|of| number(&of[key])).collect()
 }
 
 /// The rest of a wobbling frame is a key of its file, which an option replaces.
@@ -508,8 +530,8 @@ fn the_restitution_of_wobbling_is_a_key_of_the_structure() {
     let risk = json(&study, &[&["risk", "loses.toml"], &ask[..]].concat());
     assert_eq!(risk["demands"][0]["demand_m"]["value"], of(&loses, 0)["demand_m"]);
     let rates = json(&study, &["overturning", "loses.toml", "--site", "Here"]);
-    assert_eq!(rates["overturning"][2]["sites"][0]["per_year"], risk["overturning"]["per_year"]);
-    assert_eq!(rates["models"][2]["restitution_from"], "the structure file");
+    assert_eq!(rates["overturning"][1]["sites"][0]["per_year"], risk["overturning"]["per_year"]);
+    assert_eq!(rates["models"][1]["restitution_from"], "the structure file");
     let manifest = rows(&study, "manifest.csv");
     let shaken = |structure: &str, more: &[&str]| -> Value {
         let files = ["--h1", &manifest[0]["file_h1"], "--h2", &manifest[0]["file_h2"], "--scale", "2", "--json"];

@@ -138,7 +138,7 @@ fn a_frame_is_its_block() {
     );
     study.write("same.toml", &text);
     let same = json(&study, "same.toml", &[]);
-    let counts = &model(&frame, "PGA", "block")["overturned"];
+    let counts = &model(&frame, "PGA", "equivalent block")["overturned"];
     assert_eq!(counts, &model(&same, "PGA", "block")["overturned"]);
     assert!(
         counts.to_string().contains("[0,") && counts.as_array().unwrap().iter().any(|count| count != 0),
@@ -175,7 +175,7 @@ fn what_no_record_overturns_has_a_bound_and_what_cannot_has_none() {
     let [_, own] = &stiff["models"].as_array().unwrap()[..] else { panic!("{stiff}") };
     assert_eq!(own["model"], "planar frame");
     let notes = stiff["notes"].to_string();
-    assert!(notes.contains("never overturns") && notes.contains("not a solitary block"), "{notes}");
+    assert!(notes.contains("never overturns") && notes.contains("the planar frame 0.9950"), "{notes}");
     let risk = &model(&stiff, "PGA", "oscillator")["sites"][0];
     assert!(risk["per_year"] == 0.0 && risk["at_most_per_year"].is_null(), "{risk}");
     let free = json(&study, "free.toml", &[]);

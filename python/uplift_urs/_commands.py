@@ -119,9 +119,9 @@ class StructureCommands:
         site, measure : str, optional
             Default: all of the result.
         restitution : float, optional
-            Coefficient of restitution of both models, in place of their own.
+            Coefficient of restitution of oscillator, block and planar frame, in place of their own.
         proxy : bool
-            Whether to leave out the wobbling frame.
+            Whether to leave out the structure itself, a frame or a block.
         manifest
             As for `compute_design`.
 

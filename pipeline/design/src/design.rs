@@ -63,27 +63,32 @@ pub fn design(
     let place @ Place { site, measure, .. } = Place::choose(&source, options.site.as_deref(), options.measure)?;
     let poe = source.rarest()?;
     let target_per_year = source.target_per_year(poe)?;
-    let repaired_m = repaired_spectrum(&file, measure, [site, poe])?;
     let repair = Repair::from_file(&file, options.repaired)?;
     let weights = place.weights(&repair)?;
     let restitution = restitution(structure, &source.study);
     let (mut notes, own_oscillator) = differences(structure, &source, restitution);
     let other_oscillator = !notes.is_empty();
-
     let plain = spectrum_demand(structure, &source, source.spectrum(measure, site, poe));
-    let repaired = repaired_m.and_then(|u_m| spectrum_demand(structure, &source, &u_m));
+    let repaired =
+        repaired_spectrum(&file, measure, [site, poe])?.and_then(|u_m| spectrum_demand(structure, &source, &u_m));
     let spectrum = if options.repaired { repaired } else { plain };
     notes.extend(if options.repaired { None } else { beside(plain, repaired) });
     let unread = spectrum.is_none().then(|| beyond_spectrum(structure, &source));
     notes.extend(unread.clone());
-    let wobbles = OwnMotion::from_structure(structure, options.proxy) == Ok(Some(OwnMotion::InSpace));
+    let motion = OwnMotion::from_structure(structure, options.proxy);
     let mut own = None;
     if !options.spectrum_only {
-        match records_and_pairs(&source, options.manifest.as_deref(), wobbles)? {
+        match records_and_pairs(&source, options.manifest.as_deref(), OwnMotion::takes_pairs(&motion))? {
             Ok(records) => {
                 let question = Question { place, weights: &weights, target_per_year };
                 let analysed = (options, records);
-                own = Some(OwnAnalysis::from_structure(structure, (&file, &source), &question, analysed, events)?);
+                own = Some(OwnAnalysis::from_structure(
+                    (structure, motion),
+                    (&file, &source),
+                    &question,
+                    analysed,
+                    events,
+                )?);
             }
             Err(reason) => {
                 notes.push(format!("the structure itself is not analysed; all below is from the spectrum: {reason}"));
@@ -94,7 +99,7 @@ pub fn design(
         Some(own) => (Some(own.exact), own.uncertainty, own.itself, own.without_own, Some(own.checkpoint)),
         None => (None, None, None, None, None),
     };
-    notes.extend(itself.as_ref().filter(|_| wobbles).map(|_| what_frames_leave_out(structure)));
+    notes.extend(itself.as_ref().filter(|own| own.wobbles()).map(|_| what_frames_leave_out(structure)));
     if structure.uncertainty.is_some() && uncertainty.is_none() {
         notes.push(without_uncertainty(options.repaired, &source));
     }
@@ -112,20 +117,18 @@ pub fn design(
     let by_other_measures =
         verdicts_by_measure(structure, safety_factor, (&file, &source), (place, poe), options.repaired)?;
     let told = StructureReport::from_structure(structure, Some(restitution));
+    let own_check = own_check(exact.as_ref(), told.capacity_m, safety_factor);
     let mut alarms = alarms_within(&file, &scope((place, poe), spectrum, options.repaired))?;
-    alarms.extend(structure_alarms(structure));
-    alarms.extend(safety_factor_alarm(safety_factor));
+    alarms.extend(structure_alarms(structure).into_iter().chain(safety_factor_alarm(safety_factor)));
     if let Some(exact) = &exact {
         let scatter = Scatter::from_file(&file)?;
-        let mut risks = own_risks((exact, target_per_year), place, (&scatter.pairs, &weights));
-        risks.extend(itself.iter().flat_map(|itself| itself.own_risks(place, &scatter)));
-        alarms.extend(own_risk_alarms(&at_place(risks, place)));
+        let of_oscillator = own_risks((exact, target_per_year), place, (&scatter.pairs, &weights));
+        let of_own = itself.iter().flat_map(|itself| itself.own_risks(place, &scatter));
+        alarms.extend(own_risk_alarms(&at_place(of_oscillator.into_iter().chain(of_own), place)));
     }
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove();
     }
-    let own_check =
-        exact.zip(told.capacity_m).map(|(own, capacity_m)| OwnCheck::new(capacity_m, own.demand_m, safety_factor));
     Ok(DesignReport {
         structure: told,
         site: place.name.to_owned(),
@@ -140,7 +143,6 @@ pub fn design(
         exact,
         own_check,
         by_proxy: OwnStructure::has_model(structure) && itself.is_none(),
-        own: itself,
         without_own,
         uncertainty,
         rules,
@@ -148,7 +150,8 @@ pub fn design(
         other_oscillator,
         own_oscillator,
         unread,
-        assumed: assumed(structure, restitution),
+        assumed: assumed(structure, restitution, itself.as_ref()),
+        own: itself,
         notes,
         alarms: ranked(alarms),
     })
@@ -171,9 +174,10 @@ pub fn design_shard(
     // one shard serves every site
     let site = options.site.as_ref().or(source.sites.first()).map(String::as_str);
     let Place { measure, .. } = Place::choose(&source, site, options.measure)?;
-    let with_pairs = OwnMotion::from_structure(structure, options.proxy) == Ok(Some(OwnMotion::InSpace));
+    let motion = OwnMotion::from_structure(structure, options.proxy);
+    let with_pairs = OwnMotion::takes_pairs(&motion);
     let records = records_and_pairs(&source, options.manifest.as_deref(), with_pairs)?.map_err(JobError::input)?;
-    let analysis = DesignAnalysis::from_structure(structure, (&source, measure), (records, options))?;
+    let analysis = DesignAnalysis::from_structure((structure, motion), (&source, measure), (records, options))?;
     let work = analysis.work(&source, &job_name("design", structure))?;
     Ok(work.shard_beside(result, shard, events)?)
 }
@@ -220,6 +224,13 @@ fn verdicts_by_measure(
         verdicts.push(MeasureVerdict { im: other.measure().label(), rules });
     }
     Ok(verdicts)
+}
+
+/// The capacity held against the demand on the structure's oscillator.
+fn own_check(exact: Option<&ExactDemand>, capacity_m: Option<f64>, safety_factor: f64) -> Option<OwnCheck> {
+    let (exact, capacity_m) = exact.zip(capacity_m)?;
+    let upper_m = exact.bands.map(|bands| bands.demand_m.quoted()[1]);
+    Some(OwnCheck::new(capacity_m, (exact.demand_m, upper_m), safety_factor))
 }
 
 /// The spectrum read at the strength of the structure; none where it cannot be.

@@ -4,6 +4,7 @@
 mod keep;
 
 use serde::Serialize;
+use uplift_ida::OSCILLATOR;
 use uplift_job::JobError;
 use uplift_job::text::spectrum_words;
 use uplift_result::{Finding, FindingRow, Inquiry};
@@ -144,7 +145,8 @@ impl DesignReport {
             ];
             let exceeding = exact.beyond_capacity.iter().filter(|_| is_alone);
             rows.extend(exceeding.flat_map(|risk| rate(EXCEEDING, risk, beyond, at)));
-            rows.extend(rate("overturning", &exact.overturning, overturning, at));
+            let what = if is_alone { "overturning".to_owned() } else { format!("overturning, {OSCILLATOR}") };
+            rows.extend(rate(&what, &exact.overturning, overturning, at));
         }
         if let Some(own) = &self.own {
             // the capacity has its row in any case
@@ -178,10 +180,10 @@ fn exact_demands(exact: &ExactDemand, [site, im]: [&str; 2], is_alone: bool) -> 
     if own_m.to_bits() != exact.zero_stiffness_demand_of_spectrum_m.to_bits() {
         rows.push(row("zero stiffness, exact, of the structure", own_m));
     }
-    let demand_m = row("demand on its oscillator", exact.demand_m);
+    let demand_m = row("demand, oscillator", exact.demand_m);
     rows.extend(banded(&demand_m, exact.bands.map(|bands| bands.demand_m)));
     if let Some(left_m) = exact.capacity_less_demand_m.filter(|_| is_alone) {
-        let left_m = row("capacity less demand on its oscillator", left_m);
+        let left_m = row("capacity less demand, oscillator", left_m);
         rows.extend(banded(&left_m, exact.bands.and_then(|bands| bands.capacity_less_demand_m)));
     }
     rows

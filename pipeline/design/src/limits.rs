@@ -12,6 +12,7 @@ use uplift_study::Structure;
 use uplift_uniform_risk::StudyOfResult;
 
 use super::certainty::Scatter;
+use super::models::travel_over_block;
 use super::opening::job_name;
 use super::overturning::{OverturningAnalysis, OverturningOptions, peaks_m};
 use super::risk::{OVERTURNING_M, oscillator_capacity_m};
@@ -47,7 +48,7 @@ pub struct LimitState {
 pub struct LimitStripes {
     /// The measure.
     pub measure: IntensityMeasure,
-    /// `oscillator`, `block`, `wobbling frame` or `planar frame`.
+    /// `oscillator`, `block`, `equivalent block`, `wobbling frame` or `planar frame`.
     pub model: &'static str,
     /// The levels, in the unit of the measure, ascending.
     pub levels: Vec<f64>,
@@ -96,7 +97,7 @@ pub fn limit_stripes(
             let levels = measure.plan.levels.to_vec();
             found.push(LimitStripes {
                 measure: measure.measure(),
-                model: model.kind(),
+                model: analysis.kind(model),
                 records: records.clone(),
                 demands_m: peaks_m(&analysed, levels.len(), 0),
                 participation: participation(model, structure),
@@ -105,7 +106,7 @@ pub fn limit_stripes(
             });
         }
     }
-    let frame_models = || analysis.models().skip(analysis.models.len()).map(|(model, _)| model);
+    let frame_models = || analysis.models().skip(analysis.models.len()).map(|(model, ..)| model);
     for (measure, levels, peaks) in analysis.frame_peaks(&mut analysed) {
         for ((model, demands_m), system) in peaks.each().zip(frame_models()) {
             found.push(LimitStripes {
@@ -136,7 +137,8 @@ pub fn independent_records(file: &ResultFile) -> Result<Vec<Vec<usize>>, DesignE
 fn participation(model: &System, structure: &Structure) -> f64 {
     match model {
         System::Oscillator(_) => structure.system.participation(),
-        System::Block(_) | System::Frame(_) => 1.0,
+        System::Block(block) => travel_over_block(structure, block),
+        System::Frame(_) => 1.0,
     }
 }
 

@@ -4,22 +4,38 @@
 use uplift_block::RockingBlock;
 use uplift_ida::System;
 use uplift_job::JobError;
-use uplift_structure::PostUpliftForce;
+use uplift_structure::{Kind, PostUpliftForce};
 use uplift_study::{Structure, UniformRiskStudy};
 
 use crate::error::DesignError;
 
-/// The models of a structure, each with the origin of its restitution.
-pub(super) fn models(
+/// The kind of the block that rotates as another structure does.
+const EQUIVALENT_BLOCK: &str = "equivalent block";
+
+/// What a `model` of a structure is, a word for tables.
+pub(super) fn kind(model: &System, structure: &Structure) -> &'static str {
+    match model {
+        System::Block(_) if structure.description.kind != Kind::Block => EQUIVALENT_BLOCK,
+        _ => model.kind(),
+    }
+}
+
+/// How far the structure goes where a block that rotates as it does goes 1 m: half as far where its centre is followed.
+pub(super) fn travel_over_block(structure: &Structure, block: &RockingBlock) -> f64 {
+    // both are about to fall there
+    structure.system.capacity_m().map_or(1.0, |own_m| own_m / (2.0 * block.half_width_m()))
+}
+
+/// The equivalent oscillator of a structure, with the origin of its restitution.
+pub(super) fn oscillator(
     structure: &Structure,
     study: &UniformRiskStudy,
-    for_both: Option<f64>,
+    for_all: Option<f64>,
     notes: &mut Vec<String>,
-) -> Result<Vec<(System, &'static str)>, DesignError> {
-    let (restitution, origin) = chosen(structure, for_both).unwrap_or((study.oscillator.restitution, "the study"));
+) -> Result<(System, &'static str), DesignError> {
+    let (restitution, origin) = chosen(structure, for_all).unwrap_or((study.oscillator.restitution, "the study"));
     let oscillator = structure.system.spectral_oscillator(restitution);
-    let oscillator = oscillator.map_err(|error| refused(error.into(), structure, for_both))?;
-    let mut models = vec![(System::Oscillator(oscillator), origin)];
+    let oscillator = oscillator.map_err(|error| refused(error.into(), structure, for_all))?;
     match structure.system.post_uplift() {
         PostUpliftForce::Negative { .. } => {}
         PostUpliftForce::Zero | PostUpliftForce::Positive { .. } => notes.push(
@@ -27,23 +43,19 @@ pub(super) fn models(
                 .to_owned(),
         ),
     }
-    match block(structure, for_both)? {
-        Ok((block, origin)) => models.push((System::Block(block), origin)),
-        Err(reason) => notes.push(format!("no block is analysed: {reason}")),
-    }
-    Ok(models)
+    Ok((System::Oscillator(oscillator), origin))
 }
 
 /// The block that rotates as a structure does, with the origin of its restitution; or why there is none.
 pub(super) fn block(
     structure: &Structure,
-    for_both: Option<f64>,
+    for_all: Option<f64>,
 ) -> Result<Result<(RockingBlock, &'static str), String>, DesignError> {
     let Some(block) = structure.block else {
         let kind = structure.description.kind.name();
         return Ok(Err(format!("a {kind} is not a solitary block")));
     };
-    let (restitution, origin) = chosen(structure, for_both).unwrap_or((block.restitution, "angular momentum"));
+    let (restitution, origin) = chosen(structure, for_all).unwrap_or((block.restitution, "angular momentum"));
     let rocking = match RockingBlock::new(block.size_m, block.slenderness_rad) {
         Ok(rocking) => rocking,
         Err(error) => {
@@ -53,19 +65,19 @@ pub(super) fn block(
     let rocking = rocking
         .with_gravity(structure.system.conditions().gravity_m_s2())
         .and_then(|block| block.with_restitution(restitution))
-        .map_err(|error| refused(error.into(), structure, for_both))?;
+        .map_err(|error| refused(error.into(), structure, for_all))?;
     Ok(Ok((rocking, origin)))
 }
 
 /// The restitution that was asked for, else that of the structure's file.
-fn chosen(structure: &Structure, for_both: Option<f64>) -> Option<(f64, &'static str)> {
+pub(super) fn chosen(structure: &Structure, for_all: Option<f64>) -> Option<(f64, &'static str)> {
     let own = structure.description.restitution;
-    for_both.map(|value| (value, "--restitution")).or(own.map(|value| (value, "the structure file")))
+    for_all.map(|value| (value, "--restitution")).or(own.map(|value| (value, "the structure file")))
 }
 
 /// Whose restitution no model has.
-fn refused(error: DesignError, structure: &Structure, for_both: Option<f64>) -> DesignError {
-    match for_both {
+pub(super) fn refused(error: DesignError, structure: &Structure, for_all: Option<f64>) -> DesignError {
+    match for_all {
         Some(_) => JobError::Usage(format!("--restitution: {error}")).into(),
         None => uplift_job::in_file(error, &structure.file),
     }

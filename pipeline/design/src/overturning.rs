@@ -25,7 +25,7 @@ use super::hazard::Hazard;
 use super::limit::{FrameLimit, LimitRisk};
 use super::lognormal::lognormal_bands;
 use super::opening::{check_tables, job_name, site_index};
-use super::own_structure::{OwnLevels, OwnPeaks, what_frames_leave_out};
+use super::own_structure::{OwnLevels, OwnPeaks, OwnStructure, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
 use super::risk::{OVERTURNING_M, own_risk};
 use super::tables::{risk_path, write_tables};
@@ -90,7 +90,8 @@ pub fn overturning(
     let peaks = analysis.frame_peaks(&mut analysed);
     let of_frame = peaks.iter().zip(&weighed).map(|(peaks, at)| at.frame_collapses(peaks, limit));
     let of_frame = of_frame.collect::<Result<Vec<_>, _>>()?;
-    notes.extend(notes_on(models, &found));
+    let kinds: Vec<&str> = models.iter().map(|(model, _)| analysis.kind(model)).collect();
+    notes.extend(notes_on(&analysis, &kinds, &found));
     notes
         .extend(analysis.frame.as_ref().filter(|(frame, _)| frame.wobbles()).map(|_| what_frames_leave_out(structure)));
     let names: Vec<&str> = sites.iter().map(|&site| source.sites[site].as_str()).collect();
@@ -104,16 +105,17 @@ pub fn overturning(
     alarms.extend(structure_alarms(structure));
     let counts = (records.count(), scatter.pairs.len());
     let places: Vec<(usize, &str)> = sites.iter().copied().zip(names.iter().copied()).collect();
-    alarms.extend(own_risk_alarms(&own_risks(models, (&found, &of_frame), &places, counts)));
+    alarms.extend(own_risk_alarms(&own_risks(&kinds, (&found, &of_frame), &places, counts)));
     let records = u32::try_from(records.count()).unwrap_or(u32::MAX);
     let mut report = OverturningReport {
         structure: StructureReport::from_structure(structure, None),
         years: study.risk.years,
-        models: analysis.models().map(|(model, origin)| ModelReport::from_model(model, origin)).collect(),
+        by_proxy: OwnStructure::has_model(structure) && analysis.models().count() == 1,
+        models: analysis.models().map(ModelReport::from_model).collect(),
         limit,
-        overturning: reports((&found, &of_frame), models, records, &names),
+        overturning: reports((&found, &of_frame), &kinds, records, &names),
         uncertainty,
-        without_frame: analysis.without_frame.clone(),
+        without_own: analysis.without_own.clone(),
         notes,
         alarms: ranked(alarms),
         files: Vec::new(),
@@ -247,13 +249,14 @@ fn after_the_end(study: &UniformRiskStudy) -> Option<String> {
 }
 
 /// What the numbers rest on.
-fn notes_on(models: &[(System, &'static str)], found: &[OfMeasure<'_>]) -> Vec<String> {
+fn notes_on(analysis: &OverturningAnalysis<'_>, kinds: &[&str], found: &[OfMeasure<'_>]) -> Vec<String> {
     let mut notes = Vec::new();
-    if let [(a, _), (b, _)] = models
+    let of_models: Vec<_> = analysis.models().collect();
+    if let [(a, ..), (b, kind, _)] = of_models[..]
         && a.restitution().to_bits() != b.restitution().to_bits()
     {
         notes.push(format!(
-            "the oscillator keeps {} of its velocity at an impact, the block {:.4}, which explains part of the \
+            "the oscillator keeps {} of its velocity at an impact, the {kind} {:.4}, which explains part of the \
              difference (--restitution gives both the same)",
             a.restitution(),
             b.restitution()
@@ -261,9 +264,9 @@ fn notes_on(models: &[(System, &'static str)], found: &[OfMeasure<'_>]) -> Vec<S
     }
     for (measure, found) in found {
         let label = measure.measure().label();
-        for (found, (model, _)) in found.iter().zip(models) {
+        for (found, kind) in found.iter().zip(kinds) {
             if let Err(reason) = &found.own.fit {
-                notes.push(format!("no lognormal fragility of the {} by {label}: {reason}", model.kind()));
+                notes.push(format!("no lognormal fragility of the {kind} by {label}: {reason}"));
             }
         }
     }
@@ -272,7 +275,7 @@ fn notes_on(models: &[(System, &'static str)], found: &[OfMeasure<'_>]) -> Vec<S
 
 /// The risk of every model at every site by every measure.
 fn own_risks(
-    models: &[(System, &'static str)],
+    kinds: &[&str],
     (found, of_frame): (&[OfMeasure<'_>], &[FrameCollapses]),
     places: &[(usize, &str)],
     counts: (usize, usize),
@@ -280,7 +283,7 @@ fn own_risks(
     let mut risks = Vec::new();
     for (place, (measure, found)) in found.iter().enumerate() {
         let of_frame = of_frame.get(place).into_iter().flatten().map(|(model, found)| (*model, found));
-        let of_models = models.iter().map(|(model, _)| model.kind()).zip(found);
+        let of_models = kinds.iter().copied().zip(found);
         for (model, found) in of_models.chain(of_frame) {
             let event = format!("overturning of the {model}");
             let of_site = |(&(site, name), &risk): (&(usize, &str), &EventRisk)| {

@@ -5,11 +5,9 @@ mod report;
 mod shaking;
 
 use uplift_block::RockingBlock;
-use uplift_frame::{ColumnShape, Model, RockingFrame};
+use uplift_frame::{ColumnShape, FrameError, Model, RockingFrame};
 use uplift_ida::{ShakenFrame, System};
-use uplift_inputs::rocking_frame;
 use uplift_statics::RestrainedColumns;
-use uplift_structure::Kind;
 use uplift_study::Structure;
 
 pub(super) use self::report::OwnQuestion;
@@ -17,7 +15,7 @@ pub use self::report::{OwnModel, OwnReport};
 pub(super) use self::shaking::{OwnLevels, OwnPeaks, falls, in_the_plane_of_records};
 use crate::error::DesignError;
 use crate::limit::FrameLimit;
-use crate::models::block;
+use crate::models::{block, chosen, kind, travel_over_block};
 use crate::pairs::Pairs;
 
 /// What the models of a frame leave out.
@@ -62,9 +60,6 @@ pub(super) fn planar(frame: &RockingFrame, restitution: f64) -> System {
     }))
 }
 
-/// The kind of the block that rotates as another structure does.
-const EQUIVALENT_BLOCK: &str = "equivalent block";
-
 /// How a structure is shaken itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum OwnMotion {
@@ -80,21 +75,26 @@ impl OwnMotion {
     /// Of `structure`, unless its oscillator is to be analysed `alone`; none where that is all there is.
     ///
     /// # Errors
-    /// Why a frame cannot be shaken to the end.
-    pub(super) fn from_structure(structure: &Structure, alone: bool) -> Result<Option<Self>, &'static str> {
+    /// Why a frame is none that is shaken to the end.
+    pub(super) fn from_structure(structure: &Structure, alone: bool) -> Result<Option<Self>, String> {
         if alone {
             return Ok(None);
         }
-        let shape = structure.rocking_frame().and_then(Result::ok).map(|frame| frame.shape());
-        let motion = match (shape, &structure.block) {
-            (Some(ColumnShape::Cylinder), _) => Self::InSpace,
+        let motion = match (structure.rocking_frame(), &structure.block) {
+            (Some(Ok(frame)), _) if frame.shape() == ColumnShape::Cylinder => Self::InSpace,
             (_, Some(_)) => return Ok(Some(Self::AsBlock)),
-            (Some(ColumnShape::Rectangle), None) => Self::InPlane,
+            (Some(Ok(_)), None) => Self::InPlane,
+            (Some(Err(error)), None) => return Err(no_frame(&error)),
             (None, None) => return Ok(None),
         };
         // flat springs that stop the columns end the motion
         let stops = |columns: &RestrainedColumns| columns.restrainer().is_some_and(|held| held.limit_m().is_some());
-        if structure.columns.as_ref().is_some_and(stops) { Err(STOPPED) } else { Ok(Some(motion)) }
+        if structure.columns.as_ref().is_some_and(stops) { Err(STOPPED.to_owned()) } else { Ok(Some(motion)) }
+    }
+
+    /// Whether the pairs of the study shake it.
+    pub(super) fn takes_pairs(motion: &Result<Option<Self>, String>) -> bool {
+        *motion == Ok(Some(Self::InSpace))
     }
 }
 
@@ -112,8 +112,13 @@ pub(super) struct OwnStructure {
     pub(super) limit: Option<FrameLimit>,
     /// What shakes it in space; none of what moves in a plane alone.
     pairs: Option<Pairs>,
-    /// Whether its block stands for another structure.
-    is_equivalent: bool,
+    /// What each model is, in the same order.
+    kinds: Vec<&'static str>,
+}
+
+/// Why a structure has no frame that rocks.
+fn no_frame(error: &FrameError) -> String {
+    format!("no frame of these dimensions rocks: {error}")
 }
 
 impl OwnStructure {
@@ -122,49 +127,64 @@ impl OwnStructure {
         structure.block.is_some() || structure.rocking_frame().is_some()
     }
 
-    /// Of `structure`, to be shaken in space by `pairs`; or why no block rotates as it does.
+    /// Of `structure`, to be shaken in space by `pairs`, with one restitution `for_all` models in a plane where it is
+    /// given; or why none of its dimensions rocks.
     pub(super) fn from_structure(
         structure: &Structure,
         (motion, pairs): (OwnMotion, Option<Pairs>),
+        for_all: Option<f64>,
     ) -> Result<Result<Self, String>, DesignError> {
-        match motion {
-            OwnMotion::InSpace | OwnMotion::InPlane => Ok(Ok(Self::frame(structure, pairs)?)),
-            OwnMotion::AsBlock => {
-                Ok(block(structure, None)?.map(|(block, origin)| Self::block(structure, block, origin)))
-            }
+        match (motion, structure.rocking_frame()) {
+            (OwnMotion::InSpace | OwnMotion::InPlane, Some(frame)) => Ok(frame
+                .map_err(|error| no_frame(&error))
+                .map(|frame| Self::frame(structure, &frame, (pairs, for_all)))),
+            _ => Ok(block(structure, for_all)?.map(|(block, origin)| Self::block(structure, block, origin))),
         }
     }
 
-    /// The frame of `structure`, to be shaken by `pairs` too.
-    fn frame(structure: &Structure, pairs: Option<Pairs>) -> Result<Self, DesignError> {
-        let frame = rocking_frame(structure)?;
-        let own = structure.description.restitution;
+    /// The same of how the structure is shaken, with why it is not although that is asked for.
+    pub(super) fn or_reason(
+        structure: &Structure,
+        (motion, pairs): (Result<Option<OwnMotion>, String>, Option<Pairs>),
+        for_all: Option<f64>,
+    ) -> Result<(Option<Self>, Option<String>), DesignError> {
+        let found = match motion {
+            Ok(None) => return Ok((None, None)),
+            Ok(Some(motion)) => Self::from_structure(structure, (motion, pairs), for_all)?,
+            Err(reason) => Err(reason),
+        };
+        Ok(found.map_or_else(|reason| (None, Some(reason)), |itself| (Some(itself), None)))
+    }
+
+    /// The `frame` of a structure, to be shaken by `pairs` too.
+    fn frame(structure: &Structure, frame: &RockingFrame, (pairs, for_all): (Option<Pairs>, Option<f64>)) -> Self {
         let (restitution, restitution_from) =
-            own.map_or_else(|| (frame.momentum_restitution(), "momentum"), |own| (own, "the structure file"));
+            chosen(structure, for_all).unwrap_or_else(|| (frame.momentum_restitution(), "momentum"));
         let of_wobbling = structure.wobbling_restitution.map_or("the model loses no energy", |_| "the structure file");
-        let in_space = pairs.as_ref().map(|_| wobbling(&frame, structure));
-        Ok(Self {
+        let in_space: Vec<System> = pairs.iter().map(|_| wobbling(frame, structure)).collect();
+        let in_plane = vec![planar(frame, restitution)];
+        Self {
             limit: FrameLimit::from_structure(structure, Some(frame.columns())),
             restitution_from: in_space.iter().map(|_| of_wobbling).chain([restitution_from]).collect(),
-            in_space: in_space.into_iter().collect(),
-            in_plane: vec![planar(&frame, restitution)],
+            kinds: in_space.iter().chain(&in_plane).map(System::kind).collect(),
+            in_space,
+            in_plane,
             factor: 1.0,
             pairs,
-            is_equivalent: false,
-        })
+        }
     }
 
     fn block(structure: &Structure, block: RockingBlock, origin: &'static str) -> Self {
-        // both are about to fall there
-        let factor = structure.system.capacity_m().map_or(1.0, |own_m| own_m / (2.0 * block.half_width_m()));
+        let factor = travel_over_block(structure, &block);
+        let block = System::Block(block);
         Self {
             limit: FrameLimit::from_structure(structure, None),
             in_space: Vec::new(),
-            in_plane: vec![System::Block(block)],
+            kinds: vec![kind(&block, structure)],
+            in_plane: vec![block],
             restitution_from: vec![origin],
             factor,
             pairs: None,
-            is_equivalent: structure.description.kind != Kind::Block,
         }
     }
 
@@ -173,23 +193,20 @@ impl OwnStructure {
         !self.in_space.is_empty()
     }
 
-    /// The kind of a model of it, a word for tables.
-    fn kind(&self, model: &System) -> &'static str {
-        match model {
-            System::Block(_) if self.is_equivalent => EQUIVALENT_BLOCK,
-            _ => model.kind(),
-        }
+    /// Its models, the one that decides first, each with what it is, a word for tables.
+    pub(super) fn models(&self) -> impl Iterator<Item = (&System, &'static str)> {
+        self.in_space.iter().chain(&self.in_plane).zip(self.kinds.iter().copied())
     }
 
-    /// Its models, each with the origin of its restitution; the one that decides first.
-    pub(super) fn models(&self) -> impl Iterator<Item = (&System, &'static str)> {
-        self.in_space.iter().chain(&self.in_plane).zip(self.restitution_from.iter().copied())
+    /// Where the restitution of each comes from, in this order.
+    pub(super) fn restitution_from(&self) -> &[&'static str] {
+        &self.restitution_from
     }
 
     /// Becomes what another structure of the same motion is, to be shaken by the same pairs; stays as it is where no
     /// block rotates as that does, and says why.
     pub(super) fn change(&mut self, structure: &Structure, motion: OwnMotion) -> Result<Option<String>, DesignError> {
-        match Self::from_structure(structure, (motion, self.pairs.take()))? {
+        match Self::from_structure(structure, (motion, self.pairs.take()), None)? {
             Ok(other) => *self = other,
             Err(reason) => return Ok(Some(reason)),
         }

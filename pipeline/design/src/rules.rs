@@ -58,13 +58,27 @@ pub struct OwnCheck {
     pub safety_factor: f64,
     /// Whether the capacity is at least the required one.
     pub satisfied: bool,
+    /// Whether it is at the upper limit of the demand's quoted band; none without a band.
+    pub satisfied_at_upper_limit: Option<bool>,
 }
 
 impl OwnCheck {
-    pub(super) fn new(capacity_m: f64, demand_m: f64, safety_factor: f64) -> Self {
+    pub(super) fn new(capacity_m: f64, (demand_m, upper_m): (f64, Option<f64>), safety_factor: f64) -> Self {
         let required_capacity_m = safety_factor * demand_m;
-        let satisfied = capacity_m >= required_capacity_m;
-        Self { required_capacity_m, safety_factor: capacity_m / demand_m, satisfied }
+        let is_enough = |demand_m: f64| capacity_m >= safety_factor * demand_m;
+        Self {
+            required_capacity_m,
+            safety_factor: capacity_m / demand_m,
+            satisfied: is_enough(demand_m),
+            satisfied_at_upper_limit: upper_m.map(is_enough),
+        }
+    }
+
+    /// `satisfied, not at the upper limit`.
+    pub fn verdict(&self) -> String {
+        let word = verdict_word(self.satisfied);
+        let is_unsafe = self.satisfied && self.satisfied_at_upper_limit == Some(false);
+        if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
     }
 
     /// `2.5 times its own demand (0.77 m)`: of the structure as it is, where a rule knows that another capacity would
@@ -228,10 +242,10 @@ mod tests {
 
     #[test]
     fn a_capacity_is_held_against_the_demand() {
-        let check = OwnCheck::new(1.2, 0.4, 2.5);
+        let check = OwnCheck::new(1.2, (0.4, Some(0.5)), 2.5);
         assert_eq!((check.satisfied, check.required_capacity_m), (true, 1.0));
-        assert!(!OwnCheck::new(1.2, 0.5, 2.5).satisfied);
-        let overturns = OwnCheck::new(1.2, f64::INFINITY, 2.5);
+        assert!(!OwnCheck::new(1.2, (0.5, None), 2.5).satisfied);
+        let overturns = OwnCheck::new(1.2, (f64::INFINITY, None), 2.5);
         assert!(!overturns.satisfied);
         let told = |own| verdicts_in_words(&[], own);
         assert_eq!(told(Some((check, 2.5))).as_deref(), Some("satisfied by 2.5 times its own demand (1.00 m)"));

@@ -101,7 +101,7 @@ pub fn target(
     let scatter = Scatter::from_file(&file)?;
     let of_records = (&hazard, &scatter);
     let motion = own_motion(structure, options);
-    let wobbles = motion == Ok(Some(OwnMotion::InSpace));
+    let wobbles = OwnMotion::takes_pairs(&motion);
     let asked = (options, years, wobbles);
     let mut trials = Trials::from_structure(structure, &source, (place, weights), of_records, asked, events)?;
     trials.refuse_untellable(place.name, target_per_year)?;
@@ -244,10 +244,10 @@ fn alarms_before(
 ///
 /// # Errors
 /// Why it is left out although it is asked for.
-fn own_motion(structure: &Structure, options: &TargetOptions) -> Result<Option<OwnMotion>, &'static str> {
+fn own_motion(structure: &Structure, options: &TargetOptions) -> Result<Option<OwnMotion>, String> {
     let motion = OwnMotion::from_structure(structure, options.proxy)?;
     let has_size = !matches!(options.quantity, Quantity::Strength | Quantity::Capacity);
-    if has_size || motion.is_none() { Ok(motion) } else { Err(OF_SIZE) }
+    if has_size || motion.is_none() { Ok(motion) } else { Err(OF_SIZE.to_owned()) }
 }
 
 /// What cannot be meant of the structure that was found, though that of the file is sound; nothing beyond the range.

@@ -248,15 +248,14 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
     if let Some(capacity_m) = report.structure.capacity_m {
         let of_oscillator = report.own_check.zip(report.exact.as_ref()).map(|(own, exact)| {
             let what = if report.own.is_some() { "the oscillator's own demand" } else { "its own demand" };
-            ((what.to_owned(), report.of_oscillator()), own, exact.demand_m)
+            (what.to_owned(), own, exact.demand_m)
         });
         let models = report.own_models();
-        let of_models =
-            models.filter_map(|of| Some(((format!("{} itself", of.model), of.model), of.check?, of.demand_m)));
-        for ((what, model), own, demand_m) in of_oscillator.into_iter().chain(of_models) {
+        let of_models = models.filter_map(|of| Some((format!("{} itself", of.model), of.check?, of.demand_m)));
+        for (what, own, demand_m) in of_oscillator.into_iter().chain(of_models) {
             let margin_m = capacity_m - own.required_capacity_m;
             let held = [own.required_capacity_m, capacity_m, margin_m, own.safety_factor];
-            rows.push(check_row(what, (demand_m, held), report.verdict_by(model, own.satisfied)));
+            rows.push(check_row(what, (demand_m, held), own.verdict()));
         }
     }
     let header = ["by", "demand, m", "required capacity, m", "capacity, m", "margin, m", "safety factor", "verdict"];
@@ -373,7 +372,7 @@ fn print_bands(out: &mut impl Write, exact: &ExactDemand, bands: &DemandBands) -
     let left = |left_m: f64| if left_m.is_infinite() { "none".to_owned() } else { format!("{left_m:.4}") };
     let own_left = exact.capacity_less_demand_m.map_or_else(String::new, |left_m| format!(" ({} m)", left(left_m)));
     let told = [
-        of("demand on the structure", Some(bands.demand_m), metres_or_overturns, " m"),
+        of("demand", Some(bands.demand_m), metres_or_overturns, " m"),
         of(&format!("capacity less demand{own_left}"), bands.capacity_less_demand_m, left, " m"),
         of("u > capacity", bands.beyond_capacity_per_year, text::rate, " per year"),
         of("overturning", bands.overturning_per_year, text::rate, " per year"),
@@ -394,7 +393,7 @@ fn print_noise(out: &mut impl Write, rules: &[RuleOutcome], sensitivity: &Sensit
     let mut row = |what: String, [noisy, rounding]: [Noisy; 2], shown: &dyn Fn(f64) -> String| {
         rows.push(vec![what, rounding.marked(shown), shown(noisy.lowest), shown(noisy.highest)]);
     };
-    row("demand on the structure, m".to_owned(), [noise.demand_m, rounding.demand_m], &metres_or_overturns);
+    row("demand on the oscillator, m".to_owned(), [noise.demand_m, rounding.demand_m], &metres_or_overturns);
     if let (Some(noisy), Some(rounding)) = (noise.rule_errors, rounding.rule_errors) {
         for &RuleOutcome { rule, .. } in rules {
             row(

@@ -10,7 +10,7 @@ use uplift_structure::NO_CAPACITY;
 use super::alarms::print_in_parts;
 use super::shown_path;
 use super::structure::{
-    band_in_cell, fewer_levels, limits, marked_band_in_cell, noun, print_by_earthquake, print_moved, print_notes,
+    band_in_cell, fewer_levels, limits, marked_band_in_cell, print_by_earthquake, print_moved, print_notes,
     print_structure, rate, record_set, risk_cells,
 };
 use super::uncertainty::{print_uncertain_answers, print_uncertainty};
@@ -74,8 +74,8 @@ fn print_answer(out: &mut impl Write, report: &OverturningReport) -> Result<(), 
             .to_string()
     };
     writeln!(out, "{table}")?;
-    if let Some(reason) = &report.without_frame {
-        writeln!(out, "Frame left out: {reason}")?;
+    if let Some(reason) = &report.without_own {
+        writeln!(out, "Itself    not analysed: {reason}")?;
     }
     print_by_earthquake(out, &table)?;
     if is_repaired {
@@ -125,42 +125,31 @@ fn print_headline(
     limit: Option<FrameLimit>,
     has_bands: bool,
 ) -> Result<(), CommandError> {
+    let Some(limit) = limit else { return print_rate(out, report, has_bands) };
     let name = &report.structure.name;
-    let band = if has_bands { " (90 % band)" } else { "" };
-    let of = |model: &'static str| report.overturning.iter().filter(move |found| found.model == model);
-    let Some(frame) = report.frame() else { return print_rate(out, report) };
-    if let Some(limit) = limit {
-        let ratio = |of: &SiteRisk| of.beyond_limit.map_or(f64::NAN, |beyond| beyond.risk.per_year) / of.risk.per_year;
-        let how_often = range_of(of(frame).flat_map(|found| &found.sites).map(ratio))
-            .map_or_else(|| "more often than".to_owned(), |times| format!("{times} times as often as"));
-        let limit = limit.in_words();
-        return Ok(writeln!(
-            out,
-            "{name}: the {frame} passes its limit, {limit}, {how_often} it overturns; annual rates{band}"
-        )?);
-    }
-    let sites = of(frame).zip(of(OSCILLATOR)).flat_map(|(own, proxy)| own.sites.iter().zip(&proxy.sites));
-    let over_oscillator = sites.map(|(own, proxy)| own.risk.per_year / proxy.risk.per_year);
-    match range_of(over_oscillator) {
-        Some(times) => {
-            writeln!(
-                out,
-                "{name}: the {frame} overturns {times} times as often as its oscillator; annual rates{band}"
-            )?;
-        }
-        None => print_rate(out, report)?,
-    }
+    let frame = report.frame().unwrap_or_default();
+    let own = report.overturning.iter().filter(|found| found.model == frame);
+    let ratio = |of: &SiteRisk| of.beyond_limit.map_or(f64::NAN, |beyond| beyond.risk.per_year) / of.risk.per_year;
+    let how_often = range_of(own.flat_map(|found| &found.sites).map(ratio))
+        .map_or_else(|| "more often than".to_owned(), |times| format!("{times} times as often as"));
+    let (limit, rates) = (limit.in_words(), annual_rates(has_bands));
+    writeln!(out, "{name}: the {frame} passes its limit, {limit}, {how_often} it overturns{rates}")?;
     Ok(())
 }
 
-/// How often the structure itself overturns by the first measure, at the site where it does most often, and by the
-/// others there.
-fn print_rate(out: &mut impl Write, report: &OverturningReport) -> Result<(), CommandError> {
+/// What the numbers of the table are.
+fn annual_rates(has_bands: bool) -> &'static str {
+    if has_bands { "; annual rates (90 % band)" } else { "; annual rates" }
+}
+
+/// How often the structure itself overturns by the first measure, at the site where it does most often, beside its
+/// oscillator there; and by the other measures.
+fn print_rate(out: &mut impl Write, report: &OverturningReport, has_bands: bool) -> Result<(), CommandError> {
     // a frame, or what comes after its oscillator
     let of_measures = report.overturning.chunks(report.models.len().max(1));
     let is_frame = |found: &&CollapseReport| Some(found.model) == report.frame();
-    let mut by_measure = of_measures.filter_map(|of| of.iter().find(is_frame).or(of.last()));
-    let Some(found) = by_measure.next() else { return Ok(()) };
+    let mut by_measure = of_measures.filter_map(|of| Some((of.first()?, of.iter().find(is_frame).or(of.last())?)));
+    let Some((oscillator, found)) = by_measure.next() else { return Ok(()) };
     let rates = found.sites.iter().enumerate();
     let Some((at, worst)) = rates.max_by(|(_, a), (_, b)| a.risk.per_year.total_cmp(&b.risk.per_year)) else {
         return Ok(());
@@ -169,17 +158,20 @@ fn print_rate(out: &mut impl Write, report: &OverturningReport) -> Result<(), Co
         EventRisk { per_year: 0.0, at_most_per_year: None, .. } => format!("does not overturn ({NO_CAPACITY})"),
         risk => format!("overturns {} per year", risk_cells(&risk)[0]),
     };
-    let others = by_measure.map(|of| format!("; {} by {}", risk_cells(&of.sites[at].risk)[0], of.im));
-    let (name, model) = (&report.structure.name, noun(found.model, report.structure.kind));
+    let times = worst.risk.per_year / oscillator.sites[at].risk.per_year;
+    let beside = if found.model != OSCILLATOR && times > 0.0 && times.is_finite() {
+        format!(", {} times as often as its oscillator", two_digits(times))
+    } else {
+        String::new()
+    };
+    let others = by_measure.map(|(_, of)| format!("; {} by {}", risk_cells(&of.sites[at].risk)[0], of.im));
+    let others: String = others.collect();
+    let (name, model) = (&report.structure.name, found.model);
+    let whose = if report.by_proxy { "its oscillator alone".to_owned() } else { format!("the {model}") };
     let most =
         if found.sites.len() > 1 { format!(", the most of {} sites,", found.sites.len()) } else { String::new() };
-    writeln!(
-        out,
-        "{name}: the {model} {overturns} at {}{most} by {}{}; annual rates (90 % band)",
-        worst.site,
-        found.im,
-        others.collect::<String>()
-    )?;
+    let (site, im, rates) = (&worst.site, found.im, annual_rates(has_bands));
+    writeln!(out, "{name}: {whose} {overturns} at {site}{most} by {im}{beside}{others}{rates}")?;
     Ok(())
 }
 
@@ -201,8 +193,9 @@ fn print_details(out: &mut impl Write, report: &OverturningReport) -> Result<(),
         match (model.size_m, model.slenderness_rad) {
             (Some(size_m), Some(slenderness_rad)) => writeln!(
                 out,
-                "block      rotates as a block of R = {size_m:.4} m and slenderness {slenderness_rad:.4} rad; \
-                 restitution {restitution:.4} ({origin})"
+                "{:<10} rotates as a block of R = {size_m:.4} m and slenderness {slenderness_rad:.4} rad; \
+                 restitution {restitution:.4} ({origin})",
+                model.model
             )?,
             _ => writeln!(out, "{:<10} restitution {restitution:.4} ({origin})", model.model)?,
         }

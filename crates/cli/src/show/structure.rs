@@ -16,11 +16,6 @@ use crate::error::CommandError;
 /// The kind of a structure that is one rigid block.
 pub(super) const BLOCK: &str = "block";
 
-/// A `model` of a structure of this `kind`: of a frame that does not wobble the block that rotates as it does.
-pub(super) fn noun(model: &'static str, kind: &str) -> &'static str {
-    if model == BLOCK && kind != BLOCK { "equivalent block" } else { model }
-}
-
 /// The restitution of a model of the structure itself, below the lines of the structure.
 pub(super) fn restitution_line(model: &str, restitution: f64) -> String {
     let what = match model {

@@ -100,7 +100,7 @@ const PERIOD_S: Key<Number> =
 const GRAVITY_M_S2: Key<Number> =
     judged("gravity_m_s2", "m/s2").without_default("9.80665").meaning("acceleration of gravity, m/s²");
 const RESTITUTION: Key<Number> = judged("restitution", "")
-    .without_default("that of the study")
+    .without_default("the study's for the oscillator, momentum's for a block or planar frame")
     .meaning("velocity after an impact divided by the one before");
 const COLUMN_SHAPE: Key<Choice<ColumnShape>> =
     choice("column_shape", &[ColumnShape::Cylinder, ColumnShape::Rectangle], |shape| match shape {

@@ -31,8 +31,8 @@ const INTENSITY: Key<Choice<Combination>> =
 const VERTICAL: Key<Boolean> = boolean("vertical")
     .with_default(false)
     .meaning(
-        "whether the third component of the records (`file_v` of the manifest) shakes blocks and frames too, scaled as \
-         the pair: in `uplift risk` and `overturning` of the result; oscillators do not feel it",
+        "whether the third component of the records (`file_v` of the manifest) shakes blocks and frames of structure \
+         files too, scaled as the pair; oscillators do not feel it",
     )
     .note("not for synthetic records");
 const FIRST: Key<Integer> = integer("first", 1, LARGEST_INTEGER)

@@ -46,7 +46,7 @@ pub(super) struct OwnAnalysis {
 impl OwnAnalysis {
     /// Of `structure` under `records`.
     pub(super) fn from_structure(
-        structure: &Structure,
+        (structure, motion): (&Structure, Result<Option<OwnMotion>, String>),
         (file, source): (&ResultFile, &StudyOfResult),
         question: &Question<'_>,
         (options, records): (&DesignOptions, (ShakenRecords, Option<Pairs>)),
@@ -54,7 +54,7 @@ impl OwnAnalysis {
     ) -> Result<Self, DesignError> {
         let Question { place, weights, target_per_year } = *question;
         let measure = place.measure;
-        let analysis = DesignAnalysis::from_structure(structure, (source, measure), (records, options))?;
+        let analysis = DesignAnalysis::from_structure((structure, motion), (source, measure), (records, options))?;
         let work = analysis.work(source, &job_name("design", structure))?;
         let (analysed, checkpoint) = work.asked_of(&source.path, &options.shards, events)?;
         let set = &analysis.records.set;
@@ -116,7 +116,7 @@ pub(super) struct DesignAnalysis<'a> {
 
 impl<'a> DesignAnalysis<'a> {
     pub(super) fn from_structure(
-        structure: &'a Structure,
+        (structure, motion): (&'a Structure, Result<Option<OwnMotion>, String>),
         (source, measure): (&StudyOfResult, &'a SpectraOfResult),
         ((records, pairs), options): ((ShakenRecords, Option<Pairs>), &DesignOptions),
     ) -> Result<Self, DesignError> {
@@ -125,14 +125,7 @@ impl<'a> DesignAnalysis<'a> {
         let restitution = restitution(structure, &source.study);
         let uncertain =
             if is_asked { Uncertain::from_structure(structure, restitution, records.count())? } else { None };
-        let (itself, without_own) = match OwnMotion::from_structure(structure, options.proxy) {
-            Err(reason) => (None, Some(reason.to_owned())),
-            Ok(None) => (None, None),
-            Ok(Some(motion)) => match OwnStructure::from_structure(structure, (motion, pairs))? {
-                Ok(itself) => (Some(itself), None),
-                Err(reason) => (None, Some(reason)),
-            },
-        };
+        let (itself, without_own) = OwnStructure::or_reason(structure, (motion, pairs), None)?;
         let itself = itself.map(|itself| {
             let levels = itself.levels(&records.set, measure);
             (itself, levels)

@@ -34,12 +34,12 @@ impl DesignReport {
     /// `satisfied by PGV, NOT satisfied by PGA; safety factor 2.5 (Eq. 3.15)`.
     pub fn verdict(&self) -> String {
         let words = |im: &str| spectrum_words(im, self.repaired);
+        let own = checks_in_short(&self.rules, self.own_check).map(|verdict| qualified(verdict, self.own_check));
         let others = self.by_other_measures.iter().map(|of| (words(of.im), checks_in_short(&of.rules, None)));
-        let by_measure: Vec<(String, String)> =
-            std::iter::once((self.spectrum_words(), checks_in_short(&self.rules, self.own_check)))
-                .chain(others)
-                .filter_map(|(measure, verdict)| Some((measure, verdict?)))
-                .collect();
+        let by_measure: Vec<(String, String)> = std::iter::once((self.spectrum_words(), own))
+            .chain(others)
+            .filter_map(|(measure, verdict)| Some((measure, verdict?)))
+            .collect();
         let Some((_, first)) = by_measure.first() else { return "no rule applies".to_owned() };
         let verdict = if by_measure.iter().all(|(_, verdict)| verdict == first) {
             first.clone()
@@ -62,7 +62,7 @@ impl DesignReport {
 
     /// The verdict on the proxy: `satisfied`; none where no rule applies.
     pub fn verdict_on_proxy(&self) -> Option<String> {
-        verdict_of_rules(&self.rules, self.own_check)
+        Some(qualified(verdict_of_rules(&self.rules, self.own_check)?, self.own_check))
     }
 
     /// The verdicts by the spectrum's measure: `by PGV: satisfied by equal displacement (requires 0.48 m); NOT
@@ -74,14 +74,14 @@ impl DesignReport {
     }
 
     /// The same by other measures, and of a structure that is analysed itself, which may tell another story, the
-    /// verdict on its oscillator: `oscillator by PGA: NOT satisfied`. A measure by which every rule is satisfied is
+    /// verdict of the rules: `rules by PGA: NOT satisfied`. A measure by which every rule is satisfied is
     /// left out where every rule is satisfied here, too, and there is the oscillator alone.
     pub fn verdicts_by_other_measures(&self) -> Vec<(&'static str, String)> {
         let is_satisfied = |rules: &[RuleOutcome]| rules.iter().filter_map(RuleOutcome::check).all(|of| of.satisfied);
         let told = self.by_other_measures.iter().filter_map(|of| {
             let by = spectrum_words(of.im, self.repaired);
             if self.own.is_some() {
-                return Some((of.im, format!("{OSCILLATOR} by {by}: {}", verdict_of_rules(&of.rules, None)?)));
+                return Some((of.im, format!("rules by {by}: {}", verdict_of_rules(&of.rules, None)?)));
             }
             let verdicts = verdicts_in_words(&of.rules, None)?;
             let is_silent = is_satisfied(&of.rules) && is_satisfied(&self.rules);
@@ -103,14 +103,6 @@ impl DesignReport {
     /// By what the oscillator's demand goes in verdicts: its name beside the structure itself.
     pub fn of_oscillator(&self) -> &'static str {
         if self.own.is_some() { OSCILLATOR } else { "own demand" }
-    }
-
-    /// The verdict on the demand by a model, or [of the oscillator](Self::of_oscillator): `satisfied, not at the upper
-    /// limit`.
-    pub fn verdict_by(&self, model: &str, satisfied: bool) -> String {
-        let word = verdict_word(satisfied);
-        let is_unsafe = self.unsafe_upper_limits().iter().any(|(whose, _)| *whose == model);
-        if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
     }
 
     /// What of the verdict, on the structure itself where it is analysed, lies beyond the yield of the tendons: the
@@ -159,6 +151,11 @@ impl DesignReport {
     pub fn spectrum_words(&self) -> String {
         spectrum_words(self.im, self.repaired)
     }
+}
+
+/// A verdict that is satisfied, of which the check of the demand is not at its upper limit, with these words.
+fn qualified(verdict: String, own: Option<OwnCheck>) -> String {
+    own.filter(|_| verdict == verdict_word(true)).map_or(verdict, |own| own.verdict())
 }
 
 /// Whether the rules and the structure's own demand are satisfied, and where they differ how many are; none where none

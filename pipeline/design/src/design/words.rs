@@ -7,6 +7,7 @@ use uplift_study::Structure;
 use uplift_uniform_risk::StudyOfResult;
 
 use crate::error::DesignError;
+use crate::own_structure::OwnReport;
 use crate::spectrum::SpectrumDemand;
 
 /// The rules start from the ZSBE system: a spectrum of another says nothing to them.
@@ -60,12 +61,19 @@ pub(super) fn beyond_spectrum(structure: &Structure, source: &StudyOfResult) -> 
     format!("the spectrum has no value at strength {strength:.4}: {why}")
 }
 
-/// `restitution 0.95`, where the structure's file does not say so, and likewise.
-pub(super) fn assumed(structure: &Structure, restitution: f64) -> Vec<String> {
+/// `restitution 0.95`, where the structure's file does not say so, and likewise; where the structure itself moves in a
+/// plane, `restitution 0.907 of the planar frame, 0.95 of its oscillator`.
+pub(super) fn assumed(structure: &Structure, restitution: f64, itself: Option<&OwnReport>) -> Vec<String> {
     let description = &structure.description;
     let uplift_mm = rounded(1e3 * structure.system.conditions().uplift_displacement_m(), 4);
     let uplift = description.assumes_uplift_displacement().then(|| format!("uplift displacement {uplift_mm} mm"));
-    let restitution = description.restitution.is_none().then(|| format!("restitution {restitution}"));
+    let in_words = || match itself.filter(|own| !own.wobbles()).map(OwnReport::decisive) {
+        Some(own) => {
+            format!("restitution {} of the {}, {restitution} of its oscillator", rounded(own.restitution, 3), own.model)
+        }
+        None => format!("restitution {restitution}"),
+    };
+    let restitution = description.restitution.is_none().then(in_words);
     uplift.into_iter().chain(restitution).collect()
 }
 

@@ -11,7 +11,7 @@ use uplift_uniform_risk::{SpectraOfResult, StudyOfResult, plan_stripes};
 
 use super::options::OverturningOptions;
 use crate::error::DesignError;
-use crate::models::models;
+use crate::models::{block, kind, oscillator};
 use crate::opening::{ShakenRecords, choose_measure, records_and_pairs, required};
 use crate::own_structure::{OwnLevels, OwnMotion, OwnPeaks, OwnStructure, falls};
 use crate::uncertain::Uncertain;
@@ -28,22 +28,23 @@ pub(crate) fn peaks_m(analysed: &Analysed, levels: usize, factor: usize) -> Vec<
 
 /// The models of a structure, and the records that shake them.
 pub(crate) struct OverturningAnalysis<'a> {
+    structure: &'a Structure,
     /// The study of the result, with what happens after the end of a record.
     pub(super) study: UniformRiskStudy,
     pub(crate) records: ShakenRecords,
     pub(crate) measures: Vec<&'a SpectraOfResult>,
-    /// Each with the origin of its restitution.
+    /// The oscillator, then the block, each with the origin of its restitution.
     pub(crate) models: Vec<(System, &'static str)>,
     /// The frame itself, with its levels, `[measure]`; none of a structure without one.
     pub(super) frame: Option<(OwnStructure, Vec<OwnLevels>)>,
-    /// Why it is left out.
-    pub(super) without_frame: Option<String>,
+    /// Why the structure itself is left out.
+    pub(super) without_own: Option<String>,
     /// The structures that it may be; none where all of it is known.
     pub(crate) uncertain: Option<Uncertain<'a>>,
 }
 
 impl<'a> OverturningAnalysis<'a> {
-    /// Of `structure` under the records of a result; `notes` gets what is left out of its models.
+    /// Of `structure` under the records of a result; `notes` gets what its oscillator cannot tell.
     pub(crate) fn from_structure(
         structure: &'a Structure,
         source: &'a StudyOfResult,
@@ -54,41 +55,53 @@ impl<'a> OverturningAnalysis<'a> {
             Some(measure) => vec![choose_measure(source, Some(measure))?],
             None => source.measures.iter().collect(),
         };
-        let mut models = models(structure, &source.study, options.restitution, notes)?;
+        let mut models = vec![oscillator(structure, &source.study, options.restitution, notes)?];
         let motion = OwnMotion::from_structure(structure, options.proxy);
-        let mut without_frame = motion.err().map(str::to_owned);
-        let with_pairs = motion == Ok(Some(OwnMotion::InSpace));
-        let found = records_and_pairs(source, options.manifest.as_deref(), with_pairs)?;
+        let found = records_and_pairs(source, options.manifest.as_deref(), OwnMotion::takes_pairs(&motion))?;
         let (records, pairs) = required(found, "overturning")?;
-        // a block is among the other models
-        let motion = motion.ok().flatten().filter(|motion| *motion != OwnMotion::AsBlock);
-        let frame = motion.map(|motion| OwnStructure::from_structure(structure, (motion, pairs))).transpose()?;
-        let mut frame = frame.and_then(Result::ok).map(|frame| {
-            let levels = measures.iter().map(|of| frame.levels(&records.set, of)).collect::<Vec<_>>();
-            (frame, levels)
-        });
-        if let Some((of, levels)) = &frame {
-            for (measure, levels) in measures.iter().zip(levels) {
-                let falls = of.leaves_the_ground(&records.set, (measure.measure(), levels))?;
-                without_frame = without_frame.or(falls);
-            }
-        }
-        frame = frame.filter(|_| without_frame.is_none());
         let mut study = source.study.clone();
         // what is lost when a record ends has overturned, whoever looks
         study.oscillator.free_vibration = true;
-        if let Some(reason) = block_leaves_the_ground(&models, &study, &measures, &records.set)? {
-            models.truncate(OSCILLATOR + 1);
-            notes.push(format!("the block is not analysed: {reason}"));
+        let (mut frame, mut without_own) = (None, None);
+        if motion == Ok(Some(OwnMotion::AsBlock)) {
+            match block(structure, options.restitution)? {
+                Ok((block, origin)) => models.push((System::Block(block), origin)),
+                Err(reason) => without_own = Some(reason),
+            }
+            if let Some(reason) = block_leaves_the_ground(&models, &study, &measures, &records.set)? {
+                models.truncate(OSCILLATOR + 1);
+                without_own = Some(reason);
+            }
+        } else {
+            let (found, reason) = OwnStructure::or_reason(structure, (motion, pairs), options.restitution)?;
+            without_own = reason;
+            let with_levels = |frame: OwnStructure| {
+                let levels = measures.iter().map(|of| frame.levels(&records.set, of)).collect::<Vec<_>>();
+                (frame, levels)
+            };
+            frame = found.map(with_levels);
+            if let Some((of, levels)) = &frame {
+                for (measure, levels) in measures.iter().zip(levels) {
+                    let falls = of.leaves_the_ground(&records.set, (measure.measure(), levels))?;
+                    without_own = without_own.or(falls);
+                }
+            }
+            frame = frame.filter(|_| without_own.is_none());
         }
         let uncertain = uncertain_structures(structure, options.restitution, (&models[OSCILLATOR].0, records.count()))?;
-        Ok(Self { study, records, measures, models, frame, without_frame, uncertain })
+        Ok(Self { structure, study, records, measures, models, frame, without_own, uncertain })
     }
 
-    /// Oscillator and block, then the models of the frame, each with the origin of its restitution.
-    pub(crate) fn models(&self) -> impl Iterator<Item = (&System, &'static str)> {
-        let of_frame = self.frame.iter().flat_map(|(frame, _)| frame.models());
-        self.models.iter().map(|(model, origin)| (model, *origin)).chain(of_frame)
+    /// Oscillator and block, then the models of the frame, each with what it is and the origin of its restitution.
+    pub(crate) fn models(&self) -> impl Iterator<Item = (&System, &'static str, &'static str)> {
+        let of_frame = self.frame.iter().flat_map(|(frame, _)| frame.models().zip(frame.restitution_from()));
+        let of_frame = of_frame.map(|((model, kind), origin)| (model, kind, *origin));
+        self.models.iter().map(|(model, origin)| (model, self.kind(model), *origin)).chain(of_frame)
+    }
+
+    /// What a model is, a word for tables.
+    pub(crate) fn kind(&self, model: &System) -> &'static str {
+        kind(model, self.structure)
     }
 
     /// The peaks of the frame by each measure, with its levels; their stripes are the next of those
@@ -117,7 +130,7 @@ impl<'a> OverturningAnalysis<'a> {
             for (model, _) in &self.models {
                 let plan = plan_stripes(&self.study, &measure.plan, set, std::slice::from_ref(model))?;
                 let plan = plan.multiplied(factors)?;
-                let label = format!("{}, {}", measure.measure().label(), model.kind());
+                let label = format!("{}, {}", measure.measure().label(), self.kind(model));
                 plans.push(LabelledPlan { label, remark: None, plan, motions, known: None });
             }
         }

@@ -18,10 +18,10 @@ pub struct OverturningOptions {
     /// Intensity measure [default: all]
     #[arg(long)]
     pub measure: Option<IntensityMeasure>,
-    /// Coefficient of restitution of both models
+    /// Coefficient of restitution of oscillator, block and planar frame
     #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number)]
     pub restitution: Option<f64>,
-    /// Count the oscillator and the block alone, not the frame itself
+    /// Count the equivalent oscillator alone, not the frame or block itself
     #[arg(long)]
     pub proxy: bool,
     /// Say what rounding makes of the numbers, with nine times the analyses.

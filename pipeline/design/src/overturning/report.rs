@@ -36,9 +36,11 @@ pub struct OverturningReport {
     /// The oscillator where its quantities are not known exactly; none where the structure file says that they are.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<UncertaintyReport>,
-    /// Why a frame is left out although no `--proxy` asks for that.
+    /// Whether it is judged by its oscillator alone, though a frame or block models it itself.
+    pub by_proxy: bool,
+    /// Why the structure itself is left out although no `--proxy` asks for that.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub without_frame: Option<String>,
+    pub without_own: Option<String>,
     /// How the models differ, and what could not be done.
     pub notes: Vec<String>,
     /// What to know before using the numbers, the worst first.
@@ -78,7 +80,7 @@ impl OverturningReport {
 /// A model of a structure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModelReport {
-    /// `oscillator`, `block`, `wobbling frame` or `planar frame`.
+    /// `oscillator`, `block`, `equivalent block`, `wobbling frame` or `planar frame`.
     pub model: &'static str,
     /// Coefficient of restitution.
     pub restitution: f64,
@@ -97,7 +99,7 @@ pub struct CollapseReport {
     pub im: &'static str,
     /// Unit of the levels.
     pub unit: &'static str,
-    /// `oscillator`, `block`, `wobbling frame` or `planar frame`.
+    /// `oscillator`, `block`, `equivalent block`, `wobbling frame` or `planar frame`.
     pub model: &'static str,
     /// Levels of the stripes, ascending.
     pub levels: Vec<f64>,
@@ -177,12 +179,12 @@ pub(super) type FrameCollapses = Vec<(&'static str, Collapses)>;
 /// The rows of a report: by each measure the models, those of the frame last.
 pub(super) fn reports(
     (found, of_frame): (&[(&SpectraOfResult, Vec<Collapses>)], &[FrameCollapses]),
-    models: &[(System, &'static str)],
+    kinds: &[&'static str],
     records: u32,
     sites: &[&str],
 ) -> Vec<CollapseReport> {
     let of_measure = |(place, (measure, found)): (usize, &(&SpectraOfResult, Vec<Collapses>))| {
-        let own = found.iter().zip(models).map(|(found, (model, _))| (found, model.kind()));
+        let own = found.iter().zip(kinds.iter().copied());
         let of_frame = of_frame.get(place).into_iter().flatten().map(|(model, found)| (found, *model));
         let report = |(found, model)| CollapseReport::from_collapse(found, measure.measure(), model, records, sites);
         own.chain(of_frame).map(report).collect::<Vec<_>>()
@@ -191,13 +193,13 @@ pub(super) fn reports(
 }
 
 impl ModelReport {
-    pub(super) fn from_model(model: &System, restitution_from: &'static str) -> Self {
+    pub(super) fn from_model((model, kind, restitution_from): (&System, &'static str, &'static str)) -> Self {
         let block = match model {
             System::Oscillator(_) | System::Frame(_) => None,
             System::Block(block) => Some(block),
         };
         Self {
-            model: model.kind(),
+            model: kind,
             restitution: model.restitution(),
             restitution_from,
             size_m: block.map(uplift_block::RockingBlock::size_m),

@@ -124,6 +124,8 @@ impl OwnQuestion<'_> {
             let demand_m = weights.curve(&pool)?.exact_ordinate(self.target_per_year)?.displacement_m;
             let asked = (self.target_per_year, 1.0, self.capacity_m);
             let bands = demand_bands(&pool, (&hazard, repaired.as_ref()), self.scatter, asked)?;
+            let upper_m = bands.as_ref().map(|bands| bands.demand_m.quoted()[1]);
+            let check = |capacity_m: f64| OwnCheck::new(capacity_m, (demand_m, upper_m), self.safety_factor);
             let beyond_limit = |limit: FrameLimit| {
                 let asked = (limit.displacement_m, self.years);
                 LimitRisk::new(&pool, (&hazard, repaired.as_ref()), self.scatter, asked)
@@ -136,7 +138,7 @@ impl OwnQuestion<'_> {
                 beyond_capacity: self.capacity_m.map(risk).transpose()?,
                 beyond_limit: self.limit.map(beyond_limit).transpose()?,
                 overturning: risk(OVERTURNING_M)?,
-                check: self.capacity_m.map(|capacity_m| OwnCheck::new(capacity_m, demand_m, self.safety_factor)),
+                check: self.capacity_m.map(check),
             })
         };
         let models = peaks.models.iter().map(model).collect::<Result<_, DesignError>>()?;

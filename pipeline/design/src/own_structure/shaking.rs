@@ -1,9 +1,9 @@
 //! At which levels the structure itself is shaken, and what comes of it.
 //!
-//! `uplift risk` shakes a frame at every level of the study. Where it stands beside its oscillator it is shaken at
-//! [`LEVELS`] levels at most, evenly spaced in the logarithm of the intensity, from the highest at which the horizontal
-//! components of no record lift it: the same ones whatever is asked, so that a frame has one rate. A block takes a
-//! small part of the time, and is shaken at all of them.
+//! `uplift risk` shakes a frame at every level of the study. A frame in space that stands beside its oscillator is
+//! shaken at [`LEVELS`] levels at most, evenly spaced in the logarithm of the intensity, from the highest at which the
+//! horizontal components of no record lift it: the same ones whatever is asked, so that it has one rate. What moves in
+//! a plane alone takes a small part of the time, and is shaken at all of them.
 
 use uplift_engine::analysis::{Analysed, LabelledPlan};
 use uplift_ida::{Plan, StripeRecord, System};
@@ -17,7 +17,7 @@ use crate::error::DesignError;
 use crate::opening::ShakenRecords;
 use crate::pairs::verticals;
 
-/// Most levels at which a frame is shaken beside its oscillator.
+/// Most levels at which a frame in space is shaken beside its oscillator.
 const LEVELS: usize = 28;
 
 impl OwnStructure {
@@ -36,30 +36,20 @@ impl OwnStructure {
         Ok(gravity_m_s2.and_then(|gravity_m_s2| falls(&stripes.falling(&verticals, gravity_m_s2))))
     }
 
-    /// The levels at which it is shaken: a block at all, a frame from the last one on at which no record lifts it, nor
-    /// both components of a pair together.
+    /// The levels at which it is shaken: a frame in space from the last one on at which both components of no pair lift
+    /// it, thinned; what moves in a plane at all.
     pub(crate) fn levels(&self, set: &RecordSet, measure: &SpectraOfResult) -> OwnLevels {
         let levels = &measure.plan.levels;
-        let Some(System::Frame(shaken)) = self.models().next().map(|(system, _)| system) else {
+        let (Some(System::Frame(shaken)), Some(pairs)) = (self.in_space.first(), &self.pairs) else {
             return OwnLevels { places: (0..levels.len()).collect(), values: levels.to_vec() };
         };
         let (of, threshold_m_s2) = (measure.measure(), shaken.frame.uplift_acceleration_m_s2());
-        let largest = |samples: &mut dyn Iterator<Item = f64>| samples.fold(0.0, f64::max);
-        let of_pair = |pair: &RecordPair| {
+        let largest = |pair: &RecordPair| {
             let [one, other] = [&pair.h1, &pair.h2].map(Accelerogram::acceleration_m_s2);
-            largest(&mut one.iter().zip(other).map(|(x, y)| x.hypot(*y)))
+            one.iter().zip(other).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max)
         };
-        let of_record = |record: &Record| {
-            let amplitude = of.amplitude(record.intensity(of));
-            largest(&mut record.accelerogram.acceleration_m_s2().iter().map(|x| x.abs())) / amplitude
-        };
-        let most = match &self.pairs {
-            Some(pairs) => {
-                let of_pairs = pairs.all.iter().enumerate();
-                largest(&mut of_pairs.map(|(index, pair)| of_pair(pair) / pairs.amplitude(set, of, index)))
-            }
-            None => largest(&mut set.records.iter().map(of_record)),
-        };
+        let per_amplitude = |(index, pair): (usize, &RecordPair)| largest(pair) / pairs.amplitude(set, of, index);
+        let most = pairs.all.iter().enumerate().map(per_amplitude).fold(0.0, f64::max);
         let stands = |level: &f64| most * of.amplitude(*level) < threshold_m_s2;
         let places = sparse(levels, levels.iter().rposition(stands).unwrap_or(0));
         OwnLevels { values: places.iter().map(|&place| levels[place]).collect(), places }
@@ -72,20 +62,20 @@ impl OwnStructure {
         (measure, levels): (IntensityMeasure, &OwnLevels),
     ) -> Result<Vec<LabelledPlan<'a>>, DesignError> {
         let at = (measure, &levels.values[..]);
-        let of = |plan: Plan<'a>, what: &str, motions: &'a [String]| {
-            let system = plan.systems().first();
-            let label = format!("{}, {}", measure.label(), system.map_or("", |system| self.kind(system)));
+        let of = |plan: Plan<'a>, kind: &str, what: &str, motions: &'a [String]| {
+            let label = format!("{}, {kind}", measure.label());
             let axes = plan.axes();
             let factors = [counted(axes.motions, what), counted(axes.scales, "level")];
-            let is_costly = system.is_some_and(|system| matches!(system, System::Frame(_)));
+            let is_costly = matches!(plan.systems().first(), Some(System::Frame(_)));
             let remark = is_costly.then(|| (label.clone(), cost_in_words(&factors, plan.analyses())));
             LabelledPlan { remark, label, plan, motions, known: None }
         };
         let mut plans = Vec::new();
         if let Some(pairs) = &self.pairs {
-            plans.push(of(pairs.shaking(&records.set, at, &self.in_space)?, "pair", &pairs.keys));
+            plans.push(of(pairs.shaking(&records.set, at, &self.in_space)?, self.kinds[0], "pair", &pairs.keys));
         }
-        plans.push(of(in_the_plane_of_records(&records.set, at, &self.in_plane)?, "record", &records.motions));
+        let kind = self.kinds[self.in_space.len()];
+        plans.push(of(in_the_plane_of_records(&records.set, at, &self.in_plane)?, kind, "record", &records.motions));
         Ok(plans)
     }
 
@@ -93,14 +83,14 @@ impl OwnStructure {
     /// the peaks, m, `[record, level]`.
     pub(crate) fn peaks(&self, analysed: &[Analysed]) -> OwnPeaks {
         let per_pair = self.pairs.as_ref().map_or(1, |pairs| pairs.per_pair);
-        let of = |(place, (system, analysed)): (usize, (&System, &Analysed))| {
+        let of = |(place, ((system, kind), analysed)): (usize, ((&System, &'static str), &Analysed))| {
             // all records of a pair are one run in space
             let per_motion = if place < self.in_space.len() { per_pair } else { 1 };
             let records = 0..analysed.peaks.axes().motions * per_motion;
             let peaks_m = records.flat_map(|record| analysed.peaks.row_m(record / per_motion, 0));
-            (self.kind(system), system.restitution(), peaks_m.map(|peak_m| self.factor * peak_m).collect())
+            (kind, system.restitution(), peaks_m.map(|peak_m| self.factor * peak_m).collect())
         };
-        let models = self.models().map(|(system, _)| system).zip(analysed);
+        let models = self.models().zip(analysed);
         OwnPeaks { analyses: analysed.iter().map(|of| of.analyses).sum(), models: models.enumerate().map(of).collect() }
     }
 }
@@ -152,7 +142,7 @@ fn along_records<'a>(
     Ok(plan_motions((measure, levels), set.records.iter().map(record).collect(), planar, true)?)
 }
 
-/// Why a frame that can wobble is left out under records whose ground falls under it.
+/// Why a structure is left out under records whose ground falls under it.
 pub(crate) fn falls(falling: &[String]) -> Option<String> {
     let first = falling.first()?;
     Some(match falling.len() {

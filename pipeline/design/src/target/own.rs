@@ -174,7 +174,7 @@ impl TargetOwn {
 pub(super) struct Judge<'a> {
     pub(super) structure: &'a Structure,
     /// How it is shaken itself; none where that is not asked for, and why it cannot be.
-    pub(super) motion: Result<Option<OwnMotion>, &'static str>,
+    pub(super) motion: Result<Option<OwnMotion>, String>,
     pub(super) options: &'a TargetOptions,
     pub(super) place: Place<'a>,
     /// The hazard of the place, and how records scatter.
@@ -194,15 +194,15 @@ impl Judge<'_> {
         [least, most]: [f64; 2],
     ) -> Result<(Option<TargetOwn>, Option<String>), DesignError> {
         let value = if safe.is_finite() { safe } else { best };
-        let motion = match self.motion {
-            Ok(Some(motion)) => motion,
+        let motion = match &self.motion {
+            Ok(Some(motion)) => *motion,
             Ok(None) => return Ok((None, None)),
-            Err(reason) => return Ok((None, Some(reason.to_owned()))),
+            Err(reason) => return Ok((None, Some(reason.clone()))),
         };
         // that a frame in space needs less is not worth its many analyses
         let range = [if motion == OwnMotion::InSpace { value } else { least }, most];
         let Some(first) = self.structure_at(value)? else { return Ok((None, Some(OF_SIZE.to_owned()))) };
-        let mut itself = match OwnStructure::from_structure(&first, (motion, trials.components.take()))? {
+        let mut itself = match OwnStructure::from_structure(&first, (motion, trials.components.take()), None)? {
             Ok(itself) => itself,
             Err(reason) => return Ok((None, Some(reason))),
         };

@@ -147,8 +147,7 @@ pub(super) fn assumptions(file: &ResultFile, by_proxy: bool) -> Vec<String> {
     let mut notes = Vec::new();
     if file.stored_study().is_ok_and(|study| study.records.vertical) {
         notes.push(
-            "every value is found with the equivalent oscillator, which ignores the vertical components of the \
-             records: uplift risk and uplift overturning apply them to frames and blocks"
+            "the equivalent oscillator ignores the vertical components of the records, which shake frames and blocks"
                 .to_owned(),
         );
     }

@@ -68,7 +68,7 @@ pub struct RestrainerDesignOptions {
         allow_negative_numbers = true, value_parser = number
     )]
     pub safety_factor: f64,
-    /// Judge the proxy alone, without the wobbling frame
+    /// Judge the equivalent oscillator alone, not the frame itself
     #[arg(long, requires = "urs", help_heading = SPECTRUM)]
     pub proxy: bool,
     /// What limits the stack.

@@ -27,7 +27,7 @@ pub(super) fn print_verdicts(
     };
     let answer = match (own.check, report.capacity_words()) {
         (Some(check), Some(capacity)) if check.required_capacity_m.is_finite() => {
-            let (verdict, required_m) = (report.verdict_by(own.model, check.satisfied), check.required_capacity_m);
+            let (verdict, required_m) = (check.verdict(), check.required_capacity_m);
             format!("{verdict}: {} requires {required_m:.2} m{}; {capacity}", own.model, of_oscillator(""))
         }
         (Some(check), Some(capacity)) => {
@@ -80,7 +80,7 @@ pub(super) fn print_verdicts(
             model(of.model, Some(of.restitution)),
             demand(of.demand_m, bands),
             of.check.map_or_else(dash, |check| required(check.required_capacity_m)),
-            of.check.map_or_else(dash, |check| report.verdict_by(of.model, check.satisfied)),
+            of.check.map_or_else(dash, |check| check.verdict()),
             risk(of.beyond_limit, &of.overturning, bands),
         ]);
     }
@@ -90,7 +90,7 @@ pub(super) fn print_verdicts(
             model(OSCILLATOR, report.structure.restitution),
             demand(exact.demand_m, bands),
             report.own_check.map_or_else(dash, |check| required(check.required_capacity_m)),
-            report.own_check.map_or_else(dash, |check| report.verdict_by(OSCILLATOR, check.satisfied)),
+            report.own_check.map_or_else(dash, |check| check.verdict()),
             risk(itself.proxy_beyond_limit, &exact.overturning, bands),
         ]);
     }
