@@ -33,6 +33,7 @@ pub use trial::LevelShare;
 
 use super::certainty::Scatter;
 use super::hazard::Hazard;
+use super::limit::FrameLimit;
 use super::opening::{Place, Repair, check_tables};
 use super::own_structure::{OwnMotion, OwnStructure, what_frames_leave_out};
 use super::report::{ReportSource, StructureReport};
@@ -101,8 +102,7 @@ pub fn target(
     let scatter = Scatter::from_file(&file)?;
     let of_records = (&hazard, &scatter);
     let motion = own_motion(structure, options);
-    let wobbles = OwnMotion::takes_pairs(&motion);
-    let asked = (options, years, wobbles);
+    let asked = (options, years, OwnMotion::takes_pairs(&motion));
     let mut trials = Trials::from_structure(structure, &source, (place, weights), of_records, asked, events)?;
     trials.refuse_untellable(place.name, target_per_year)?;
 
@@ -127,7 +127,7 @@ pub fn target(
     let safe_value = safe_value.max(value);
     let judge = Judge { structure, motion, options, place, of_records, target_per_year, years };
     let (own, without_own) = judge.judge(&mut trials, [safe_value, value], range)?;
-    notes.extend(own.as_ref().filter(|_| wobbles).map(|_| what_frames_leave_out(structure)));
+    notes.extend(own.as_ref().filter(|own| own.wobbles()).map(|_| what_frames_leave_out(structure)));
     let by_proxy = OwnStructure::has_model(structure) && own.is_none();
     notes.extend(assumptions(&file, by_proxy));
     notes.extend(trials.without_uncertainty(&source));
@@ -151,6 +151,7 @@ pub fn target(
         own_value,
         event,
         by_proxy,
+        tendon_limit: tendon_limit(structure, options, own.as_ref().map_or(safe_value, |own| own.safe_value)),
         own,
         without_own,
         unrepaired: if options.repaired { None } else { place.unrepaired(&file)? },
@@ -248,6 +249,15 @@ fn own_motion(structure: &Structure, options: &TargetOptions) -> Result<Option<O
     let motion = OwnMotion::from_structure(structure, options.proxy)?;
     let has_size = !matches!(options.quantity, Quantity::Strength | Quantity::Capacity);
     if has_size || motion.is_none() { Ok(motion) } else { Err(OF_SIZE.to_owned()) }
+}
+
+/// The limit of its tendons below the capacity that a structure of this value is not to exceed; nothing beyond the
+/// range.
+fn tendon_limit(structure: &Structure, options: &TargetOptions, value: f64) -> Option<FrameLimit> {
+    let is_asked = value.is_finite() && matches!(options.event(), TargetEvent::BeyondCapacity(_));
+    let found = if is_asked { structure.varied(options.quantity, value).ok().flatten()? } else { return None };
+    let limit = FrameLimit::from_tendons(found.columns.as_ref()?)?;
+    (limit.displacement_m < found.system.capacity_m()?).then_some(limit)
 }
 
 /// What cannot be meant of the structure that was found, though that of the file is sound; nothing beyond the range.

@@ -79,6 +79,10 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     if let Some(own) = &report.own {
         print_limit(out, report, own)?;
     }
+    if let Some(limit) = &report.tendon_limit {
+        let limit = limit.in_words();
+        writeln!(out, "Limit     {limit}, before the capacity: --exceed limit takes what comes first")?;
+    }
     let years = rounded(1.0 / target_per_year, 3);
     writeln!(out, "Target    {event} at most {} per year (once in {years} years)", rate(*target_per_year))?;
     let risk = risk_line(report);
@@ -116,7 +120,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     }
     let own = own_value(report);
     let own_levels = report.own.iter().map(|own| (own.levels.len(), own.levels_of_study, report.im));
-    let wobbles = report.own.as_ref().is_some_and(|own| own.models.len() > 1);
+    let wobbles = report.own.as_ref().is_some_and(TargetOwn::wobbles);
     let records = record_set(&report.source.record_set, wobbles);
     writeln!(out, "At        {site} by {im}; {records}{}{own}", fewer_levels(own_levels))?;
     if let Some(hazard) = report.source.hazard_of_repair(report.repaired, site, report.im) {
@@ -161,7 +165,7 @@ fn how_often(report: &TargetReport, own: &TargetOwn) -> String {
 fn own_table(report: &TargetReport, own: &TargetOwn) -> String {
     let value = with_unit(own.value, report);
     // in a plane it loses energy as its oscillator does, and not as much
-    let in_plane = own.models.len() == 1;
+    let in_plane = !own.wobbles();
     let table = Table::from_rows(&own.models)
         .left("model", |own| {
             if in_plane { format!("{}, restitution {:.3}", own.model, own.restitution) } else { own.model.to_owned() }

@@ -1,8 +1,9 @@
-//! The structure itself, a frame or a block, at the value that its equivalent oscillator was found to
-//! need, and the value that it needs itself.
+//! The structure itself, a frame or a block, at the value that its equivalent oscillator was found to need, and the
+//! value that it needs itself.
 
 use serde::Serialize;
 use uplift_alarms::OwnRisk;
+use uplift_ida::WOBBLING_FRAME;
 use uplift_study::Structure;
 use uplift_uniform_risk::EventRisk;
 
@@ -125,6 +126,11 @@ impl TargetOwn {
     /// The model that decides: the wobbling frame, or the only one.
     pub fn decisive(&self) -> &TargetModel {
         &self.models[0]
+    }
+
+    /// Whether it is a frame under both components.
+    pub fn wobbles(&self) -> bool {
+        self.decisive().model == WOBBLING_FRAME
     }
 
     /// The upper limit of its rate at the least safe value, 1/yr; 0 where there is none.

@@ -14,6 +14,7 @@ use super::own::TargetOwn;
 use super::search::Crossing;
 use super::trial::LevelShare;
 use crate::certainty::Bands;
+use crate::limit::FrameLimit;
 use crate::report::{ReportSource, StructureReport};
 use crate::uncertain::Spread;
 
@@ -49,6 +50,10 @@ pub struct TargetReport {
     /// Why it is left out although no `--proxy` asks for that.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub without_own: Option<String>,
+    /// The yield or failure of its tendons at the value that it needs, where they come before the capacity that it is
+    /// not to exceed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tendon_limit: Option<FrameLimit>,
     /// How the records miss the site's hazard, which the repair of the result would mend; none with its weights, and
     /// where they do not miss it.
     #[serde(skip)]
