@@ -34,12 +34,6 @@ impl EventRisk {
         Ok(Self { per_year, probability, lower_tail_share, upper_tail_share, at_most_per_year: None })
     }
 
-    /// Whether it is a lower bound: more than [`TAIL_SHARE_LIMIT`] of it comes from above the last stripe, and no more
-    /// from below the first.
-    pub fn is_lower_bound(&self) -> bool {
-        self.upper_tail_share > TAIL_SHARE_LIMIT && self.upper_tail_share >= self.lower_tail_share
-    }
-
     /// The larger of both shares outside the levels, and what it does to the rate: `rate too low (3 % of the risk lies
     /// above the last level, 200 cm/s)`; none where the rate is off by at most a tenth, since bands of 105 records are
     /// wider, or the share is at most [`TAIL_SHARE_LIMIT`].

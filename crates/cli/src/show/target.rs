@@ -91,7 +91,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let [told, allowed] =
         [report.safe_bands.map_or(0.0, |bands| bands.fullest()[1]), *target_per_year].map(|of| rounded(of, 2));
     if told > allowed {
-        writeln!(out, "          one value's band; the safe value follows from all")?;
+        writeln!(out, "          this value's band; all trials set the safe value")?;
     }
     print_other_measures(out, report)?;
     if let Some(misses) = &report.unrepaired {

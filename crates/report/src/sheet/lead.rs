@@ -9,7 +9,7 @@ use uplift::text::{risk_in_words, two_digits};
 use uplift_spectra::Noisy;
 use uplift_structure::{NO_CAPACITY, NO_CAPACITY_REASON};
 
-use super::numbers::{chance, lower_bound, marked, power, rounding};
+use super::numbers::{chance, marked, power, rounding};
 
 /// A sentence at the head of the sheet; `yes` or `no` where it is a verdict.
 #[derive(Debug, Serialize)]
@@ -205,10 +205,9 @@ fn rate(what: &str, risk: &EventRisk, rounding: Option<&Noisy>, years: f64) -> S
     }
     let between = 1.0 / risk.per_year;
     format!(
-        "{what} once in {} years on average ({} a year{}): {} in {years} years.",
+        "{what} once in {} years on average ({} a year): {} in {years} years.",
         if between < 1e7 { two_digits(between) } else { power(between, 1) },
         marked(risk.per_year, rounding, |per_year| power(per_year, 1)),
-        lower_bound(risk),
         chance(risk.probability)
     )
 }

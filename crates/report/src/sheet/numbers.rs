@@ -23,11 +23,6 @@ pub(super) fn marked(value: f64, rounding: Option<&Noisy>, shown: impl Fn(f64) -
     rounding.map_or_else(|| shown(value), |rounding| rounding.marked(&shown))
 }
 
-/// That more than counted happens, beside a rate.
-pub(super) fn lower_bound(risk: &EventRisk) -> &'static str {
-    if risk.is_lower_bound() { ", a lower bound" } else { "" }
-}
-
 /// Which numbers hang on rounding, and from where to where; none where none does.
 pub(super) fn rounding_words(report: &DesignReport) -> Option<String> {
     let rounding = rounding(report)?;
@@ -215,7 +210,7 @@ fn risk(report: &DesignReport) -> Option<TitledTable> {
         }
         let probability = chance(risk.probability);
         let per_year = marked(risk.per_year, rounding, scientific);
-        vec![what, per_year + lower_bound(risk), probability, return_period(risk), outside]
+        vec![what, per_year, probability, return_period(risk), outside]
     };
     let capacity_m = report.structure.capacity_m.unwrap_or(f64::NAN);
     let rounding = rounding(report);
