@@ -822,6 +822,7 @@ fn a_required_capacity_beyond_the_yield_of_a_tendon_is_mentioned() {
         let words = format!("          the required {required:.2} m are beyond the tendon yield at 0.4");
         let said = study.uplift(&asked).ok().stdout;
         assert_eq!(said.contains(&words), is_told, "{yield_n}: {words}\n{said}");
+        assert_eq!(said.lines().next().unwrap().contains("satisfied, beyond tendon yield"), is_told, "{said}");
     }
 }
 

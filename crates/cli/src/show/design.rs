@@ -255,7 +255,7 @@ fn print_checks(out: &mut impl Write, report: &DesignReport) -> Result<(), Comma
         for (what, own, demand_m) in of_oscillator.into_iter().chain(of_models) {
             let margin_m = capacity_m - own.required_capacity_m;
             let held = [own.required_capacity_m, capacity_m, margin_m, own.safety_factor];
-            rows.push(check_row(what, (demand_m, held), own.verdict()));
+            rows.push(check_row(what, (demand_m, held), report.verdict_of(own)));
         }
     }
     let header = ["by", "demand, m", "required capacity, m", "capacity, m", "margin, m", "safety factor", "verdict"];

@@ -67,7 +67,7 @@ fn own_sentences(report: &DesignReport, itself: &OwnReport) -> Vec<Sentence> {
         None => Sentence::plain(format!("{at} the {model} has {NO_CAPACITY}: {NO_CAPACITY_REASON}.")),
         Some(check) if check.required_capacity_m.is_finite() => {
             let capacity = capacity(report).map_or_else(String::new, |capacity| format!("; it has {capacity}"));
-            let (required, verdict) = (two_digits(check.required_capacity_m), check.verdict());
+            let (required, verdict) = (two_digits(check.required_capacity_m), report.verdict_of(check));
             let safety = report.required_safety_factor;
             let text = format!(
                 "{at} the {model} requires a capacity of {required} m with a safety factor of \

@@ -149,7 +149,7 @@ fn itself(report: &DesignReport) -> Option<TitledTable> {
         .right("required capacity, m", |of| {
             of.check.map_or_else(dash, |check| metres_or_overturns(check.required_capacity_m))
         })
-        .left("verdict", |of| of.check.map_or_else(dash, |check| check.verdict()))
+        .left("verdict", |of| of.check.map_or_else(dash, |check| report.verdict_of(check)))
         .right("beyond its capacity a year", |of| of.beyond_capacity.as_ref().map_or_else(dash, per_year))
         .right("overturning a year", |of| per_year(&of.overturning));
     let OwnModel { model, restitution, .. } = *own.decisive();

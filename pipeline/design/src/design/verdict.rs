@@ -34,7 +34,7 @@ impl DesignReport {
     /// `satisfied by PGV, NOT satisfied by PGA; safety factor 2.5 (Eq. 3.15)`.
     pub fn verdict(&self) -> String {
         let words = |im: &str| spectrum_words(im, self.repaired);
-        let own = checks_in_short(&self.rules, self.own_check).map(|verdict| qualified(verdict, self.own_check));
+        let own = checks_in_short(&self.rules, self.own_check).map(|verdict| self.qualified(verdict));
         let others = self.by_other_measures.iter().map(|of| (words(of.im), checks_in_short(&of.rules, None)));
         let by_measure: Vec<(String, String)> = std::iter::once((self.spectrum_words(), own))
             .chain(others)
@@ -60,9 +60,22 @@ impl DesignReport {
         Some(format!("capacity {capacity_m:.2} m{yields}"))
     }
 
+    /// The verdict of a check of a demand: `satisfied, not at the upper limit, beyond tendon yield`.
+    pub fn verdict_of(&self, check: OwnCheck) -> String {
+        let limit = self.structure.tendon_limit.filter(|limit| check.required_capacity_m > limit.displacement_m);
+        let beyond = limit.filter(|_| check.satisfied).map(|limit| format!(", beyond {}", limit.event.noun()));
+        check.verdict() + &beyond.unwrap_or_default()
+    }
+
+    /// A verdict on the oscillator that is satisfied, in the words of the check of its demand.
+    fn qualified(&self, verdict: String) -> String {
+        let own = self.own_check.filter(|_| verdict == verdict_word(true));
+        own.map_or(verdict, |own| self.verdict_of(own))
+    }
+
     /// The verdict on the proxy: `satisfied`; none where no rule applies.
     pub fn verdict_on_proxy(&self) -> Option<String> {
-        Some(qualified(verdict_of_rules(&self.rules, self.own_check)?, self.own_check))
+        Some(self.qualified(verdict_of_rules(&self.rules, self.own_check)?))
     }
 
     /// The verdicts by the spectrum's measure: `by PGV: satisfied by equal displacement (requires 0.48 m); NOT
@@ -151,11 +164,6 @@ impl DesignReport {
     pub fn spectrum_words(&self) -> String {
         spectrum_words(self.im, self.repaired)
     }
-}
-
-/// A verdict that is satisfied, of which the check of the demand is not at its upper limit, with these words.
-fn qualified(verdict: String, own: Option<OwnCheck>) -> String {
-    own.filter(|_| verdict == verdict_word(true)).map_or(verdict, |own| own.verdict())
 }
 
 /// Whether the rules and the structure's own demand are satisfied, and where they differ how many are; none where none

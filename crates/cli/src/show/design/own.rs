@@ -27,7 +27,7 @@ pub(super) fn print_verdicts(
     };
     let answer = match (own.check, report.capacity_words()) {
         (Some(check), Some(capacity)) if check.required_capacity_m.is_finite() => {
-            let (verdict, required_m) = (check.verdict(), check.required_capacity_m);
+            let (verdict, required_m) = (report.verdict_of(check), check.required_capacity_m);
             format!("{verdict}: {} requires {required_m:.2} m{}; {capacity}", own.model, of_oscillator(""))
         }
         (Some(check), Some(capacity)) => {
