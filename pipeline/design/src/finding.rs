@@ -150,7 +150,7 @@ impl DesignReport {
         }
         if let Some(own) = &self.own {
             // the capacity has its row in any case
-            let limit = own.limit.filter(|limit| limit.event != LimitEvent::Capacity);
+            let limit = own.limit_of_tendons();
             rows.extend(own.models.iter().flat_map(|model| own_rows(model, limit, at)));
         }
         rows.extend(uncertain(self.uncertainty.as_ref()));

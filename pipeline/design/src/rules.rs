@@ -77,8 +77,12 @@ impl OwnCheck {
     /// `satisfied, not at the upper limit`.
     pub fn verdict(&self) -> String {
         let word = verdict_word(self.satisfied);
-        let is_unsafe = self.satisfied && self.satisfied_at_upper_limit == Some(false);
-        if is_unsafe { format!("{word}, not at the upper limit") } else { word.to_owned() }
+        if self.is_unsafe_at_upper_limit() { format!("{word}, not at the upper limit") } else { word.to_owned() }
+    }
+
+    /// Whether it is satisfied by the estimate of the demand, and not by its upper limit.
+    pub(super) fn is_unsafe_at_upper_limit(&self) -> bool {
+        self.satisfied && self.satisfied_at_upper_limit == Some(false)
     }
 
     /// `2.5 times its own demand (0.77 m)`: of the structure as it is, where a rule knows that another capacity would

@@ -5,8 +5,8 @@ mod own;
 use std::io::Write;
 
 use uplift::structure::{
-    Bands, DemandBands, DemandRounding, DesignReport, EventRisk, ExactDemand, LimitEvent, LimitRisk, OwnReport,
-    RuleCheck, RuleOutcome, Sensitivity, verdict_word,
+    Bands, DemandBands, DemandRounding, DesignReport, EventRisk, ExactDemand, LimitRisk, OwnReport, RuleCheck,
+    RuleOutcome, Sensitivity, verdict_word,
 };
 use uplift::text::{
     self, Table, metres_or_overturns, metres_with_band, relative_error_in_words, risk_in_words, short, two_digits,
@@ -320,7 +320,7 @@ fn print_risk(out: &mut impl Write, report: &DesignReport, exact: &ExactDemand) 
     }
     row("oscillator, overturning".to_owned(), &exact.overturning, rounding.map(|of| &of.overturning_per_year));
     // the capacity has its row in any case
-    let limit = report.own.as_ref().and_then(|own| own.limit).filter(|limit| limit.event != LimitEvent::Capacity);
+    let limit = report.own.as_ref().and_then(OwnReport::limit_of_tendons);
     let beyond_limit = |whose: &str, of: Option<LimitRisk>| Some((format!("{whose}, {}", limit?.in_words()), of?.risk));
     if let Some((what, risk)) = report.own.as_ref().and_then(|own| beyond_limit("oscillator", own.proxy_beyond_limit)) {
         row(what, &risk, None);

@@ -5,6 +5,7 @@ use uplift_job::text::{spectrum_words, to_the_centimetre, two_digits};
 
 use super::DesignReport;
 use crate::certainty::DemandBands;
+use crate::limit::FrameLimit;
 use crate::own_structure::OwnModel;
 use crate::rules::{OwnCheck, RuleOutcome, verdict_word, verdicts_in_words};
 
@@ -62,9 +63,13 @@ impl DesignReport {
 
     /// The verdict of a check of a demand: `satisfied, not at the upper limit, beyond tendon yield`.
     pub fn verdict_of(&self, check: OwnCheck) -> String {
-        let limit = self.structure.tendon_limit.filter(|limit| check.required_capacity_m > limit.displacement_m);
-        let beyond = limit.filter(|_| check.satisfied).map(|limit| format!(", beyond {}", limit.event.noun()));
-        check.verdict() + &beyond.unwrap_or_default()
+        let limit = self.limit_before(check).filter(|_| check.satisfied);
+        check.verdict() + &limit.map_or_else(String::new, |limit| format!(", beyond {}", limit.event.noun()))
+    }
+
+    /// The limit of the tendons, where it comes before the capacity that a check requires.
+    fn limit_before(&self, check: OwnCheck) -> Option<FrameLimit> {
+        self.structure.tendon_limit.filter(|limit| check.required_capacity_m > limit.displacement_m)
     }
 
     /// A verdict on the oscillator that is satisfied, in the words of the check of its demand.
@@ -114,7 +119,7 @@ impl DesignReport {
     }
 
     /// By what the oscillator's demand goes in verdicts: its name beside the structure itself.
-    pub fn of_oscillator(&self) -> &'static str {
+    fn of_oscillator(&self) -> &'static str {
         if self.own.is_some() { OSCILLATOR } else { "own demand" }
     }
 
@@ -137,11 +142,11 @@ impl DesignReport {
         if let Some(upper_m) = upper_m.filter(|&upper_m| upper_m > limit.displacement_m) {
             return Some(format!("the demand's band reaches {}, beyond the {}", metres(upper_m), limit.in_words()));
         }
-        let required_m = check?.required_capacity_m;
-        (required_m > limit.displacement_m).then(|| {
+        let check = check?;
+        self.limit_before(check).map(|limit| {
             format!(
                 "the required {} are beyond the {}: the capacity takes tendons as elastic",
-                metres(required_m),
+                metres(check.required_capacity_m),
                 limit.in_words()
             )
         })
@@ -150,7 +155,7 @@ impl DesignReport {
     fn unsafe_upper_limit(&self, check: OwnCheck, bands: &DemandBands) -> Option<String> {
         let [_, upper_m] = bands.demand_m.quoted();
         let required_m = self.required_safety_factor * upper_m;
-        (check.satisfied && required_m > self.structure.capacity_m?).then(|| {
+        check.is_unsafe_at_upper_limit().then(|| {
             if required_m.is_finite() {
                 let upper = two_digits(upper_m);
                 format!("not satisfied at the upper limit of the demand's band, {upper} m (requires {required_m:.2} m)")

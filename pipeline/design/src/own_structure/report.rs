@@ -11,7 +11,7 @@ use super::shaking::{OwnLevels, OwnPeaks};
 use crate::certainty::{DemandBands, Scatter, demand_bands};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
-use crate::limit::{FrameLimit, LimitRisk};
+use crate::limit::{FrameLimit, LimitEvent, LimitRisk};
 use crate::opening::Place;
 use crate::risk::{OVERTURNING_M, bounded, own_risk, risk_of_exceeding};
 use crate::rules::OwnCheck;
@@ -76,6 +76,11 @@ impl OwnReport {
     pub fn governing_limit(&self) -> Option<FrameLimit> {
         let own = self.decisive();
         self.limit.filter(|_| own.beyond_limit.is_some_and(|limit| limit.governs(&own.overturning)))
+    }
+
+    /// The limit of its tendons, where that comes before the capacity.
+    pub fn limit_of_tendons(&self) -> Option<FrameLimit> {
+        self.limit.filter(|limit| limit.event != LimitEvent::Capacity)
     }
 
     /// Risks of it that may come from outside the levels.

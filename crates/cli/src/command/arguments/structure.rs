@@ -40,6 +40,13 @@ impl StructureArguments {
         [&self.structure, &self.urs].into_iter().chain(&self.manifest).map(PathBuf::as_path).collect()
     }
 
+    /// Whether the answer says what small changes make of it: where it is `written`, told in detail, or made of shards,
+    /// which serve every later question.
+    pub(crate) fn asks_for_sensitivity(&self, is_written: bool, terminal: &Terminal) -> bool {
+        let is_shared = self.shard.is_some() || !self.shards.is_empty();
+        is_shared || is_written || terminal.shows_details()
+    }
+
     /// The structure.
     pub(crate) fn load(&self) -> Result<Structure, CommandError> {
         Ok(Structure::load(&self.structure)?)

@@ -33,9 +33,8 @@ pub(crate) fn design(arguments: &DesignArguments, terminal: &Terminal) -> Result
     if let Some(file) = &arguments.report {
         check_design_sheet(file, urs, &arguments.structure.inputs(), arguments.overwriting.force)?;
     }
-    // a shard serves every later question
-    let is_shared = shard.is_some() || !shards.is_empty();
-    let sensitivity = is_shared || arguments.json || arguments.report.is_some() || terminal.shows_details();
+    let is_written = arguments.json || arguments.report.is_some();
+    let sensitivity = arguments.structure.asks_for_sensitivity(is_written, terminal);
     let (manifest, shards) = (manifest.clone(), shards.clone());
     let options = DesignOptions { manifest, shards, sensitivity, ..arguments.options.clone() };
     let structure = arguments.structure.load()?;

@@ -37,10 +37,9 @@ pub(crate) fn overturning(arguments: &OverturningArguments, terminal: &Terminal)
         check_figure_file(figure, &arguments.structure.inputs(), arguments.overwriting.force)?;
     }
     let StructureArguments { urs, manifest, shard, shards, .. } = &arguments.structure;
-    // a shard serves every later question
-    let is_shared = shard.is_some() || !shards.is_empty();
+    let is_written = arguments.json || arguments.output.is_some();
     let options = OverturningOptions {
-        sensitivity: is_shared || arguments.json || arguments.output.is_some() || terminal.shows_details(),
+        sensitivity: arguments.structure.asks_for_sensitivity(is_written, terminal),
         manifest: manifest.clone(),
         shards: shards.clone(),
         table: arguments.output.clone(),
