@@ -211,10 +211,11 @@ fn a_design_has_the_block_beside_its_proxy() {
     let risk = here("risk", &[]);
     let (own, of_risk) = (number(&block["demand_m"]), &row(&risk, "planar frame")["demand_m"]);
     let limits = &block["bands"]["demand_m"]["by_record"];
-    for (of_design, key) in [(own, "value"), (number(&limits[0]), "lower"), (number(&limits[1]), "upper")] {
-        // by another solver
+    // by another solver: a chaotic run of it differs by 2 %, and the upper limit depends on the scatter of all runs
+    let close = [(own, "value", 1e-6), (number(&limits[0]), "lower", 1e-6), (number(&limits[1]), "upper", 2e-3)];
+    for (of_design, key, tolerance) in close {
         let of_risk = number(&of_risk[key]);
-        assert!((of_design - of_risk).abs() <= 1e-6 * of_risk, "{key}: {of_design} {of_risk}");
+        assert!((of_design - of_risk).abs() <= tolerance * of_risk, "{key}: {of_design} {of_risk}");
     }
     let oscillator = number(&design["exact"]["demand_m"]);
     assert!((own / oscillator - 1.0).abs() > 0.01, "the same as by its oscillator: {own} {oscillator}");

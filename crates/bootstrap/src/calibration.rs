@@ -12,10 +12,9 @@ const NOTHING: f64 = 1e-9;
 /// A rate by weights that are solved anew for every sample deviates less than its units do: what moves the known rates
 /// as well is taken back. What is left is the residual of the deviations after their regression on how the units move
 /// those (Deville and Särndal), over 1 − h with the leverage h of the unit: what the residual is without it (the
-/// jackknife). Where units do not count alike, G of them that did would tell as much, and a regression on k
-/// combinations leaves these G − 1 − k degrees of freedom: the variance of the residuals is multiplied by
-/// (G − 1)/(G − 1 − k). It is at most that of the deviations. Measured coverage asks for both corrections together
-/// (`make coverage`).
+/// jackknife). The variance of the residuals is at most that of the deviations. Where units do not count alike, G of
+/// them that did would tell as much: as many combinations as these, less one, fit any deviations, and nothing is taken
+/// back.
 ///
 /// # Source
 /// J.-C. Deville, C.-E. Särndal, J. Am. Stat. Assoc. 87 (1992), 376–382; J. G. `MacKinnon`, H. White, J. Econometrics
@@ -78,12 +77,11 @@ impl Calibration {
         (deviations, squares): (&[f64], f64),
         effective_units: f64,
     ) -> f64 {
-        let freedom = effective_units - 1.0 - self.directions.len() as f64;
         // so many combinations fit any deviations of so few units
-        if freedom <= 0.0 {
+        if effective_units - 1.0 <= self.directions.len() as f64 {
             return 1.0;
         }
-        let left = self.squares_left(instructions, deviations) / squares * (effective_units - 1.0) / freedom;
+        let left = self.squares_left(instructions, deviations) / squares;
         // of units that do not deviate all is left
         if left.is_nan() { 1.0 } else { left.min(1.0) }
     }
@@ -177,17 +175,15 @@ mod tests {
         assert!((one - two).abs() < 1e-9 * one, "{one} {two}");
     }
 
-    // one combination: by 6 units 5/4 of the residuals' share, by 3 twice that, by 2 all
+    // one combination: 3 units tell the residuals' share, 2 nothing of what is left
     #[test]
-    fn few_units_that_count_alike_tell_little_of_what_is_left() {
+    fn few_units_that_count_alike_tell_nothing_of_what_is_left() {
         let deviations: [f64; 6] = std::array::from_fn(|unit| 3.0 * CALIBRATION[0][unit] + 0.1 * DEVIATIONS[unit]);
         let found = Calibration::new(&alone(), &[CALIBRATION[0].to_vec()], 6).unwrap();
         let squares = dot(&deviations, &deviations);
         let of_residuals = found.squares_left(Instructions::chosen(), &deviations) / squares;
         let left = |units: f64| found.variance_left(Instructions::chosen(), (&deviations, squares), units);
-        for (units, times) in [(6.0, 1.25), (3.0, 2.0)] {
-            assert!((left(units) - times * of_residuals).abs() < 1e-15, "{units}: {of_residuals}");
-        }
+        assert!([6.0, 3.0].map(left) == [of_residuals; 2] && of_residuals < 0.1, "{of_residuals}");
         assert_eq!([left(2.0), left(1.2)], [1.0; 2]);
         assert_eq!(found.variance_left(Instructions::chosen(), (&[0.0; 6], 0.0), 6.0), 1.0);
     }

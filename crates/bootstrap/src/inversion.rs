@@ -1,10 +1,12 @@
 //! The band of an ordinate, by inverting the interval of the rate at which it is exceeded.
 
+use std::rc::Rc;
+
 use uplift_risk::PooledDemand;
 
 use crate::rates::Rates;
 use crate::skewed_mean::SkewedMean;
-use crate::spread::spread;
+use crate::spread::Spread;
 use crate::walk::{AS_THEY_ARE, Walk};
 
 /// The rate at which a displacement is exceeded, by one hazard curve or several of which one holds.
@@ -14,12 +16,14 @@ pub(crate) struct Inversion<'a> {
     rates: Vec<Rates>,
     /// Of the runs beyond the displacement that is looked at, by each curve.
     means: Vec<SkewedMean>,
+    /// The demands spread for so many units each.
+    spreads: Vec<(f64, Rc<Spread>)>,
 }
 
 impl<'a> Inversion<'a> {
     /// By at least one curve.
     pub(crate) fn new(demand: &'a PooledDemand, rates: Vec<Rates>) -> Self {
-        Self { demand, means: Vec::with_capacity(rates.len()), rates }
+        Self { demand, means: Vec::with_capacity(rates.len()), rates, spreads: Vec::new() }
     }
 
     /// Lower and upper limit, m, of bands about an ordinate: from it down to where the rate is first too large, and up
@@ -52,9 +56,8 @@ impl<'a> Inversion<'a> {
         let walk = self.start(Walk::new(self.demand, AS_THEY_ARE, ordinate_m));
         self.up(walk, ordinate_m, all(), &mut limits_m, &place);
         for (band, size) in sizes.iter().enumerate() {
-            let upper_m = limits_m[band][1];
-            let points = spread(self.demand, size * self.equivalent_units());
-            let walk = self.start(Walk::new(self.demand, points, upper_m));
+            let (upper_m, spread) = (limits_m[band][1], self.spread(size * self.equivalent_units()));
+            let walk = self.start(spread.walk(upper_m));
             self.up(walk, upper_m, vec![band], &mut limits_m, &place);
         }
         limits_m
@@ -91,7 +94,8 @@ impl<'a> Inversion<'a> {
         if upper == 0.0 {
             return [lower, upper];
         }
-        self.start(Walk::new(self.demand, spread(self.demand, self.equivalent_units()), threshold_m));
+        let spread = self.spread(self.equivalent_units());
+        self.start(spread.walk(threshold_m));
         [lower, upper.max(interval(self.means())[1])]
     }
 
@@ -106,6 +110,17 @@ impl<'a> Inversion<'a> {
             self.demand.falling_runs().find(exceeds).map_or(0.0, |(edp_m, ..)| edp_m)
         };
         self.rates.iter().map(of).collect()
+    }
+
+    /// The demands spread for so many units, which is worked out once.
+    fn spread(&mut self, units: f64) -> Rc<Spread> {
+        let known = self.spreads.iter().find(|(of, _)| of.total_cmp(&units).is_eq());
+        if let Some((_, spread)) = known {
+            return Rc::clone(spread);
+        }
+        let spread = Rc::new(Spread::new(self.demand, units));
+        self.spreads.push((units, Rc::clone(&spread)));
+        spread
     }
 
     /// The rates of the runs that lie above the displacement of the `walk`.

@@ -25,26 +25,43 @@ fn plain_limits(edp_m: &[f64], units: &[Vec<usize>], target: f64, asked: (usize,
     let count = edp_m.len() / LEVELS.len();
     let of_one = units.iter().map(|unit| (unit.len() as f64 / count as f64).powi(2)).sum::<f64>();
     let as_they_are = [(1.0, 1.0)];
-    let deviates = |points: &[(f64, f64)], c_m: f64| deviates((edp_m, points), c_m, units, target, asked);
-    let is_exceeded_more = |c_m: f64| deviates(&as_they_are, c_m)[0] > target;
+    let deviates =
+        |edp_m: &[f64], points: &[(f64, f64)], c_m: f64| deviates((edp_m, points), c_m, units, target, asked);
+    let is_exceeded_more = |c_m: f64| deviates(edp_m, &as_they_are, c_m)[0] > target;
     let all = places(edp_m, &as_they_are);
     let ordinate = (0..all.len()).find(|&at| !is_exceeded_more(all[at])).unwrap();
     // from the displacement `from_m` on, the first at which the rate is too small
-    let too_small = |points: &[(f64, f64)], from_m: f64, which: usize| {
+    let too_small = |edp_m: &[f64], points: &[(f64, f64)], from_m: f64, which: usize| {
         let above = places(edp_m, points).into_iter().filter(|&place_m| place_m > from_m && place_m.is_finite());
-        let found = std::iter::once(from_m).chain(above).find(|&c_m| deviates(points, c_m)[which] < -1.0);
+        let found = std::iter::once(from_m).chain(above).find(|&c_m| deviates(edp_m, points, c_m)[which] < -1.0);
         found.filter(|_| from_m.is_finite()).unwrap_or(f64::INFINITY)
     };
     let limits = |which: usize| {
-        let too_large = (0..ordinate).rev().find(|&at| deviates(&as_they_are, all[at])[which] > 1.0);
+        let too_large = (0..ordinate).rev().find(|&at| deviates(edp_m, &as_they_are, all[at])[which] > 1.0);
         let of_one = of_one * units.len() as f64 / asked.0 as f64;
-        let factor = (3.0_f64.sqrt() * pooled(edp_m).ln_deviation() * (of_one / 2.0).cbrt()).exp();
-        let factor = (factor * 2.0_f64.powi(30)).round() / 2.0_f64.powi(30);
+        let share = of_one.cbrt().min(1.0);
+        let factor = libm::exp(3.0_f64.sqrt() * share * pooled(edp_m).ln_deviation());
         let spread = [(factor, 1.0 / 6.0), (1.0, 2.0 / 3.0), (1.0 / factor, 1.0 / 6.0)];
-        let upper_m = too_small(&spread, too_small(&as_they_are, all[ordinate], which), which);
+        let medians = drawn_together(edp_m, (1.0 - share * share).sqrt());
+        let upper_m = too_small(&medians, &spread, too_small(edp_m, &as_they_are, all[ordinate], which), which);
         [all[too_large.map_or(0, |at| at + 1)], upper_m]
     };
     InferredLimits { truth_m: limits(1), prediction_m: limits(2) }
+}
+
+/// The demands with so much of the distance of their logarithms from the mean of the level.
+fn drawn_together(edp_m: &[f64], kept: f64) -> Vec<f64> {
+    // none of these demands is negligible
+    let scatters = |&edp_m: &f64| edp_m > 0.0 && edp_m.is_finite();
+    let mean = |level: usize| {
+        let of_level = edp_m.iter().skip(level).step_by(LEVELS.len()).filter(|edp_m| scatters(edp_m));
+        of_level.clone().map(|edp_m| edp_m.ln()).sum::<f64>() / of_level.count() as f64
+    };
+    let drawn = |(at, &edp_m): (usize, &f64)| {
+        let mean = mean(at % LEVELS.len());
+        if scatters(&edp_m) { (mean + kept * (edp_m.ln() - mean)).exp() } else { edp_m }
+    };
+    edp_m.iter().enumerate().map(drawn).collect()
 }
 
 /// 0 and the demands at all `points`, rising: each a factor and what it counts.

@@ -2,10 +2,16 @@
 
 use std::sync::OnceLock;
 
+// those of the standard library differ in the last bit from machine to machine
+use libm::{exp, log};
 use uplift_fragility::Stripes;
 
 use crate::RiskError;
 use crate::stretches::Stretches;
+
+/// A demand below this share of the largest finite one at its level is as good as none: what hardly lifts a frame lies
+/// orders of magnitude below all else.
+const NEGLIGIBLE: f64 = 1e-4;
 
 /// One run: which record at which level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,7 +38,18 @@ pub struct PooledDemand {
     /// `[level, record]`; none where all records count alike.
     shares: Option<Vec<f64>>,
     stretches: WhenAsked<Stretches>,
-    ln_deviation: WhenAsked<f64>,
+    scatter: WhenAsked<Scatter>,
+}
+
+/// How the logarithms of demands scatter that are finite and not [`NEGLIGIBLE`].
+#[derive(Debug, Clone)]
+struct Scatter {
+    /// The smallest demand at each level that is not, m.
+    least_m: Vec<f64>,
+    /// Their mean at each level; 0 where there are none.
+    means: Vec<f64>,
+    /// The root of the mean square about the means of the levels.
+    deviation: f64,
 }
 
 /// What follows from the runs, made where it is first asked for.
@@ -48,6 +65,12 @@ impl<T> Default for WhenAsked<T> {
 impl<T> PartialEq for WhenAsked<T> {
     fn eq(&self, _: &Self) -> bool {
         true
+    }
+}
+
+impl Scatter {
+    fn counts(&self, edp_m: f64, level: usize) -> bool {
+        edp_m.is_finite() && edp_m >= self.least_m[level]
     }
 }
 
@@ -69,24 +92,47 @@ impl PooledDemand {
                 (edp, run)
             }));
         }
+        let shares = stripes.shares().map(<[f64]>::to_vec);
+        Ok(Self::from_pool(pool, (record_count, level_count), shares))
+    }
+
+    /// Sorts the `pool`.
+    fn from_pool(mut pool: Vec<(f64, Run)>, (record_count, level_count): (u16, u16), shares: Option<Vec<f64>>) -> Self {
         // The order among ties does not matter: rates are added exactly.
         pool.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
-
         let at_level = |level: u16| {
             // At most 65 535² runs: a position fits u32.
             (0_u32..).zip(&pool).filter(|(_, (_, run))| run.level == level).map(|(position, _)| position).collect()
         };
-        Ok(Self {
+        Self {
             first_level: at_level(0),
             last_level: at_level(level_count - 1),
             edp_m: pool.iter().map(|&(edp, _)| edp).collect(),
             runs: pool.iter().map(|&(_, run)| run).collect(),
             record_count,
             level_count,
-            shares: stripes.shares().map(<[f64]>::to_vec),
+            shares,
             stretches: WhenAsked::default(),
-            ln_deviation: WhenAsked::default(),
-        })
+            scatter: WhenAsked::default(),
+        }
+    }
+
+    /// The same runs with demands that scatter less: of the distance of ln(demand) from its mean at the level the share
+    /// `kept` is left. Overturned and negligible runs stay as they are.
+    #[must_use]
+    pub fn drawn_together(&self, kept: f64) -> Self {
+        let scatter = self.scatter();
+        if scatter.deviation == 0.0 {
+            return self.clone();
+        }
+        let drawn = |(&edp_m, &run): (&f64, &Run)| {
+            let level = usize::from(run.level);
+            let mean = scatter.means[level];
+            let edp_m = if scatter.counts(edp_m, level) { exp(mean + kept * (log(edp_m) - mean)) } else { edp_m };
+            (edp_m, run)
+        };
+        let pool = self.edp_m.iter().zip(&self.runs).map(drawn).collect();
+        Self::from_pool(pool, (self.record_count, self.level_count), self.shares.clone())
     }
 
     /// How much each record counts at each level, `[level, record]`; none where all count alike.
@@ -136,23 +182,38 @@ impl PooledDemand {
         (usize::from(run.record), usize::from(run.level))
     }
 
-    /// How much ln(demand) deviates about its mean at a level, over all levels, of the demands that are finite; 0 where
-    /// there are none.
+    /// How much ln(demand) deviates about its mean at a level, over all levels, of the demands that are finite and not
+    /// negligible: no less than 1/10,000 of the largest finite one at their level. 0 where there are none.
     pub fn ln_deviation(&self) -> f64 {
-        let deviation = || {
+        self.scatter().deviation
+    }
+
+    fn scatter(&self) -> &Scatter {
+        let of_all = || {
+            let mut least_m = vec![f64::INFINITY; self.level_count()];
+            for (edp_m, _, level) in self.falling_runs().filter(|run| run.0.is_finite()) {
+                // the first is the largest
+                if least_m[level].is_infinite() {
+                    least_m[level] = NEGLIGIBLE * edp_m;
+                }
+            }
+            let mut scatter = Scatter { least_m, means: vec![0.0; self.level_count()], deviation: 0.0 };
             // number, mean and sum of squares about it, of each level (Welford)
             let mut levels = vec![(0.0, 0.0, 0.0); self.level_count()];
-            for (edp_m, _, level) in self.falling_runs().filter(|run| run.0.is_finite()) {
+            for (edp_m, _, level) in self.falling_runs().filter(|(edp_m, _, level)| scatter.counts(*edp_m, *level)) {
                 let (count, mean, squares) = &mut levels[level];
-                let deviation = edp_m.ln() - *mean;
+                let ln = log(edp_m);
+                let deviation = ln - *mean;
                 *count += 1.0;
                 *mean += deviation / *count;
-                *squares += deviation * (edp_m.ln() - *mean);
+                *squares += deviation * (ln - *mean);
             }
             let [count, squares] = levels.iter().fold([0.0_f64, 0.0], |sums, of| [sums[0] + of.0, sums[1] + of.2]);
-            (squares / count.max(1.0)).sqrt()
+            scatter.means = levels.iter().map(|(_, mean, _)| *mean).collect();
+            scatter.deviation = (squares / count.max(1.0)).sqrt();
+            scatter
         };
-        *self.ln_deviation.0.get_or_init(deviation)
+        self.scatter.0.get_or_init(of_all)
     }
 
     /// The runs in the order of [`PooledDemand::edp_m`].
@@ -224,6 +285,29 @@ mod tests {
         assert!((demand.ln_deviation() - expected).abs() < 1e-15, "{}", demand.ln_deviation());
         let alone = PooledDemand::new(&Stripes::new(&levels[..1], &[0.3]).unwrap()).unwrap();
         assert_eq!(alone.ln_deviation(), 0.0);
+    }
+
+    // The same with half of the distance kept: ln 2 and ln 8 lie about ln 4, as do 4 and 4.
+    #[test]
+    fn demands_are_drawn_together_at_their_level() {
+        let levels = [1.0, 2.0, 3.0];
+        let edp = [2.0, 4.0, 0.0, 8.0, 4.0, f64::INFINITY];
+        let demand = PooledDemand::new(&Stripes::new(&levels, &edp).unwrap()).unwrap();
+        let drawn = demand.drawn_together(0.5);
+        assert!((drawn.ln_deviation() - 0.5 * demand.ln_deviation()).abs() < 1e-15);
+        let root = std::f64::consts::SQRT_2;
+        for (found, expected) in drawn.falling_runs().zip([(f64::INFINITY, 1, 2), (4.0 * root, 1, 0), (4.0, 0, 1)]) {
+            assert!(found.0 == expected.0 || (found.0 - expected.0).abs() < 1e-14, "{found:?}");
+            assert!(expected.0 == 4.0 || (found.1, found.2) == (expected.1, expected.2), "{found:?}");
+        }
+        // 1e-5 beside 2 and 8 is negligible
+        let edp = [2.0, 8.0, 1e-5];
+        let demand = PooledDemand::new(&Stripes::new(&levels[..1], &edp).unwrap()).unwrap();
+        assert!((demand.ln_deviation() - std::f64::consts::LN_2).abs() < 1e-15);
+        assert_eq!(demand.drawn_together(0.5).edp_m()[2], 1e-5);
+        // what does not scatter stays to the bit
+        let alike = PooledDemand::new(&Stripes::new(&levels[..1], &[0.3; 3]).unwrap()).unwrap();
+        assert_eq!(alike.drawn_together(0.1).edp_m(), alike.edp_m());
     }
 
     #[test]

@@ -4,7 +4,7 @@
 //! stand for the world. Sets of 20, 40 and 105 are drawn from them with replacement, and each makes its bands as if it
 //! were all there is: of six sites, three probabilities, six strengths, by PGV and PGA; of the width by which a frame
 //! meets four targets; and of the rate at which it overturns by a lognormal fragility. docs/confidence-bands.md has the
-//! table. Arguments are the number of sets, and which of these parts: records, values, lognormal, earthquakes.
+//! table. Arguments: the number of sets, then parts (records, values, lognormal, earthquakes) and sizes of sets.
 #![allow(clippy::print_stdout, unreachable_pub)]
 
 mod lognormal;
@@ -27,36 +27,48 @@ const EARTHQUAKES: [u32; 6] = [3, 5, 10, 15, 27, 54];
 fn main() -> Result<(), Failed> {
     let mut given = std::env::args().skip(1);
     let sets = given.next().map_or(Ok(SETS), |given| given.parse())?;
-    let parts: Vec<String> = given.collect();
+    let (sizes, parts): (Vec<String>, Vec<String>) = given.partition(|given| given.parse::<u32>().is_ok());
+    let sizes = sizes.iter().map(|size| size.parse()).collect::<Result<Vec<u32>, _>>()?;
+    let asked = Asked { sets, parts, sizes: if sizes.is_empty() { SIZES.to_vec() } else { sizes } };
     let folder = std::env::var_os("UPLIFT_RECORDS").map_or_else(|| PathBuf::from("../shared/records"), PathBuf::from);
     let manifest = folder.join("manifest.csv");
     if manifest.is_file() {
         let manifest = manifest.canonicalize()?;
         let real = population(&[format!("records.manifest={}", manifest.display()), "records.component=both".into()])?;
         println!("{} real records", real.stored.records.len());
-        measure(&real, &parts, sets)?;
+        measure(&real, &asked)?;
     } else {
         println!("skipped: no real records (set UPLIFT_RECORDS to a folder with a manifest.csv)");
     }
     let synthetic = population(&["records.synthetic.pairs=400".into(), "records.synthetic.seed=7".into()])?;
     println!("\n{} synthetic records", synthetic.stored.records.len());
-    measure(&synthetic, &parts, sets)
+    measure(&synthetic, &asked)
 }
 
-/// Prints the `parts` asked for, all where none are; synthetic records are of no earthquake.
-fn measure(population: &Population, parts: &[String], sets: usize) -> Result<(), Failed> {
+/// What is to be measured.
+struct Asked {
+    /// Sets of each size.
+    sets: usize,
+    /// All where none are named.
+    parts: Vec<String>,
+    /// Records in a set.
+    sizes: Vec<u32>,
+}
+
+/// Prints the parts asked for; synthetic records are of no earthquake.
+fn measure(population: &Population, Asked { sets, parts, sizes }: &Asked) -> Result<(), Failed> {
     let is_asked = |part: &str| parts.is_empty() || parts.iter().any(|own| own == part);
     if is_asked("records") {
-        print(population, &population.records(&SIZES, sets)?, "records");
+        print(population, &population.records(sizes, *sets)?, "records");
     }
     if is_asked("values") {
-        print(population, &population.values(&SIZES, sets)?, "records");
+        print(population, &population.values(sizes, *sets)?, "records");
     }
     if is_asked("lognormal") {
-        print(population, &population.lognormal(&SIZES, sets)?, "records");
+        print(population, &population.lognormal(sizes, *sets)?, "records");
     }
     if is_asked("earthquakes") && population.shares_earthquakes() {
-        print(population, &population.earthquakes(&EARTHQUAKES, sets)?, "earthquakes");
+        print(population, &population.earthquakes(&EARTHQUAKES, *sets)?, "earthquakes");
     }
     Ok(())
 }
