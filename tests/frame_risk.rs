@@ -310,7 +310,7 @@ fn what_does_not_wobble_is_judged_itself() {
     }
     // a capacity beyond the yield of the tendons is none to size by
     study.write("own.toml", &square.replace("5e5", "1e5"));
-    let sized = ["target", "own.toml", "--urs", "r.h5", "--site", "Here", "--vary", "width", "--per-year", "1e-4"];
+    let sized = ["target", "own.toml", "--urs", "r.h5", "--site", "Here", "--vary", "width", "--per-year", "5e-5"];
     let sized = [&sized[..], &["--exceed", "capacity", "--tolerance", "0.05", "--no-keep"]].concat();
     let sized = study.uplift(&sized).ok().stdout;
     assert!(sized.contains("\nLimit     tendon yield at ") && sized.contains(", before the capacity: "), "{sized}");

@@ -6,6 +6,7 @@ use uplift_bootstrap::{
 };
 use uplift_result::ResultFile;
 use uplift_risk::{PooledDemand, RunWeights, SiteWeights};
+use uplift_uniform_risk::EventRisk;
 use uplift_uniform_risk::consistency::Question;
 
 use super::hazard::Hazard;
@@ -139,6 +140,12 @@ pub(super) fn rate_bands(
     let with_hazard = inferred_rate_over_curves(demand, branches, scatter.coarsest(), asked)?;
     let with_hazard = Some(with_hazard).filter(is_told);
     Ok((by_record[1] > 0.0).then_some(Bands { by_record, by_earthquake, with_hazard }))
+}
+
+/// The upper limit of a rate with such bands, 1/yr; of what no run shows its bound, and of a single record the rate.
+pub(super) fn upper_per_year(risk: &EventRisk, bands: Option<Bands>) -> f64 {
+    let limit = risk.at_most_per_year.or_else(|| Some(bands?.fullest()[1]));
+    limit.unwrap_or(risk.per_year)
 }
 
 /// The bands of the demand of `target_per_year` on an oscillator or a frame, m, by record and by earthquake; none of a

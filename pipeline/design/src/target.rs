@@ -3,14 +3,16 @@
 //!
 //! The risk of each value that is tried is that of the structure's own oscillator under the records and the hazard of a
 //! result, from exact stripes. Counts of records step, and a chaotic system may step back: the best estimate is the
-//! value from which on all that was tried meets the target. The safe value is the one at which the upper limit of the
-//! frequency's band meets it. Values have as many digits as are printed.
+//! value from which on all that was tried meets the target. The safe value is the one from which on the upper limit of
+//! the frequency's band does, by all that was tried together and by that value alone. Values have as many digits as are
+//! printed.
 
 mod band;
 mod candidate;
 mod own;
 mod report;
 mod request;
+mod safe;
 mod search;
 mod table;
 mod trial;
@@ -42,6 +44,7 @@ use crate::error::DesignError;
 use band::Frequencies;
 use candidate::Attempt;
 use own::{Judge, OF_SIZE};
+use safe::safe_alone;
 use search::{crossings, digits, extend, lattice, least, narrow, rounded_up, spread};
 use trial::Trials;
 use uplift_alarms::{Scope, alarms_of_inputs, own_risk_alarms, ranked, structure_alarms};
@@ -138,7 +141,7 @@ pub fn target(
     let of_own = own.iter().flat_map(|of| of.own_risks(&event, place, counts));
     alarms.extend(own_risk_alarms(&at_place([of_proxy].into_iter().chain(of_own), place)));
     alarms.extend(alarms_of_answer(structure, options.quantity, own.as_ref().map_or(safe_value, |own| own.safe_value)));
-    let by_other_measures = judged_by((&file, &others), &mut trials, (place, [safe_value, value], target_per_year))?;
+    let at_safe = tried.iter().find(|(own, _)| own.total_cmp(&safe_value).is_eq()).map(|(_, of)| of);
     let mut report = TargetReport {
         uncertainty: trials.around.as_ref().map(|of| TargetUncertainty::from_tried(of, &tried, target_per_year)),
         structure: StructureReport::from_structure(structure, Some(trials.restitution)),
@@ -158,18 +161,18 @@ pub fn target(
         target_per_year,
         years,
         safe_value,
-        safe_risk: tried.iter().find(|(own, _)| own.total_cmp(&safe_value).is_eq()).map(|(_, of)| of.risk),
-        safe_bands: trials.bands_at(safe_value)?,
+        safe_risk: at_safe.map(|of| of.risk),
+        safe_bands: at_safe.and_then(|of| of.bands),
         value,
         missed_at: tried[at - 1].0,
         least_met: tried.iter().find(|(_, attempt)| meets(attempt)).map_or(value, |(value, _)| *value),
         risk: found.risk,
         unchecked,
-        by_other_measures,
+        by_other_measures: judged_by((&file, &others), &mut trials, (place, [safe_value, value], target_per_year))?,
         kept: kept(structure, trials.restitution),
         found: FoundSystem::from_system(&found.candidate.system),
         per_year_within_one_percent: noise,
-        bands: frequencies.bands(value, target_per_year),
+        bands: frequencies.bands(value, (target_per_year, digits(options.tolerance))),
         crossings,
         at_return_periods,
         generic: curve.as_ref().map(|curve| generic_target(curve, target_per_year, options)).transpose()?.flatten(),
@@ -313,15 +316,13 @@ fn searched(
         }
     }
     narrow(&mut tried, (tolerance, digits), &mut *attempt, meets)?;
-    let frequencies = frequencies(&tried)?;
     // by these, whatever the safe value shows
-    let [_, _, upper] = frequencies.crossings(target_per_year);
+    let of_all = frequencies(&tried)?;
+    let [_, _, upper] = of_all.crossings(target_per_year);
     let best = least(&tried, meets).map_or(f64::INFINITY, |at| tried[at].0);
-    let safe_value = rounded_up(upper, digits).max(best);
-    if safe_value.is_finite() {
-        extend(&mut tried, vec![safe_value], attempt)?;
-    }
-    Ok(Searched { tried, frequencies, safe_value })
+    let from = rounded_up(upper, digits).max(best);
+    let safe_value = safe_alone(&mut tried, from, (target_per_year, tolerance), attempt, frequencies)?;
+    Ok(Searched { tried, frequencies: of_all, safe_value })
 }
 
 /// The frequencies of what was `tried` near the value at this position.

@@ -33,7 +33,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     let quantity = report.quantity.replace('-', " ");
     let safe = limit(report.safe_value, report);
     let band = report.bands.last().map_or_else(String::new, |band| {
-        let upper = if report.safe_value.is_finite() { whole(report.safe_value) } else { "beyond".to_owned() };
+        let upper = if band.value[1].is_finite() { whole(band.value[1]) } else { "beyond".to_owned() };
         // where the range begins it is no limit
         let is_open = report.tried.first().is_some_and(|least| band.value[0] <= least.value);
         let below = if is_open { "from below " } else { "" };
@@ -87,12 +87,6 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     writeln!(out, "Target    {event} at most {} per year (once in {years} years)", rate(*target_per_year))?;
     let risk = risk_line(report);
     writeln!(out, "{risk}")?;
-    // as printed
-    let [told, allowed] =
-        [report.safe_bands.map_or(0.0, |bands| bands.fullest()[1]), *target_per_year].map(|of| rounded(of, 2));
-    if told > allowed {
-        writeln!(out, "          this value's band; all trials set the safe value")?;
-    }
     print_other_measures(out, report)?;
     if let Some(misses) = &report.unrepaired {
         writeln!(out, "Weights   equal, and the records have {misses}: --repaired searches by the repair's weights")?;

@@ -8,6 +8,7 @@ use uplift_fragility::quantile;
 use uplift_risk::{RiskError, RunWeights};
 
 use super::candidate::{Attempt, StructureRisk};
+use super::search::rounded_up;
 use crate::certainty::{CONFIDENCE, Scatter};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
@@ -114,16 +115,23 @@ impl Frequencies {
         [best, lower.min(best), upper.max(best)]
     }
 
+    /// The upper limit of the fullest band of the first value, 1/yr; its frequency of a single record.
+    pub(super) fn first_upper_per_year(&self) -> f64 {
+        let upper = self.bands.last().and_then(|(_, limits)| limits.first()).map(|[_, upper]| *upper);
+        upper.or(self.means.first().copied()).unwrap_or(0.0)
+    }
+
     fn limits(&self, limits: &[[f64; 2]], target_per_year: f64) -> [f64; 2] {
         [0, 1].map(|end| crossing(&self.values, limits.iter().map(|of| of[end]), target_per_year))
     }
 
-    /// The bands of the value, about the `best` estimate, which is one of the values.
-    pub(super) fn bands(&self, best: f64, target_per_year: f64) -> Vec<TargetBand> {
+    /// The bands of the value, about the `best` estimate, which is one of the values. Upper limits have these `digits`.
+    pub(super) fn bands(&self, best: f64, (target_per_year, digits): (f64, usize)) -> Vec<TargetBand> {
         let place = self.values.partition_point(|value| *value < best).min(self.values.len().saturating_sub(1));
         let band = |(of, limits): &(String, Vec<[f64; 2]>)| {
             let [lower, upper] = self.limits(limits, target_per_year);
-            TargetBand { of: of.clone(), value: [lower.min(best), upper.max(best)], per_year: limits[place] }
+            let value = [lower.min(best), rounded_up(upper, digits).max(best)];
+            TargetBand { of: of.clone(), value, per_year: limits[place] }
         };
         self.bands.iter().map(band).collect()
     }

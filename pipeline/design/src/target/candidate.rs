@@ -5,6 +5,7 @@ use uplift_structure::EquivalentSystem;
 use uplift_uniform_risk::EventRisk;
 
 use super::TargetEvent;
+use crate::certainty::Bands;
 use crate::risk::{OVERTURNING_M, capacity_m};
 
 /// The structures that a value may be.
@@ -25,6 +26,9 @@ pub(super) struct Attempt {
     pub(super) candidate: Candidate,
     /// On average over the structures that it may be.
     pub(super) risk: EventRisk,
+    /// Its bands by the runs of this value alone; none of a structure that is not known exactly, of a single record,
+    /// and where no run shows it.
+    pub(super) bands: Option<Bands>,
     /// In which share of the structures that it may be it happens, `[record, level]`.
     pub(super) happens: Vec<f64>,
     /// What each record contributes on average by the mean hazard curve, 1/yr: their mean is the frequency, where

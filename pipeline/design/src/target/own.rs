@@ -7,23 +7,16 @@ use uplift_ida::WOBBLING_FRAME;
 use uplift_study::Structure;
 use uplift_uniform_risk::EventRisk;
 
-use super::search::{digits, least, rounded_up};
+use super::search::{MOST_VALUES, NEAR, digits, least, next_value, rounded_up};
 use super::trial::Trials;
 use super::{TargetEvent, TargetOptions};
-use crate::certainty::{Bands, Scatter};
+use crate::certainty::{Bands, Scatter, upper_per_year};
 use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::limit::{FrameLimit, LimitRisk};
 use crate::opening::Place;
 use crate::own_structure::{OwnLevels, OwnModel, OwnMotion, OwnQuestion, OwnReport, OwnStructure};
 use crate::risk::own_risk;
-
-/// Most values at which it is shaken.
-const MOST_VALUES: usize = 8;
-/// How near the last value that is not safe lies to the first that is, as a share of it.
-const NEAR: f64 = 0.02;
-/// Least and largest factor from one value to the next while none is safe.
-const STEPS: [f64; 2] = [1.05, 1.5];
 
 /// The structure itself: a frame or a block.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -164,8 +157,7 @@ impl TargetModel {
 
     /// The upper limit of the rate, 1/yr; the rate itself of a single record.
     pub fn upper_per_year(&self) -> f64 {
-        let limit = self.risk.at_most_per_year.or_else(|| Some(self.bands?.fullest()[1]));
-        limit.unwrap_or(self.risk.per_year)
+        upper_per_year(&self.risk, self.bands)
     }
 }
 
@@ -309,91 +301,3 @@ impl Judge<'_> {
 
 /// Why the structure itself is left out where strength or capacity vary.
 pub(super) const OF_SIZE: &str = "strength and capacity follow from its size: vary width or size";
-
-/// The value to try after those of these upper limits, `(value, 1/yr)`, ascending; none where enough are tried. Below
-/// the first where all are safe.
-fn next_value(rates: &[(f64, f64)], target_per_year: f64, near: f64) -> Option<f64> {
-    let line = |[(a, rate_a), (b, rate_b)]: [(f64, f64); 2]| {
-        let slope = (rate_b / rate_a).ln() / (b / a).ln();
-        let value = a * ((target_per_year / rate_a).ln() / slope).exp();
-        (slope < 0.0 && value.is_finite()).then_some(value)
-    };
-    match least(rates, |rate| *rate <= target_per_year) {
-        Some(0) => {
-            let first = *rates.first()?;
-            let guess = rates.get(1).and_then(|second| line([first, *second]));
-            // a little further than the line goes, so that the target lies between
-            let guess = guess.map_or(0.0, |value| value / (1.0 + 0.5 * near));
-            let [most, least] = STEPS.map(|step| first.0 / step);
-            Some(if rates.len() == 1 { (least * most).sqrt() } else { guess.clamp(least, most) })
-        }
-        Some(at) => {
-            let [missed, safe] = [rates[at - 1], rates[at]];
-            let [from, to] = [missed.0 * (1.0 + near), safe.0 / (1.0 + near)];
-            if from > to {
-                let is_near = safe.0 <= missed.0 * (1.0 + near);
-                return (!is_near).then(|| (missed.0 * safe.0).sqrt());
-            }
-            Some(line([missed, safe]).unwrap_or_else(|| (from * to).sqrt()).clamp(from, to))
-        }
-        None => {
-            let last = *rates.last()?;
-            let before = rates.len().checked_sub(2).map(|at| rates[at]);
-            let guess = before.and_then(|before| line([before, last]));
-            // a little further than the line goes, so that the target lies between
-            let guess = guess.map_or(f64::INFINITY, |value| value * (1.0 + 0.5 * near));
-            let [least, most] = STEPS.map(|step| step * last.0);
-            Some(if before.is_none() { (least * most).sqrt() } else { guess.clamp(least, most) })
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The smallest value.
-    const LEAST: f64 = 0.4;
-
-    /// The values of a search from 1 on, and how many there are.
-    fn searched(rate: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
-        let mut rates = vec![(1.0, rate(1.0))];
-        while let Some(next) = next_value(&rates, 1e-4, 0.02).filter(|_| rates.len() < MOST_VALUES) {
-            if rates.iter().any(|(value, _)| *value == next.max(LEAST)) {
-                break;
-            }
-            let next = next.max(LEAST);
-            rates.push((next, rate(next)));
-            rates.sort_by(|a, b| a.0.total_cmp(&b.0));
-        }
-        rates
-    }
-
-    #[test]
-    fn few_values_find_the_safe_one() {
-        // a power, one that bends, and steps
-        let power = |value: f64| 3e-4 * value.powi(-3);
-        let bends = |value: f64| 2e-3 * (-1.5 * value).exp();
-        let steps = |value: f64| (1e5 * power(value)).ceil() / 1e5;
-        // what is safe at first needs less
-        let less = |value: f64| 3e-5 * value.powi(-3);
-        for rate in [&power as &dyn Fn(f64) -> f64, &bends, &steps, &less] {
-            let rates = searched(rate);
-            let at = least(&rates, |rate| *rate <= 1e-4).unwrap();
-            let [missed, safe] = [rates[at - 1].0, rates[at].0];
-            assert!(safe <= 1.0201 * missed && rates.len() <= MOST_VALUES, "{rates:?}");
-        }
-        let all_safe = searched(|_| 9e-5);
-        assert!(all_safe[0].0 == LEAST && all_safe.len() < MOST_VALUES, "{all_safe:?}");
-    }
-
-    #[test]
-    fn a_rate_that_does_not_fall_is_followed_by_steps() {
-        let rates = searched(|_| 2e-4);
-        assert_eq!(rates.len(), MOST_VALUES);
-        assert!(rates.windows(2).all(|pair| pair[1].0 > pair[0].0));
-        // none seen is a rate, too
-        let rates = searched(|value| if value < 1.3 { 2e-4 } else { 0.0 });
-        assert!(least(&rates, |rate| *rate <= 1e-4).is_some_and(|at| rates[at].0 < 1.35), "{rates:?}");
-    }
-}

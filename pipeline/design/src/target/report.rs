@@ -62,14 +62,13 @@ pub struct TargetReport {
     pub target_per_year: f64,
     /// Years that probabilities refer to.
     pub years: f64,
-    /// The value at which the upper limit of the fullest band of the frequency meets the target; infinite beyond the
-    /// values searched.
+    /// The least value from which on the upper limit of the fullest band of the frequency meets the target, by all that
+    /// was tried together and by each value alone; infinite beyond the values searched.
     pub safe_value: f64,
     /// The risk at it; none beyond the values searched.
     pub safe_risk: Option<EventRisk>,
-    /// The bands of its frequency by the runs at it alone, as `overturning` has them, 1/yr: an upper limit may exceed
-    /// the target, since the safe value follows from all values tried. None beyond the values searched, of a structure
-    /// that is not known exactly, of a single record, and where no run shows it.
+    /// The bands of its frequency by the runs at it alone, as `overturning` has them, 1/yr; none beyond the values
+    /// searched, of a structure that is not known exactly, of a single record, and where no run shows it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub safe_bands: Option<Bands>,
     /// The best estimate: the least value from which on everything tried meets the target.

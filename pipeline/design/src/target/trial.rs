@@ -25,7 +25,6 @@ use crate::error::DesignError;
 use crate::hazard::Hazard;
 use crate::limit::FrameLimit;
 use crate::opening::{Place, ShakenRecords, job_name, records_and_pairs, required, restitution};
-use crate::overturning::peaks_m;
 use crate::own_structure::{OwnLevels, OwnPeaks, OwnStructure};
 use crate::pairs::Pairs;
 use crate::risk::{HAPPENS, OVERTURNING_M, bounded, happenings, risk_of_exceeding};
@@ -139,30 +138,6 @@ impl<'a> Trials<'a> {
         Ok(itself.peaks(&self.jobs.run(plans)?))
     }
 
-    /// The peaks of a `system` at all levels, m.
-    fn pooled_peaks(&mut self, system: &System) -> Result<PooledDemand, DesignError> {
-        let (measure, levels) = (self.measure.measure(), &self.measure.plan.levels);
-        let plan = plan_levels(&self.study, (measure, levels), &self.records.set, std::slice::from_ref(system))?;
-        let label = format!("{}, {}", measure.label(), system.kind());
-        let labelled = LabelledPlan { label, remark: None, plan, motions: &self.records.motions, known: None };
-        let analysed = self.jobs.run(vec![labelled])?;
-        let peaks_m = peaks_m(analysed.first().ok_or(JobError::Interrupted)?, levels.len(), 0);
-        Ok(PooledDemand::new(&Stripe::new(levels, &peaks_m)?)?)
-    }
-
-    /// The bands of the frequency at `value` by the runs at it alone, as `overturning` and `risk` have them; none
-    /// beyond the range, of a structure that is not known exactly, of a single record, and where no run shows it.
-    pub(super) fn bands_at(&mut self, value: f64) -> Result<Option<Bands>, DesignError> {
-        if !value.is_finite() || self.around.is_some() {
-            return Ok(None);
-        }
-        let candidate = self.candidate(value)?;
-        let [oscillator] = &candidate.systems[..] else { return Ok(None) };
-        let pool = self.pooled_peaks(oscillator)?;
-        let threshold_m = candidate.threshold_m(self.options.event(), oscillator);
-        rate_bands(&pool, (self.hazard, self.weights.repaired()), self.scatter, threshold_m)
-    }
-
     /// Refuses a target rarer than what a structure may do of which no run shows it: whatever is found, the stripes
     /// could not tell it from that.
     ///
@@ -266,6 +241,7 @@ impl<'a> Trials<'a> {
         if candidate.systems.iter().any(may_happen) {
             risk = bounded(risk, &self.weights, &self.scatter.pairs);
         }
+        let bands = self.bands(peaks, place, &candidate)?;
         let record_per_year: Vec<f64> =
             (0..self.records.count()).map(|record| of(&|one| one.record_per_year[record])).collect();
         let by_curve = |(_, stripes): &(f64, StripeWeights)| -> Vec<f64> {
@@ -274,7 +250,18 @@ impl<'a> Trials<'a> {
             happens.chunks_exact(per_year.len()).map(of_record).collect()
         };
         let by_branch = self.hazard.branches.iter().map(by_curve).collect();
-        Ok(Attempt { candidate, risk, happens, record_per_year, by_branch, structures })
+        Ok(Attempt { candidate, risk, bands, happens, record_per_year, by_branch, structures })
+    }
+
+    /// The bands of the frequency by the runs of the candidate at `place` alone, as `overturning` and `risk` have them;
+    /// none of a structure that is not known exactly, of a single record, and where no run shows it.
+    fn bands(&self, peaks: &Peaks, place: usize, candidate: &Candidate) -> Result<Option<Bands>, DesignError> {
+        let (None, [oscillator]) = (&self.around, &candidate.systems[..]) else { return Ok(None) };
+        let peaks_m: Vec<f64> =
+            (0..self.records.count()).flat_map(|record| peaks.row_m(record, place)).copied().collect();
+        let pool = PooledDemand::new(&Stripe::new(&self.measure.plan.levels, &peaks_m)?)?;
+        let threshold_m = candidate.threshold_m(self.options.event(), oscillator);
+        rate_bands(&pool, (self.hazard, self.weights.repaired()), self.scatter, threshold_m)
     }
 
     /// The risk of the structures at `places` of a `candidate`, each with its own threshold; counts in `counts` to how
