@@ -1,5 +1,7 @@
 //! Demands that spread about those at hand, for upper limits.
 
+use std::sync::Arc;
+
 // those of the standard library differ in the last bit from machine to machine
 use libm::{cbrt, exp};
 use uplift_risk::PooledDemand;
@@ -23,7 +25,7 @@ const OUTER: f64 = 1.732_050_807_568_877_2;
 #[derive(Debug)]
 pub(crate) struct Spread {
     /// The medians.
-    demand: PooledDemand,
+    demand: Arc<PooledDemand>,
     points: [Point; 3],
 }
 

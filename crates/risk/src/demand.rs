@@ -1,6 +1,6 @@
 //! All demands of one oscillator in one sorted pool.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 // those of the standard library differ in the last bit from machine to machine
 use libm::{exp, log};
@@ -39,6 +39,8 @@ pub struct PooledDemand {
     shares: Option<Vec<f64>>,
     stretches: WhenAsked<Stretches>,
     scatter: WhenAsked<Scatter>,
+    /// Those [drawn together](PooledDemand::drawn_together) first, with the share kept: the same for all sites.
+    drawn: WhenAsked<(f64, Arc<PooledDemand>)>,
 }
 
 /// How the logarithms of demands scatter that are finite and not [`NEGLIGIBLE`].
@@ -114,13 +116,19 @@ impl PooledDemand {
             shares,
             stretches: WhenAsked::default(),
             scatter: WhenAsked::default(),
+            drawn: WhenAsked::default(),
         }
     }
 
     /// The same runs with demands that scatter less: of the distance of ln(demand) from its mean at the level the share
     /// `kept` is left. Overturned and negligible runs stay as they are.
     #[must_use]
-    pub fn drawn_together(&self, kept: f64) -> Self {
+    pub fn drawn_together(&self, kept: f64) -> Arc<Self> {
+        let (of, drawn) = self.drawn.0.get_or_init(|| (kept, Arc::new(self.with_scatter(kept))));
+        if of.total_cmp(&kept).is_eq() { Arc::clone(drawn) } else { Arc::new(self.with_scatter(kept)) }
+    }
+
+    fn with_scatter(&self, kept: f64) -> Self {
         let scatter = self.scatter();
         if scatter.deviation == 0.0 {
             return self.clone();
@@ -308,6 +316,10 @@ mod tests {
         // what does not scatter stays to the bit
         let alike = PooledDemand::new(&Stripes::new(&levels[..1], &[0.3; 3]).unwrap()).unwrap();
         assert_eq!(alike.drawn_together(0.1).edp_m(), alike.edp_m());
+        // another share is worked out anew
+        let anew = PooledDemand::new(&Stripes::new(&levels[..1], &edp).unwrap()).unwrap();
+        assert_eq!(demand.drawn_together(0.25).edp_m(), anew.drawn_together(0.25).edp_m());
+        assert!(demand.drawn_together(0.25).edp_m()[0] < demand.drawn_together(0.5).edp_m()[0]);
     }
 
     #[test]
