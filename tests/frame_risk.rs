@@ -308,7 +308,7 @@ fn what_does_not_wobble_is_judged_itself() {
     for whose in ["oscillator, tendon yield at ", "planar frame itself, tendon yield at "] {
         assert!(details.contains(&format!("\n{whose}")), "{details}");
     }
-    // a capacity beyond the yield of the tendons is none to size by
+    // a capacity beyond the yield of the tendons is none to size by: so rare a target takes a width where it is
     study.write("own.toml", &square.replace("5e5", "1e5"));
     let sized = ["target", "own.toml", "--urs", "r.h5", "--site", "Here", "--vary", "width", "--per-year", "5e-5"];
     let sized = [&sized[..], &["--exceed", "capacity", "--tolerance", "0.05", "--no-keep"]].concat();

@@ -62,6 +62,9 @@ fn target_and_risk_are_inverses() {
     let safe = number(&found["safe_value"]);
     assert!(value <= safe && band[1] <= safe, "{band:?} {safe}");
     assert!(number(&found["safe_bands"]["by_record"][1]) <= 2e-3, "{found}");
+    let from_safe_on = tried.iter().filter(|tried| number(&tried["value"]) >= safe);
+    assert!(from_safe_on.clone().all(|tried| tried["upper_per_year"].as_f64().is_none_or(|upper| upper <= 2e-3)));
+    assert!(from_safe_on.count() > 1 && tried.iter().any(|tried| number(&tried["upper_per_year"]) > 2e-3), "{found}");
     assert_eq!(overturning_per_year(safe).to_bits(), number(&found["safe_risk"]["per_year"]).to_bits());
     assert!(overturning_per_year(safe) <= 2e-3);
     // with the bands that overturning has there

@@ -193,6 +193,9 @@ fn a_target_without_scatter_equals_that_of_a_certain_structure() {
     assert_eq!(kept(&mut known), "uplift displacement 0.5 mm, restitution 0.95");
     // nor has what may be several structures the band of one value
     assert!(known.as_object_mut().unwrap().remove("safe_bands").is_some());
+    for tried in known["tried"].as_array_mut().unwrap() {
+        tried.as_object_mut().unwrap().remove("upper_per_year");
+    }
     for kind in KINDS {
         let text = format!("{BLOCK}{}", scattering(kind, few(kind), 0.0));
         let mut found = least(&study, "block.toml", &text, &ask);

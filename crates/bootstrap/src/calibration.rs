@@ -13,8 +13,8 @@ const NOTHING: f64 = 1e-9;
 /// as well is taken back. What is left is the residual of the deviations after their regression on how the units move
 /// those (Deville and Särndal), over 1 − h with the leverage h of the unit: what the residual is without it (the
 /// jackknife). The variance of the residuals is at most that of the deviations. Where units do not count alike, G of
-/// them that did would tell as much: as many combinations as these, less one, fit any deviations, and nothing is taken
-/// back.
+/// them that did would tell as much. Where these are no more than the combinations and one, any deviations are fitted,
+/// and nothing is taken back.
 ///
 /// # Source
 /// J.-C. Deville, C.-E. Särndal, J. Am. Stat. Assoc. 87 (1992), 376–382; J. G. `MacKinnon`, H. White, J. Econometrics

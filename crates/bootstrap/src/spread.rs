@@ -15,10 +15,10 @@ const OUTER: f64 = 1.732_050_807_568_877_2;
 ///
 /// A set holds no demand between those of its records: where a few of all records carry a rate, a set without one of
 /// these shows nothing of it. So for an upper limit each demand is a lognormal distribution with the deviation
-/// h = s/∛n, of n units that count alike and demands whose logarithms deviate by s at a level (the smoothed bootstrap).
-/// For all of them to scatter no more than they do, its median lies nearer to the mean of its level: √(1 − h²/s²) of
-/// the distance is kept (the shrunk smoothed bootstrap). Three points stand for the distribution: 2/3 of a demand lies
-/// at the median, 1/6 is larger and 1/6 smaller by the factor exp(√3 h).
+/// h = s/∛n, of n units that count alike and demands whose logarithms deviate by s at their levels, over all levels and
+/// unweighted (the smoothed bootstrap). For all of them to scatter no more than they do, its median lies nearer to the
+/// mean of its level: √(1 − h²/s²) of the distance is kept (the shrunk smoothed bootstrap). Three points stand for the
+/// distribution: 2/3 of a demand lies at the median, 1/6 is larger and 1/6 smaller by the factor exp(√3 h).
 ///
 /// # Source
 /// B. Efron, Ann. Stat. 7 (1979), 1–26; B. W. Silverman, G. A. Young, Biometrika 74 (1987), 469–479.

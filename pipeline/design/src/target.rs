@@ -281,7 +281,7 @@ fn alarms_of_answer(structure: &Structure, quantity: Quantity, value: f64) -> Ve
 struct Searched {
     /// Everything, ascending.
     tried: Vec<(f64, Attempt)>,
-    /// Without the safe value, which follows from them.
+    /// Without what was tried for the safe value, unless the best estimate follows from that.
     frequencies: Frequencies,
     /// Infinite beyond the range.
     safe_value: f64,
@@ -316,13 +316,16 @@ fn searched(
         }
     }
     narrow(&mut tried, (tolerance, digits), &mut *attempt, meets)?;
-    // by these, whatever the safe value shows
     let of_all = frequencies(&tried)?;
     let [_, _, upper] = of_all.crossings(target_per_year);
-    let best = least(&tried, meets).map_or(f64::INFINITY, |at| tried[at].0);
-    let from = rounded_up(upper, digits).max(best);
+    let best = |tried: &[(f64, Attempt)]| least(tried, meets).map_or(f64::INFINITY, |at| tried[at].0);
+    let at_first = best(&tried);
+    // rounded it may lie beyond the range
+    let from = if upper.is_finite() { rounded_up(upper, digits).min(range[1]) } else { upper }.max(at_first);
     let safe_value = safe_alone(&mut tried, from, (target_per_year, tolerance), attempt, frequencies)?;
-    Ok(Searched { tried, frequencies: of_all, safe_value })
+    let is_moved = best(&tried).total_cmp(&at_first).is_ne();
+    let frequencies = if is_moved { frequencies(&tried)? } else { of_all };
+    Ok(Searched { tried, frequencies, safe_value })
 }
 
 /// The frequencies of what was `tried` near the value at this position.

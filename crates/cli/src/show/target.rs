@@ -87,6 +87,7 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     writeln!(out, "Target    {event} at most {} per year (once in {years} years)", rate(*target_per_year))?;
     let risk = risk_line(report);
     writeln!(out, "{risk}")?;
+    print_later_band(out, report)?;
     print_other_measures(out, report)?;
     if let Some(misses) = &report.unrepaired {
         writeln!(out, "Weights   equal, and the records have {misses}: --repaired searches by the repair's weights")?;
@@ -119,6 +120,14 @@ fn print_answer(out: &mut impl Write, report: &TargetReport) -> Result<(), Comma
     writeln!(out, "At        {site} by {im}; {records}{}{own}", fewer_levels(own_levels))?;
     if let Some(hazard) = report.source.hazard_of_repair(report.repaired, site, report.im) {
         writeln!(out, "Hazard    {hazard}")?;
+    }
+    Ok(())
+}
+
+/// From where on the band of all trials meets the target, where those of single values do so later.
+fn print_later_band(out: &mut impl Write, report: &TargetReport) -> Result<(), CommandError> {
+    if let Some(band) = report.bands.last().filter(|band| band.value[1] < report.safe_value) {
+        writeln!(out, "          all trials together: {}", with_unit(band.value[1], report))?;
     }
     Ok(())
 }

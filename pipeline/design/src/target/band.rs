@@ -130,7 +130,9 @@ impl Frequencies {
         let place = self.values.partition_point(|value| *value < best).min(self.values.len().saturating_sub(1));
         let band = |(of, limits): &(String, Vec<[f64; 2]>)| {
             let [lower, upper] = self.limits(limits, target_per_year);
-            let value = [lower.min(best), rounded_up(upper, digits).max(best)];
+            let largest = self.values.last().copied().filter(|_| upper.is_finite());
+            let upper = rounded_up(upper, digits).min(largest.unwrap_or(upper));
+            let value = [lower.min(best), upper.max(best)];
             TargetBand { of: of.clone(), value, per_year: limits[place] }
         };
         self.bands.iter().map(band).collect()

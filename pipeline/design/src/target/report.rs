@@ -196,6 +196,9 @@ pub struct TriedValue {
     /// 1/yr; none where there are no branches.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub structure_percentiles_per_year: Option<[f64; 5]>,
+    /// The upper limit of its band by the runs of this value alone, 1/yr; none where `safe_bands` would be none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub upper_per_year: Option<f64>,
     /// Whether it meets the target.
     pub is_met: bool,
 }
@@ -208,6 +211,7 @@ impl TriedValue {
             value: *value,
             risk: attempt.risk,
             structure_percentiles_per_year,
+            upper_per_year: attempt.bands.map(|bands| bands.fullest()[1]),
             is_met: attempt.meets(target_per_year),
         }
     }

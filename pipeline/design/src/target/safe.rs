@@ -8,8 +8,9 @@ use super::search::{MOST_VALUES, NEAR, digits, extend, least, next_value, rounde
 use crate::certainty::upper_per_year;
 use crate::error::DesignError;
 
-/// The least value `from` one on at which, and at all larger ones tried, the upper limit of the frequency by the runs of
-/// that value alone meets the target, as `overturning` shows it there; infinite beyond the range.
+/// The least value `from` one on at which, and at all larger ones tried, the upper limit of the frequency by runs of
+/// that value alone meets the target; infinite beyond the range. That limit is the one of `overturning` where the
+/// structure is known exactly. The value is the least to [`NEAR`], by few more values.
 ///
 /// # Errors
 /// What `attempt` and `frequencies` end with.
@@ -21,7 +22,7 @@ pub(super) fn safe_alone(
     frequencies: impl Fn(&[(f64, Attempt)]) -> Result<Frequencies, DesignError>,
 ) -> Result<f64, DesignError> {
     let meets = |upper: &f64| *upper <= target_per_year;
-    let Some(most) = tried.last().map(|(value, _)| *value).filter(|most| from <= *most) else { return Ok(from) };
+    let Some(most) = tried.last().map(|(value, _)| *value).filter(|_| from.is_finite()) else { return Ok(from) };
     extend(tried, vec![from], attempt)?;
     // those of a structure that is not known exactly as of all that was tried, but for this value
     let upper = |tried: &(f64, Attempt)| {

@@ -12,7 +12,7 @@ const ROUNDS: usize = 64;
 /// Most steps of a lattice.
 const MOST_STEPS: f64 = 20.0;
 
-/// Most values at which a structure is shaken itself, and that are tried for an upper limit.
+/// Most values at which a structure is shaken itself, and most that are tried more for an upper limit.
 pub(super) const MOST_VALUES: usize = 8;
 /// How near the last value that is not safe lies to the first that is, as a share of it.
 pub(super) const NEAR: f64 = 0.02;
