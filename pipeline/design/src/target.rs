@@ -320,8 +320,7 @@ fn searched(
     let [_, _, upper] = of_all.crossings(target_per_year);
     let best = |tried: &[(f64, Attempt)]| least(tried, meets).map_or(f64::INFINITY, |at| tried[at].0);
     let at_first = best(&tried);
-    // rounded it may lie beyond the range
-    let from = if upper.is_finite() { rounded_up(upper, digits).min(range[1]) } else { upper }.max(at_first);
+    let from = rounded_up(upper, digits, range[1]).max(at_first);
     let safe_value = safe_alone(&mut tried, from, (target_per_year, tolerance), attempt, frequencies)?;
     let is_moved = best(&tried).total_cmp(&at_first).is_ne();
     let frequencies = if is_moved { frequencies(&tried)? } else { of_all };

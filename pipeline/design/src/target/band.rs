@@ -128,11 +128,10 @@ impl Frequencies {
     /// The bands of the value, about the `best` estimate, which is one of the values. Upper limits have these `digits`.
     pub(super) fn bands(&self, best: f64, (target_per_year, digits): (f64, usize)) -> Vec<TargetBand> {
         let place = self.values.partition_point(|value| *value < best).min(self.values.len().saturating_sub(1));
+        let largest = self.values.last().copied().unwrap_or(f64::INFINITY);
         let band = |(of, limits): &(String, Vec<[f64; 2]>)| {
             let [lower, upper] = self.limits(limits, target_per_year);
-            let largest = self.values.last().copied().filter(|_| upper.is_finite());
-            let upper = rounded_up(upper, digits).min(largest.unwrap_or(upper));
-            let value = [lower.min(best), upper.max(best)];
+            let value = [lower.min(best), rounded_up(upper, digits, largest).max(best)];
             TargetBand { of: of.clone(), value, per_year: limits[place] }
         };
         self.bands.iter().map(band).collect()

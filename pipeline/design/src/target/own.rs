@@ -294,7 +294,7 @@ impl Judge<'_> {
     fn next(&self, tried: &[(f64, TargetModel)], [least, most]: [f64; 2]) -> Option<f64> {
         let rates: Vec<(f64, f64)> = tried.iter().map(|(value, of)| (*value, of.upper_per_year())).collect();
         let next = next_value(&rates, self.target_per_year, self.options.tolerance.max(NEAR))?.clamp(least, most);
-        let next = rounded_up(next, digits(self.options.tolerance)).min(most);
+        let next = rounded_up(next, digits(self.options.tolerance), most);
         tried.iter().all(|(value, _)| value.total_cmp(&next).is_ne()).then_some(next)
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn safe_alone(
         let uppers: Vec<(f64, f64)> = above.map(upper).collect::<Result<_, DesignError>>()?;
         let is_found = least(&uppers, meets) == Some(0) || rounds.next().is_none();
         let next = next_value(&uppers, target_per_year, tolerance.max(NEAR)).filter(|_| !is_found);
-        let next = next.map(|next| vec![rounded_up(next, digits(tolerance)).min(most)]);
+        let next = next.map(|next| vec![rounded_up(next, digits(tolerance), most)]);
         if !extend(tried, next.unwrap_or_default(), attempt)? {
             break uppers;
         }

@@ -48,11 +48,15 @@ pub(super) fn digits(tolerance: f64) -> usize {
     (4..17_usize).find(|digits| tolerance >= 10.0_f64.powf(1.0 - *digits as f64)).unwrap_or(17)
 }
 
-/// `value` with so many significant `digits`, and not below it.
-pub(super) fn rounded_up(value: f64, digits: usize) -> f64 {
+/// `value` with so many significant `digits`, and not below it, but `most` at the end of a range; infinite stays so.
+pub(super) fn rounded_up(value: f64, digits: usize, most: f64) -> f64 {
+    if !value.is_finite() {
+        return value;
+    }
     let near = rounded(value, digits);
     let last_digit = 10.0_f64.powf(value.log10().floor() + 1.0 - digits as f64);
-    if near >= value || !value.is_finite() { near } else { rounded(near + last_digit, digits) }
+    let up = if near >= value { near } else { rounded(near + last_digit, digits) };
+    up.min(most)
 }
 
 /// Values about `step` apart, as a share of the value, from `from` to `to` and one beyond either, within what was
@@ -226,10 +230,12 @@ mod tests {
         assert_eq!(spread([1.0, 1.0003], 5, 4), [1.0, 1.0003]);
         assert_eq!((rounded(0.634_249, 4), rounded(1_234_567.0, 4)), (0.6342, 1_235_000.0));
         assert_eq!(
-            [0.634_21, 0.6342, 9.999_9, 1_234_100.0].map(|of| rounded_up(of, 4)),
+            [0.634_21, 0.6342, 9.999_9, 1_234_100.0].map(|of| rounded_up(of, 4, f64::INFINITY)),
             [0.6343, 0.6342, 10.0, 1_235_000.0]
         );
-        assert_eq!(rounded_up(f64::INFINITY, 4), f64::INFINITY);
+        // up to the end of a range, and no further; beyond it there is no end
+        assert_eq!([1.3, 1.2347].map(|most| rounded_up(1.234_56, 4, most)), [1.235, 1.2347]);
+        assert_eq!([f64::INFINITY, 1.3].map(|most| rounded_up(f64::INFINITY, 4, most)), [f64::INFINITY; 2]);
     }
 
     #[test]
